@@ -15,7 +15,7 @@ from ..blender.write.findings import FILE_NOT_WRITTEN
 from ..core.files.whole_file import whole_file
 from ..core.measurement.plain_text import counted, print_message
 from ..core.robots.audit import Audit, Auditor
-from ..core.robots.findings import DESCRIPTION_UNKNOWN
+from ..core.robots.findings import DESCRIPTION_UNKNOWN, XML_ENTITIES
 from ..core.robots.formats import AUDITED_SUFFIXES
 from ..core.robots.read.descriptions import read_description
 from ..core.robots.read.paths import Roots
@@ -25,16 +25,18 @@ from ..core.streams.findings import FILE_WITHOUT_OBJECTS
 from ..core.verdict import internal_error
 from ..core.verdict.finding import FileError, MeasureError, system_reason
 from . import audit_gate
-from .options import option_types, targets
+from .files import output
+from .options import option_types
 from .parser import COMMANDS, Parser
 from .supervisor.progress import Progress
 
+OTHER_FILES = {DESCRIPTION_UNKNOWN, FILE_WITHOUT_OBJECTS, XML_ENTITIES}
 _EPILOG = """\
-FILE is URDF, SDF, MJCF, USD or xacro; of a folder, all such files are audited. USD that is not text needs the Python
-module usd-core, and xacro the module xacro. A link that is off is listed with the one change that makes it agree with
-its geometry. Meshes (.stl .obj .glb .dae) and included files are read from the nearest folder above FILE that holds a
-package.xml, else from the folder above that of FILE, and from each --package-path and ROS_PACKAGE_PATH; nothing is
-loaded from a network.
+FILE is URDF, SDF, MJCF, USD or xacro; of a folder, all such files but xacro and .usdc are audited. USD that is binary
+or refers to other files needs the Python module usd-core, and xacro the module xacro. A link that is off is listed with
+the one change that makes it agree with its geometry. Meshes (.stl .obj .glb .dae) and included files are read from the
+nearest folder above FILE that holds a package.xml, else from the folder above that of FILE, from a named folder, and
+from each --package-path and ROS_PACKAGE_PATH; nothing is loaded from a network.
 exit code: 0 nothing that --fail-on names, 1 findings, or a file that cannot be read, 2 wrong usage, 3 interrupted,
 70 a fault of the program"""
 
@@ -52,10 +54,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     add = parser.add_argument
     add("command", metavar="audit")
     add("files", nargs="+", type=Path, metavar="FILE")
-    for name, told in (
-        ("--package-path", "packages and meshes may be in it; repeatable"),
-        ("--root", argparse.SUPPRESS),
-    ):
+    where = "packages and meshes may be in it; repeatable"
+    for name, told in (("--package-path", where), ("--root", argparse.SUPPRESS)):
         add(name, dest="root", action="append", type=Path, default=[], metavar="FOLDER", help=told)
     add("--allow-outside", action="store_true", help="meshes may be anywhere (refused)")
     add("--repair", type=Path, metavar="FOLDER", help="write repaired copies there, of what has a repair")
@@ -79,6 +79,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     if unknown:
         parser.error("--ignore: no finding has the code {}".format(unknown[0]))
     options.names = dict(_find_files(options.files))
+    options.root = [*options.root, *(path for path in options.files if path.is_dir())]
     if not options.names:
         parser.error("there is no robot description in {}".format(", ".join(map(str, options.files))))
     options.known = None
@@ -89,7 +90,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
             parser.error("--baseline: {} cannot be read: {}".format(options.baseline, error))
     if options.repair is not None:
         _check_repair(options, parser)
-    targets.check_targets(options, [*options.names], parser.error)
+    output.check_targets(options, [*options.names], parser.error)
     return options
 
 
@@ -125,7 +126,7 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
     for path, document in zip(options.names, _documents(options)):
         codes = {reason["code"] for reason in document["errors"]}
         internal |= internal_error.CODE in codes
-        if path not in listed and codes & {DESCRIPTION_UNKNOWN, FILE_WITHOUT_OBJECTS}:
+        if path not in listed and codes & (OTHER_FILES if path.suffix == ".xml" else OTHER_FILES - {XML_ENTITIES}):
             continue  # A folder holds other files of these types, too.
         documents.append(document)
         for reason in document["errors"]:

@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blender.settings.limits import scan_limits
 from ..core.measurement.plain_text import print_message
 from ..core.measurement.record import described
 from ..core.polyhedron import enclosed_moments, facet_moments, facets_of
 from ..core.polyhedron.n_dimensions import SimplexMoments, multi_indices
 from ..core.polyhedron.simplices import closes, outer_facets
+from ..core.scans.limits import scan_limits
 from ..core.scans.numpy_files import read_arrays
 from ..core.verdict.finding import MeasureError, finding, system_reason
 from .findings import SIMPLEX_OPEN

@@ -11,7 +11,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy.types import Context, Event, Operator
 from mathutils import Matrix
 
-from ..blender import bodies, read, scene, session, write
+from ..blender import bodies, read, scene, session
 from ..blender.scene.changes import require_editable
 from ..blender.scene.findings import OPEN_OBJECT
 from ..blender.session import stored
@@ -233,10 +233,10 @@ class OBJECT_OT_body_moments_export_bill(Operator):
         if not self.filepath:
             return selection.refuse(self, selection.NO_FILE)
         path = Path(bpy.path.abspath(self.filepath))
-        rows = list(session.bill_rows(assembly.root, assembly.measurement.mass_properties.mass))
-        selection.write_file(path, [write.bill.bill_csv(rows)])
+        lines = session.bill_csv(assembly.root, assembly.measurement.mass_properties.mass)
+        selection.write_file(path, lines)
         texts = ("Wrote the masses of {count} member to “{file}”", "Wrote the masses of {count} members to “{file}”")
-        selection.report(self, reports.phrase(*texts, count=len(rows) - 1, file=path.name))
+        selection.report(self, reports.phrase(*texts, count=len(lines) - 2, file=path.name))
         return {"FINISHED"}
 
 

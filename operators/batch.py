@@ -92,10 +92,10 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
         return supervised.measure(options, channel, bpy.data.filepath if bpy else None)
     options.files = supervised.files_of(options)
 
-    from ..command.files import output, own_results
+    from ..command.files import output
     from ..command.measure.run import Run
     from ..command.options import checks, needs_blender
-    from ..command.options.formats import FORMATS
+    from ..command.options.option_types import FORMATS
     from ..command.supervisor import processes
 
     needs_blender.check(options, options.files)
@@ -105,7 +105,7 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     run = Run(options, memory=processes.memory_share())
     run.measure()
     text = FORMATS[options.format](run.documents)
-    is_written = output.write_result(text, options.output, channel, own_results.guard(options.force))
+    is_written = output.write_result(text, options.output, channel, output.guard(options.force))
     if run.internal_errors:
         return INTERNAL_ERROR
     failed = run.errors and not options.errors_exit_0
@@ -132,12 +132,12 @@ def _serve(channel: int) -> int:
 def _print(word: str, argv: list[str], channel: int) -> int:
     """Run a command that neither opens files in Blender nor starts processes; return the exit code."""
     from .. import command
-    from ..command.files import output, own_results
+    from ..command.files import output
 
     module = getattr(command, _PRINTING[word])
     options = module.parse(argv)
     text, code = module.answer(options)
-    check = own_results.guard(getattr(options, "force", False))
+    check = output.guard(getattr(options, "force", False))
     is_written = output.write_result(text, getattr(options, "output", None), channel, check)
     return code if is_written or code == INTERNAL_ERROR else SOME_FAILED
 

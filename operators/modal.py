@@ -9,6 +9,7 @@ from time import perf_counter
 
 from bpy.types import Context, Event
 
+from ..blender.settings.preferences import copy_defaults
 from ..blender.write import reports
 from ..core.verdict.finding import MeasureError
 from .selection import refuse
@@ -22,7 +23,8 @@ class ModalSteps:
     """Base of operators that work in steps.
 
     `_begin` chooses the work, sets the generator `_steps` and returns its last value; `_steps` does the work and yields
-    the completed amount; only `_finish` changes anything. Each may raise MeasureError, which is reported.
+    the completed amount; only `_finish` changes anything. Each may raise MeasureError or Refused, which are
+    reported.
 
     PROGRESS: text in the status bar, filled with `share`, the completed share. CANCELED: the report after Esc.
     MAX_AT_ONCE: largest count of steps that are run at once, without redrawing the window.
@@ -50,6 +52,8 @@ class ModalSteps:
             return run(*arguments)
         except MeasureError as error:
             return refuse(self, error)
+        except reports.Refused as error:
+            return refuse(self, error.text, **error.values)
 
     def _run(self, context: Context, in_window: bool) -> set[str]:
         """Run all steps in this call, or start a timer of the window that runs them."""
@@ -98,3 +102,21 @@ class ModalSteps:
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
         context.workspace.status_text_set(None)
+
+
+class ModalDialog(ModalSteps):
+    """Base of operators that work in steps after a dialog of their properties."""
+
+    _is_interactive = False  # its dialog has just been confirmed; False in a script, and from the redo panel
+
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        if context.window is None:
+            return self.execute(context)
+        self._is_interactive = True
+        return context.window_manager.invoke_props_dialog(self)
+
+    def execute(self, context: Context) -> set[str]:
+        copy_defaults(context.scene)
+        # The redo panel executes this instance again, which must not become modal.
+        in_window, self._is_interactive = self._is_interactive, False
+        return self._reporting(self._run, context, in_window)

@@ -1,18 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators on characters: the parts of their bones, rigid bodies for them, and their center of mass."""
+"""Operators on characters: the parts of their bones, rigid bodies for them, their center of mass and balance."""
 
+from bpy.props import EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Operator
 
-from ..blender import bodies, read, scene
+from ..blender import bodies, read, scene, session
 from ..blender.bodies.findings import BONE_PARTS_IMPOSSIBLE
 from ..blender.read.tracking import tracking_paused
-from ..blender.session import stored
+from ..blender.session import live, stored
+from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.write import reports
 from ..core.verdict.finding import Severity, finding
 from ..core.verdict.sentences import of_severity
 from . import selection
 from .assembly import report_cleared
+
+NOTABLE = Severity.WARNING, Severity.ERROR
+BALANCED = "Nothing to do: the center of mass is over its target"
 
 
 class OnArmature:
@@ -22,6 +27,15 @@ class OnArmature:
     def poll(cls, context: Context) -> bool:
         is_armature = context.object is not None and context.object.type == "ARMATURE"
         return is_armature or reports.unavailable(cls, "The active object is not an armature. Select one.")
+
+
+class InPoseMode:
+    """Base of operators that need an armature in Pose Mode."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        is_posed = context.object is not None and stands_for_meshes(context.object)
+        return is_posed or reports.unavailable(cls, "Select an armature, and switch to Pose Mode")
 
 
 class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
@@ -42,7 +56,7 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
             count=sum(part.measurement is not None for part in rig.parts),
             mass=rig.measurement.mass_properties.mass,
         )
-        findings = of_severity(rig.measurement.findings, Severity.WARNING, Severity.ERROR)
+        findings = of_severity(rig.measurement.findings, *NOTABLE)
         findings += [reports.failure(name, reason) for name, reason in failures]
         selection.report(self, done, *reports.first(findings))
         selection.redraw(context)
@@ -107,7 +121,66 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
         return {"FINISHED"}
 
 
+class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
+    """Show the center of mass and the support of the selected characters while they are posed, or hide them again"""
+
+    bl_idname = "pose.body_moments_show_weight"
+    bl_label = "Show Weight"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @selection.report_refusals
+    def execute(self, context: Context) -> set[str]:
+        armatures = [obj for obj in context.selected_objects if stands_for_meshes(obj)] or [context.object]
+        shown = not context.object.body_moments_weight.show
+        rigs = list(filter(None, [live.character.prepare(context, armature) for armature in armatures]))
+        shown = shown or bool(rigs)  # numbers that were out of date are shown anew
+        for armature in armatures:
+            armature.body_moments_weight.show = shown
+        findings = of_severity([found for rig in rigs for found in rig.measurement.findings], *NOTABLE)
+        names = ", ".join(armature.name for armature in armatures)
+        text = "Showing the weight of {names}" if shown else "Hid the weight of {names}"
+        selection.report(self, reports.phrase(text, names=names), *reports.first(findings))
+        selection.redraw(context)
+        return {"FINISHED"}
+
+
+class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
+    """Move a bone by the least length or angle that brings the center of mass over the support; held feet stay"""
+
+    bl_idname = "pose.body_moments_balance_pose"
+    bl_label = "Balance Pose"
+    bl_options = {"REGISTER", "UNDO"}
+
+    bone: StringProperty(
+        name="Bone",
+        description="Bone to move. If empty, the active one or the first one that leaves the contacts in place",
+    )
+    target: EnumProperty(
+        name="Target",
+        description="Where the center of mass shall be",
+        items=(
+            ("MIDDLE", "Middle", "Over the middle of the support polygon"),
+            ("INSIDE", "Inside", "Over the nearest point with the margin from the edge"),
+        ),
+        default="MIDDLE",
+    )
+    margin: FloatProperty(
+        name="Margin", description="Distance from the edge of the support polygon", default=0.05, min=0.0, unit="LENGTH"
+    )
+
+    @selection.report_refusals
+    def execute(self, context: Context) -> set[str]:
+        margin = self.margin if self.target == "INSIDE" else None
+        values = session.balance_pose(context, context.object, self.bone, margin)
+        text = "Moved “{bone}”: the center is {gap:length} from its target, {margin:length} inside the support"
+        selection.report(self, reports.phrase(text if values else BALANCED, **values))
+        selection.redraw(context)
+        return {"FINISHED" if values else "CANCELLED"}
+
+
 CLASSES = (
+    POSE_OT_body_moments_show_weight,
+    POSE_OT_body_moments_balance_pose,
     OBJECT_OT_body_moments_measure_bones,
     OBJECT_OT_body_moments_clear_bones,
     OBJECT_OT_body_moments_physics_rig,

@@ -101,6 +101,8 @@ def report_refusals(execute: Callable[[Operator, Context], set[str]]) -> Callabl
             return execute(self, context)
         except MeasureError as error:
             return refuse(self, error)
+        except reports.Refused as error:
+            return refuse(self, error.text, **error.values)
 
     return run
 

@@ -33,6 +33,7 @@ MEMBER_ICONS = {
     "POINT": "EMPTY_SINGLE_ARROW",
 }
 LINES = 8  # height of the tree, before it scrolls
+BAR_WIDTH = 2.2  # of a share: the mass beside it is complete at the sidebar's default width
 
 
 class BODY_MOMENTS_UL_assembly(UIList):
@@ -58,7 +59,9 @@ class BODY_MOMENTS_UL_assembly(UIList):
         if row.mass > 0.0:
             numbers.label(text=Units.from_settings(context.scene.unit_settings).text("mass", row.mass), translate=False)
             if row.is_counted and row.depth:
-                numbers.progress(text="{:.0f}%".format(100.0 * row.share), factor=row.share)
+                bar = numbers.row(align=True)
+                bar.ui_units_x = BAR_WIDTH
+                bar.progress(text="{:.0f}%".format(100.0 * row.share), factor=row.share)
         if findings:
             worst = max(findings, key=lambda found: tuple(rows.ICONS).index(severity(found)))
             numbers.label(text="", icon=rows.ICONS[severity(worst)])

@@ -99,7 +99,7 @@ def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
     _verdict(layout, text, "GROUP", shown.trust)
     posed = displayed(context.object, context.scene) if armatures.stands_for_meshes(context.object) else None
     numbers = shown.numbers if posed is None else posed.world
-    _answer(layout, context, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume)
+    _answer(layout, context, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume if shown.count else None)
     material_row(layout, context, context.object)
     _buttons(layout, context)
     if posed is not None and properties.optional(context.object, "body_mass") is not None:
@@ -216,7 +216,8 @@ class ApplyPanel:
         button = rows.button(column, context, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
         button.add = not obj.rigid_body
         rows.button(layout, context, "object.body_moments_add_nodes", "GEOMETRY_NODES")
-        rows.button(layout, context, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
+        if context.mode == "EDIT_MESH":
+            rows.button(layout, context, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 
 
 VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(BodyPanel)

@@ -67,6 +67,7 @@ def _density_source(column: UILayout, settings: PropertyGroup) -> None:
         rows.setting(column, settings, "density_from")
         return
     grid = column.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+    grid.use_property_split = False  # each choice has its name on it
     for source in ("VALUE", "MATERIALS", "ATTRIBUTE", "VOLUME"):
         grid.prop_enum(settings, "density_from", source)
 
@@ -127,11 +128,11 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
 
 def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
     """Draw the largest thickness of the wall, once it is known."""
-    walls = loaded_module(stored, "walls")
-    limit = None if walls is None else walls.max_thickness(obj)
+    sliders = loaded_module(stored, "sliders")
+    limit = None if sliders is None else sliders.max_thickness(obj)
     if limit is None:
         return
-    folds = walls.is_too_thick(obj)
+    folds = sliders.is_too_thick(obj)
     row = layout.row()
     row.alert = folds
     if folds:

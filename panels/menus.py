@@ -45,6 +45,7 @@ PAGES = (
     *((_OPERATOR + name + "*", "densities.html") for name in ("set_material", "preset")),
     ("bpy.ops.material.body_moments*", "densities.html"),
     (_OPERATOR + "fourier*", "fourier.html"),
+    *((_OPERATOR + name + "*", "colliders.html") for name in ("make_colliders", "remove_colliders", "equal_inertia")),
     (_OPERATOR + "import_scan*", "volumes-and-scans.html"),
     *((_OPERATOR + name + "*", "reading-the-numbers.html") for name in ("measure", "clear", "copy", "select_faults")),
     ("bpy.ops.*.body_moments_*", "actions.html"),
@@ -84,6 +85,7 @@ class VIEW3D_MT_body_moments_shape(_Groups, Menu):
             ("object.body_moments_find_symmetry", "MOD_MIRROR"),
             ("object.body_moments_find_similar", "VIEWZOOM"),
             ("object.body_moments_match_pose", "SNAP_ON"),
+            ("object.body_moments_link_copies", "LINKED"),
             ("object.body_moments_equal_inertia", "MESH_CUBE"),
         ),
     )
@@ -115,7 +117,8 @@ class VIEW3D_MT_body_moments(_Groups, Menu):
     bl_label = "Body Moments"
     GROUPS = (
         (MEASURE, ("object.body_moments_live", "REC")),
-        (ORIGIN, AXES, ("object.body_moments_rigid_bodies", "RIGID_BODY")),
+        (ORIGIN, AXES),
+        (("object.body_moments_rigid_bodies", "RIGID_BODY"), ("object.body_moments_make_colliders", "MESH_ICOSPHERE")),
     )
 
     def draw(self, context: Context) -> None:

@@ -15,10 +15,12 @@ from collections.abc import Set
 from bpy.types import Panel
 
 ORDER = (
+    "weight",
     "inertia",
     "density",
     "given",
     "apply",
+    "colliders",
     "stability",
     "selection",
     "assembly",
@@ -27,7 +29,7 @@ ORDER = (
     "shape",
     "advanced",
     "refused",
-)  # the order of CAD's mass property dialogs
+)  # what is posed, then the order of CAD's mass property dialogs
 ROOT = "body_moments"
 
 

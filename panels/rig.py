@@ -1,16 +1,26 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bones: the part of the active bone among the bone's properties, and the sub-panel of a whole character."""
+"""Bones: the part of the active bone among the bone's properties, and the sub-panels of a whole character."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from bpy.types import Context, Panel, PoseBone, UILayout
 
+from ..blender.session import live
+from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
+from ..blender.write.translations import localized
 from ..blender.write.units import Units
+from ..core.lazy import loaded_module
+from ..core.numerics.float32 import shortest_decimal
 from . import rows
 from .places import in_both_places
+
+if TYPE_CHECKING:
+    from ..blender.session.live.character import Weight
 
 LISTED = 60  # bones that the sub-panel lists
 
@@ -51,6 +61,100 @@ class BonesPanel:
         rows.button(column, context, "object.body_moments_physics_rig", "RIGID_BODY")
         rows.button(column, context, "object.body_moments_rig_center", "EMPTY_AXIS")
         rows.button(column, context, "object.body_moments_clear_bones", "TRASH")
+
+
+class WeightPanel:
+    """Center of mass, support and contacts of a character as it is posed"""
+
+    bl_label = "Weight"
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None and stands_for_meshes(context.object)
+
+    def draw(self, context: Context) -> None:
+        layout, armature = self.layout, context.object
+        layout.use_property_decorate = False
+        settings, unit = armature.body_moments_weight, shortest_decimal(context.scene.unit_settings.scale_length)
+        row = layout.row()
+        row.scale_y = 1.4
+        row.operator("pose.body_moments_show_weight", icon="CON_FLOOR", depress=settings.show)
+        if not settings.show:
+            return
+        character, depsgraph = loaded_module(live, "character"), context.view_layer.depsgraph
+        weight = None if character is None or depsgraph is None else character.weight(armature, depsgraph)
+        rows.stale_row(layout, context, stale_reason(armature, context.scene))
+        if weight is None:
+            rows.remark(layout, context, "The bones have not been measured. Show the weight again.")
+        else:
+            _standing(layout, context, weight, unit)
+        button = layout.row()
+        button.scale_y = 1.4
+        button.operator("pose.body_moments_balance_pose", icon="PIVOT_CURSOR")
+        column = layout.column()
+        rows.setting(column, settings, "mass", text="Total Mass (kg)")
+        rows.setting(column, settings, "ground")
+        if context.active_pose_bone is not None:
+            column.prop(context.active_pose_bone.body_moments, "is_contact")
+        _motion(layout, context)
+
+
+def standing(weight: Weight, unit: float) -> tuple[str, dict[str, float], str]:
+    """Return the English text on how a character stands, the lengths in it, m, and its icon."""
+    support, height = weight.support, weight.contacts.height
+    if height is None:
+        return "No mesh can touch the ground", {}, "INFO"
+    if support is None:
+        return "In the air: {height:length} above the ground", {"height": height * unit}, "INFO"
+    margin = {"margin": abs(support.margin) * unit}
+    if not support.stands:
+        return "Falls: {margin:length} outside the support", margin, "CANCEL"
+    if support.is_near_edge:
+        return "Near the edge: {margin:length} inside the support", margin, "ERROR"
+    return "Balanced: {margin:length} inside the support", margin, "CHECKMARK"
+
+
+def _standing(layout: UILayout, context: Context, weight: Weight, unit: float) -> None:
+    """Draw how a character stands, its mass, and the contacts that carry it."""
+    text, lengths, icon = standing(weight, unit)
+    box = layout.box()
+    box.alert = icon == "CANCEL"
+    rows.remark(box, context, text, icon=icon, boxed=True, **lengths)
+    shown, support, contacts = [("Mass", "mass", weight.parts.mass)], weight.support, weight.contacts
+    if support is not None:
+        shown += [("Margin", "length", support.margin * unit), ("Height", "length", support.height * unit)]
+    rows.quantities(layout.column(align=True), Units.from_settings(context.scene.unit_settings), shown)
+    missing = [name for name, mass in zip(weight.parts.names, weight.parts.masses) if not mass]
+    if missing:
+        rows.remark(layout, context, "Not measured: {objects}", icon="ERROR", objects=missing)
+    column = layout.column(align=True)
+    for names, icon, word in ((contacts.names, "CHECKMARK", "Carries"), (contacts.lifted, "X", "Lifted")):
+        for name in names[:LISTED]:
+            row = column.row(align=True)
+            row.label(text=name, icon=icon, translate=False)
+            rows.right(row, localized(word))
+
+
+def _motion(layout: UILayout, context: Context) -> None:
+    """Draw the buttons for motion over frames, and the spans of frames whose momentum comes from nothing."""
+    column = layout.column(align=True)
+    rows.button(column, context, "pose.body_moments_parabola", "FORCE_FORCE")
+    rows.button(column, context, "pose.body_moments_keep_spin", "FORCE_VORTEX")
+    rows.button(column, context, "pose.body_moments_bake_curves", "FCURVE")
+    rows.button(column, context, "pose.body_moments_trace", "CON_FOLLOWPATH")
+    name = context.object.name_full
+    empties = (
+        obj for obj in context.scene.objects if obj.type == "EMPTY" and obj.get(properties.BALANCE_GROUP) == name
+    )
+    spans = next((list(empty[properties.BALANCE_SPANS]) for empty in empties if properties.BALANCE_SPANS in empty), [])
+    column = layout.column(align=True)
+    if spans:
+        rows.remark(column, context, "Momentum from nothing:", icon="ERROR")
+    for start in range(0, min(len(spans), 4 * LISTED), 4):
+        first, last, impulse, twist = spans[start : start + 4]
+        text = localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(first, last, impulse, twist)
+        jump = column.operator("wm.context_set_int", text=text, translate=False)
+        jump.data_path, jump.value = "scene.frame_current", round(first)
 
 
 class BONE_PT_body_moments(Panel):
@@ -100,4 +204,8 @@ def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
     rows.group(layout, units, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", stored.inertia)
 
 
-CLASSES = (*in_both_places(BonesPanel, "bones"), BONE_PT_body_moments)
+CLASSES = (
+    *in_both_places(WeightPanel, "weight", options=frozenset()),
+    *in_both_places(BonesPanel, "bones"),
+    BONE_PT_body_moments,
+)

@@ -7,6 +7,7 @@ MAY_SKIP = {
     "needs Python 3.12": "Python 3.11 counts more calls than those that are limited",
     "needs Slurm: its controller": "its tasks are run as it would run them",
     "needs a real Blender": "the modules of Blender are tested all the same; hosted runners have no other",
+    "needs a simulator": "hosted runners have MuJoCo in the tests of robots; PyBullet and Newton compile for minutes",
     "needs a window": "the window tests see it there",
     "needs msgfmt": "gettext's own check of translations; forms, placeholders and texts are tested all the same",
     "needs libsdformat": "few systems have its release; SDF is held against a restated schema all the same",

@@ -122,8 +122,8 @@ SECTION_FILL_WRONG = warning(
 )
 RIG_WITHOUT_PARTS = error(
     "rig_without_parts",
-    "No deforming bone moves a mesh that can be measured, and nothing is parented to bones. Turn on Deform, or add an "
-    "Armature modifier to the mesh.",
+    "No deforming bone moves a mesh that can be measured, and nothing is parented to bones. Turn on Deform, add an "
+    "Armature modifier to the mesh, or assign weights with Object > Parent > With Automatic Weights.",
 )
 BONE_MISSING = warning(
     "bone_missing", "Its parent bone “{bone}” does not exist, so it is not in the total. Choose another one."

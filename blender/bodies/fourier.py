@@ -1,12 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Fourier transform of an object, which is read and repaired as for a measurement."""
+"""The Fourier transform of an object, which is read and repaired as for a measurement, or of a flat one."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
-from typing import ClassVar
 
 import bpy
 import numpy as np
@@ -14,10 +13,11 @@ from numpy.typing import NDArray
 
 from ...core.bodies.findings import WIRE_UNSUPPORTED
 from ...core.bodies.reading import Reading, to_si
+from ...core.flat.section import foot
 from ...core.fourier.findings import FOURIER_OF_OPEN_SURFACE
 from ...core.fourier.instances import FOURIER_RTOL, BodyTransform
-from ...core.fourier.spectrum import APPROXIMATE, Spectrum
-from ...core.fourier.wave_vectors import FrequencyGrid
+from ...core.fourier.polygon import RegionTransform
+from ...core.fourier.wave_vectors import APPROXIMATE, FrequencyGrid, Spectrum
 from ...core.measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
 from ...core.measurement.settings import Settings
 from ...core.mesh.surface import Surface
@@ -27,14 +27,9 @@ from ...core.verdict.method import Verdict
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
 from ..settings.density import density_field
-from ..settings.options import MeasureOptions
-from ..settings.resolve import object_settings
-from .findings import (
-    DISPLAY_MESH_NEEDED,
-    FOURIER_APPROXIMATE,
-    FOURIER_NO_EXTENT,
-    FOURIER_OF_UNIFORM_DENSITY,
-)
+from ..settings.options import MeasureOptions, object_settings
+from .findings import DISPLAY_MESH_NEEDED, FOURIER_APPROXIMATE, FOURIER_NO_EXTENT, FOURIER_OF_UNIFORM_DENSITY
+from .flat.flat import area_findings, flat_region
 from .mesh.mesh import mesh_body
 
 
@@ -42,14 +37,15 @@ from .mesh.mesh import mesh_body
 class ObjectTransform:
     """An object's transform, in SI units: `steps` does the work, `result` gives the outcome.
 
-    factor: the thickness of a shell, else 1. findings: as in `Measurement`.
+    findings: as in `Measurement`. factor: the thickness of a shell, else 1. arrays: of a flat object, stored beside the
+    spectrum: `axes` of its plane, x and y as rows, and the `origin` of x and y, in the world.
     """
 
     name: str
-    transform: BodyTransform
-    factor: float
+    transform: BodyTransform | RegionTransform
     findings: tuple[Finding, ...]
-    arrays: ClassVar[None] = None  # a `FlatTransform` has arrays of its plane
+    factor: float = 1.0
+    arrays: dict[str, NDArray[np.float64]] | None = None
 
     def steps(self) -> Generator[float, None, None]:
         """Do the work and yield the fraction done, or raise MeasureError."""
@@ -117,7 +113,32 @@ def object_transform(
         findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a Fourier transform"))
     if varies:
         findings.append(finding(FOURIER_OF_UNIFORM_DENSITY))
-    return ObjectTransform(obj.name, transform, factor, tuple(findings))
+    return ObjectTransform(obj.name, transform, tuple(findings), factor)
+
+
+def flat_transform(
+    obj: bpy.types.Object,
+    depsgraph: bpy.types.Depsgraph,
+    q: NDArray | FrequencyGrid | Callable[[float], FrequencyGrid],
+    *,
+    frame: str = "world",
+    unit: float | None = None,
+) -> ObjectTransform:
+    """Return the transform ∫ exp(-i q·x) dA, in m², of the polygons that Blender draws of a flat object.
+
+    `q` is (M, 2) or a grid, rad/m along the plane's x and y, or a function that makes a grid from the region's largest
+    extent, m. x and y are counted from the foot of the origin of `frame`, "world" or "object". `unit` is in meters per
+    Blender unit. Raise MeasureError if the object is not flat, has outlines that cross, or encloses nothing.
+    """
+    region = flat_region(obj, depsgraph, selected=False, exact=False, unit=unit)
+    findings = (*region.findings, *area_findings(region, region.moments(1).total))
+    plane = region.plane
+    at = foot(plane, np.zeros(3) if frame == "world" else region.location)
+    origin = plane.origin + plane.axes @ at
+    if callable(q):
+        q = q(float(np.ptp(region.used, axis=0).max()))
+    transform = RegionTransform(region.points - at[:2], region.edges, q, region.rounded, region.stored)
+    return ObjectTransform(obj.name, transform, findings, arrays={"axes": plane.axes[:, :2].T, "origin": origin})
 
 
 def _require_thin(settings: Settings) -> None:

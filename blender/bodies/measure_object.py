@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurements of single objects: the first kind that can read an object makes the body, which is measured.
+"""Measurements of single objects: the first kind of body that can read an object is measured.
 
-`stacks.many` measures many objects together, with the same numbers, and sends objects that cannot be stacked to
-`measure_body`.
+Each kind is a module with MEASURED_AS, the values of the setting Kind (solid, shell, wire) with which it is tried, and
+two functions: `read(request)` returns a reading, or None if the object is of another kind; `body(reading, request)`
+returns the body. Both raise MeasureError if nothing can be measured. `stacks.many` measures many objects together.
 """
 
 from __future__ import annotations
@@ -21,12 +22,15 @@ from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method
 from ..settings.options import AS_SET, MeasureOptions
+from . import nurbs, wire
 from .assembly.given import point_measurement, read_point, with_given
-from .kinds import KINDS
-from .measurement import measurement_of
-from .request import Request
+from .flat import region
+from .grids import grid
+from .mesh import mesh
+from .request import Request, measurement_of
 
 THREADS = os.cpu_count() or 1  # for long measurements
+KINDS = (grid, wire, region, mesh, nurbs)
 
 
 @dataclass(frozen=True, eq=False)

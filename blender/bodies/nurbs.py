@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The body that B-spline patches bound, measured from their control points instead of their display mesh.
 
-Volumes are measured once for each surface and mapped to its places. Areas, and sheets of real thickness, do not follow
-a map that stretches unevenly: for each different map of this kind, the control points are mapped.
+Volumes map to all places of a surface; areas and sheets of real thickness are found anew for each uneven map.
 """
 
 from __future__ import annotations
@@ -25,12 +24,7 @@ from ...core.bodies.instances import (
     singular_instances_message,
 )
 from ...core.bodies.mesh_body import MeshBody, extend_input_error
-from ...core.bodies.reading import (
-    Part,
-    Reading,
-    SplineReading,
-    to_si,
-)
+from ...core.bodies.reading import Part, Reading, SplineReading, to_si
 from ...core.measurement.body import Body
 from ...core.measurement.findings import WALL_UNSUPPORTED
 from ...core.mesh.surface import Surface
@@ -56,7 +50,7 @@ HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)
 
 @dataclass(frozen=True, eq=False)
 class PatchBody(Body):
-    """A body bounded by patches, and polygons beside them.
+    """A body bounded by patches, and by polygons if some parts have no patches.
 
     `reading`: the whole object; `surfaces` yields its display mesh.
     `pieces`: the parts that are patches, each with the (k, 4, 4) maps to its places. `polygons`: the other parts.
@@ -85,13 +79,13 @@ class PatchBody(Body):
         return sum_moments(volumes), sum_moments(areas) if area else None
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
-        """Yield the display mesh in its place: callers need polygons."""
+        """Yield the display mesh in its place, because callers need polygons."""
         return mesh_body(self.reading, self.unit, shell=sheets, union=False, threads=self.threads).surfaces(sheets)
 
 
 @dataclass(frozen=True, eq=False)
 class PatchSheetBody(Body):
-    """Thin sheets that are patches, and polygons beside them: `parts` and `polygons`, as in `PatchBody`."""
+    """Thin sheets of patches, and of polygons if some parts have no patches; fields as in `PatchBody`."""
 
     any_order: ClassVar[bool] = True
 
@@ -112,7 +106,7 @@ class PatchSheetBody(Body):
 
 
 def _patches(part: Part) -> tuple[Face, ...]:
-    """Return the patches of a part that has some."""
+    """Return the patches of a part, which must have some."""
     return cast(SplineReading, part.splines).patches
 
 
@@ -128,40 +122,14 @@ def read(request: Request) -> Reading:
 def body(reading: Reading, request: Request) -> Body:
     """Return the body that patches bound, or their sheets or walls, or raise MeasureError if there is none."""
     settings = request.settings
-    return nurbs_body(
-        reading,
-        settings.unit,
-        wall=settings.wall if settings.kind == "shell" else None,
-        thickness=settings.thickness,
-        union=settings.overlap == "union",
-        threads=settings.threads,
-        compare=settings.compare,
-    )
-
-
-def nurbs_body(
-    reading: Reading,
-    unit: float,
-    *,
-    wall: str | None,
-    thickness: float,
-    union: bool,
-    threads: int,
-    compare: bool,
-) -> Body:
-    """Return the body that an object's surfaces, some of them B-spline patches, bound, or their sheets.
-
-    unit: meters per Blender unit. wall: of a shell, as in `MeasureOptions`; None for solids. thickness: m. union:
-    shells that overlap are united, which needs polygons. compare: also measure the volume of the display mesh.
-    MeasureError if there is nothing to measure.
-    """
-    if wall is not None:
-        return _sheet_body(reading, unit, wall, thickness, threads)
+    unit, threads = settings.unit, settings.threads
+    if settings.kind == "shell":
+        return _sheet_body(reading, unit, settings.wall, settings.thickness, threads)
     if reading.all_singular:
         raise ReadError(ZERO_SCALE)
     patch_parts, meshes = _split_parts(reading)
     measures = [measure_patches(_patches(part), area_order=3, stored=_stored(part)) for part in patch_parts]
-    if union and (reading.instance_count > 1 or measures[0].health.components > 1):
+    if settings.overlap == "union" and (reading.instance_count > 1 or measures[0].health.components > 1):
         united = mesh_body(reading, unit, shell=False, union=True, threads=threads)
         return replace(united, findings=(finding(DISPLAY_MESH_NEEDED, purpose="a union"), *united.findings))
     rest = mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
@@ -180,7 +148,7 @@ def nurbs_body(
         healths.append((rest.health, 1, rest.area.total))
         verdicts.append(rest.method.verdict)
     display = None
-    if compare:
+    if settings.compare:
         with suppress(MeasureError):  # a display mesh that cannot be measured compares with nothing
             display = mesh_body(reading, unit, shell=False, union=False, threads=threads).volume.total
     return PatchBody(
@@ -227,12 +195,12 @@ def _source(reading: Reading) -> Source:
 
 
 def _moments_to_order(measure: PatchIntegrals, order: int) -> Moments:
-    """Return the volume's moments to another order."""
+    """Return the moments of the volume to another order."""
     return extend_input_error(volume_moments(measure.patches, order, measure.volume.about)[0], measure.volume)
 
 
 def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:
-    """Yield the area moments of a part's images."""
+    """Yield the area moments of each place of a part."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield sum_of_images(area, matrices[even])
@@ -242,7 +210,7 @@ def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Momen
 
 
 def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> Body:
-    """Return the body of thin sheets, or of walls inward or outward of the surfaces or centered on them."""
+    """Return the body of thin sheets, or of walls inside, outside or on both sides of the surfaces."""
     patch_parts, meshes = _split_parts(reading)
     if meshes.parts and wall != "thin":
         raise ReadError(WALL_UNSUPPORTED, quantity="A mixture of NURBS surfaces and meshes")
@@ -277,13 +245,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
         healths.append((polygons.health, 1, polygons.area.total))
         findings += polygons.findings
     area = sum_moments(areas)
-    nothing = replace(
-        area,
-        raw=np.zeros_like(area.raw),
-        rounding_error=np.zeros_like(area.raw),
-        input_error=np.zeros_like(area.raw),
-        measure=Measure.VOLUME,
-    )
+    nothing = Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME)
     common = (nothing, area, merge_health(healths), Method(Verdict.SHELL, _source(reading)), tuple(each_once(findings)))
     if wall != "thin":
         return Body(*common, wall=sum_moments(sheets), estimated=True)
@@ -291,7 +253,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
 
 
 def _distinct_images(patches: Sequence[Face], matrices: NDArray) -> Iterator[tuple[list[Face], NDArray]]:
-    """Yield the patches under each different linear map, facing as before, and (k, 4, 4) translations to the places."""
+    """Yield the patches under each distinct linear map, facing as before, with (k, 4, 4) translations to the places."""
     for linear, members in distinct_linear_parts(matrices):
         turn = np.eye(4)
         turn[:3, :3] = linear

@@ -5,24 +5,26 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import bpy
 
-from ...core.bodies.reading import Reading
+from ...core.bodies.reading import Reading, measure_reading
+from ...core.measurement.body import Body
+from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import Settings
 from ...core.verdict.finding import Finding
+from ..read.fingerprint import transform_key
 from ..read.objects import read_object
-from ..settings.accepted import accepted_codes
+from ..settings.accepted import accepted_codes, with_acceptance
 from ..settings.density import DensityField, density_field
-from ..settings.options import AS_SET, MeasureOptions
-from ..settings.resolve import object_settings
+from ..settings.options import AS_SET, MeasureOptions, object_settings
 
 
 @dataclass(frozen=True, eq=False)
 class Request:
-    """The request to measure one object, or the content of a file.
+    """A request to measure an object or the content of a file.
 
     `settings`: the options `given`, completed by the object's own. `obj`, `depsgraph`: None for the content of a file.
     `opened`: closes opened resources at the end of the measurement.
@@ -62,7 +64,7 @@ class Request:
 
     @cached_property
     def density(self) -> DensityField | None:
-        """Source of a varying density, None for a density that is one number; may raise MeasureError."""
+        """The varying density, None for a uniform one; may raise MeasureError."""
         settings, properties = self.settings, self.obj.body_moments
         is_given = self.given.density is not None or settings.mass is not None
         if is_given or settings.kind == "wire" or properties.density_from == "VALUE":
@@ -85,3 +87,11 @@ class Request:
 
 def _scene(depsgraph: bpy.types.Depsgraph | None) -> bpy.types.Scene:
     return bpy.context.scene if depsgraph is None else depsgraph.scene
+
+
+def measurement_of(reading: Reading, body: Body, request: Request) -> Measurement:
+    """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown moments."""
+    transform = "" if request.obj is None else transform_key(request.obj)
+    measurement = measure_reading(reading, body, request.settings, transform)
+    accepted = request.accepted
+    return replace(measurement, findings=with_acceptance(measurement.findings, accepted)) if accepted else measurement

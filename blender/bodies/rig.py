@@ -54,7 +54,7 @@ DENSITIES_FROM = {"MESH": finding(DENSITY_FROM_MEMBERS), "DENSITY": DENSITY_FROM
 
 @dataclass(eq=False)
 class _Sum:
-    """Moments and sources of one bone's part.
+    """The moments and source objects of a bone's part.
 
     carriers: mass moments at 1 kg/m³ of geometry skinned to the bone, each with its density. hanging: mass moments of
     objects parented to the bone. extents, areas: (value, rounding, effect of float32), m³ and m².
@@ -208,7 +208,7 @@ class _Measuring:
             self.unset.append(obj.name)
 
     def _pieces(self, obj: Object, part: Part, shell: bool) -> Iterator[tuple]:
-        """Yield (bone, volume or area moments in SI and world, area, surface, map, verdict) per piece of a surface."""
+        """Yield (bone, SI world volume or area moments, area, surface, map, verdict) of each piece of a surface."""
         surface = part.surface
         if not len(surface.triangles) and not len(surface.quads):
             return
@@ -320,7 +320,7 @@ class _Measuring:
 
 
 def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
-    """Return the area's moments of a sheet in its place."""
+    """Return the area moments of a sheet mapped to its place in the world."""
     if are_similarities(metric[None, :3, :3])[0]:
         area = polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1]
         return area.transform(metric)

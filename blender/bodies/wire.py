@@ -73,7 +73,7 @@ def body(reading: Reading, request: Request) -> Body:
 
 
 def curves_in_world(curves: list[Curve], matrix: NDArray[np.float64], unit: float) -> tuple[list[Curve], float]:
-    """Return the curves in the world, m, by their (4, 4) matrix in Blender units, and their points' float32 error."""
+    """Return curves mapped to the world in m by a (4, 4) matrix in Blender units, and the points' float32 error."""
     largest = max(float(np.abs(curve.points).max()) for curve in curves)
     scaled = np.array(matrix, np.float64)
     scaled[:3] *= unit
@@ -82,6 +82,6 @@ def curves_in_world(curves: list[Curve], matrix: NDArray[np.float64], unit: floa
 
 
 def _is_closed(curve: Curve, reach: float) -> bool:
-    """Return whether a curve ends at its start, within rounding by its size and its distance from the origin."""
+    """Return whether a curve ends at its start, within the rounding by its size and distance from the origin."""
     first, last = curve.samples(1)[[0, -1]]
     return bool(np.abs(last - first).max() <= CLOSED_RTOL * reach + 32.0 * U * np.abs(first).max())

@@ -92,7 +92,7 @@ def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
 
 
 def structure_hash(root: Member) -> str:
-    """Return a digest of the members, the places of instances and the masses given for assemblies."""
+    """Return a digest of the members, the places of instances and the given masses of assemblies."""
     keys = []
     for member in root.walk():
         key = [member.kind.value, member.name, member.left_out.code if member.left_out else ""]
@@ -107,7 +107,7 @@ def structure_hash(root: Member) -> str:
 
 
 class _Walk:
-    """A walk through an assembly, in the scene, or inside an instance, which shows other objects."""
+    """A walk through an assembly in the scene, or through the members of an instance."""
 
     def __init__(self, objects: Collection[Object], depsgraph: Depsgraph, inside: bool = False):
         self.depsgraph = depsgraph
@@ -123,7 +123,7 @@ class _Walk:
         self.replaced = {child for obj in self.given for child in obj.children_recursive}
 
     def collection(self, collection: bpy.types.Collection, depth: int = 0) -> Member:
-        """Return a collection as a member: its nested collections first, then its objects."""
+        """Return a collection as a member, with its nested collections before its objects."""
         if self.inside and (collection.hide_render or collection.hide_viewport):
             return Member(collection, MemberKind.COLLECTION, left_out=finding(NOT_RENDERED))
         members = [self.collection(child, depth) for child in collection.children]

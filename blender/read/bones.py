@@ -39,8 +39,8 @@ class RestBones:
         ends = np.array([[bone.head_local[:], bone.tail_local[:]] for bone in deforming], np.float64).reshape(-1, 2, 3)
         frames = {}
         for bone in bones:
-            location, turn, _scale = (armature.matrix_world @ bone.matrix_local).decompose()
-            frames[bone.name] = rotation_matrix(turn), np.array(location[:], np.float64)
+            turn = (armature.matrix_world @ bone.matrix_local).decompose()[1]
+            frames[bone.name] = rotation_matrix(turn), (place @ float64_matrix(bone.matrix_local))[:3, 3]
         return cls(
             tuple(bone.name for bone in bones),
             tuple(bone.name for bone in deforming),

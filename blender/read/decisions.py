@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The findings about decisions in reading an object, and the reasons if there was nothing to read.
 
-Objects are read as the viewport shows them. If Blender's settings tell that the render would show another body, that is
-a finding; node trees that distinguish viewport and render are not detected.
+Objects are read as the viewport shows them; a finding says if Blender's settings would render another body.
 """
 
 from __future__ import annotations
@@ -76,7 +75,7 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
 
 
 def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Finding]:
-    """Yield a finding for each decision that was taken while reading."""
+    """Yield a finding for each decision of the reading."""
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
         yield finding(HIDDEN_OBJECT_MEASURED, cause=hidden.as_record())
@@ -170,7 +169,7 @@ def _mode_findings(obj) -> Iterator[Finding]:
 
 
 def _spline_findings(evaluated, splines) -> Iterator[Finding]:
-    """Yield the findings about a surface object, which is the object that is read, or one of its instances."""
+    """Yield the findings about a surface object, which is the read object or one of its instances."""
     if splines is not None:
         yield from splines.findings
         return

@@ -2,22 +2,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The inputs of stored numbers, in a text short enough for a property: geometry, transform and settings.
 
-The geometry's part is a digest of the moments themselves: no two shapes that a person would distinguish share twenty
-moments to the last bit, and it costs nothing. Transform and settings can be digested without measuring, so a panel
-may compare them while it draws, without numpy.
+Geometry is digested as the moments themselves; transform and settings can be digested by panels, without numpy.
 """
 
 from __future__ import annotations
 
 import math
 import struct
+from array import array
+from dataclasses import replace
 
 import bpy
 from mathutils import Matrix
 
 from ...core.measurement.settings import Settings, digest
 from ..settings.density import density_key
-from ..settings.resolve import object_settings
+from ..settings.given import COLLIDER
+from ..settings.options import object_settings
 
 SAME_SCALE_RTOL = 2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
 MAX_LENGTH = 3e38  # largest length of an axis that float32 can store
@@ -43,7 +44,7 @@ def transform_key(obj: bpy.types.Object) -> str:
 
 
 def has_transform(obj: bpy.types.Object, key: str) -> bool:
-    """Return whether the object's transform matches a key, as far as its numbers depend on it."""
+    """Return whether the object's transform agrees with a key in all parts that affect its numbers."""
     if key[:1] not in {"+", "-"}:
         return key == matrix_hash(obj)
     scale = _scale(obj) if _moves_along(obj) else None
@@ -69,7 +70,7 @@ def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
 
 
 def _moves_along(obj: bpy.types.Object) -> bool:
-    """Return whether the body is the same in the object's frame at every place of the object."""
+    """Return whether the body in the object's frame is independent of the object's place."""
     if obj.type == "META" or len(obj.particle_systems):
         return False
     settings = obj.body_moments
@@ -86,11 +87,24 @@ def scale_hash(obj: bpy.types.Object) -> str:
     return digest(struct.pack("<9d", *[round(product / largest * 1e5) / 1e5 + 0.0 for product in products]))
 
 
+def colliders_digest(obj: bpy.types.Object) -> str:
+    """Return a digest of the meshes and places of an object's colliders."""
+    parts = []
+    for child in obj.children:
+        if COLLIDER in child:
+            points = array("f", bytes(12 * len(child.data.vertices)))
+            child.data.vertices.foreach_get("co", points)
+            places = matrix_bytes(child.matrix_parent_inverse) + matrix_bytes(child.matrix_basis)
+            parts.append(digest(places + points.tobytes()))
+    return digest("".join(sorted(parts)).encode())
+
+
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
-    """Return a digest of the settings that the numbers of this object depend on."""
+    """Return a digest of the settings that affect the numbers of this object."""
     return current_settings(obj, scene).digest
 
 
 def current_settings(obj: bpy.types.Object, scene: bpy.types.Scene) -> Settings:
     """Return the current settings of the object, with the key of a varying density."""
-    return object_settings(obj, scene, varying=density_key(obj, str(obj.get("body_materials", "")).splitlines(), scene))
+    materials = str(obj.get("body_materials", "")).splitlines()
+    return replace(object_settings(obj, scene), varying=density_key(obj, materials, scene))

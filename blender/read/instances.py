@@ -2,14 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that an object shows, flattened to surfaces times matrices: its own mesh and all instances under it.
 
-The instances of geometry nodes are two arrays, a transform and a reference for each
-(`GeometrySet.instances_pointcloud`), and a reference is an object, a collection or again a geometry
-set with a mesh and instances of its own. The walk carries all places of one thing at once as a (k,
-4, 4) array, so that ten thousand instances cost one matrix product, in float64 where Blender's own
-list has float32. It mirrors object_dupli.cc; the tests compare the two.
-
-Instancing on vertices and faces and by particles is left to Blender: `depsgraph.object_instances`,
-one by one.
+Instances of geometry nodes are two arrays, transforms and references (`GeometrySet.instances_pointcloud`). The walk
+carries all places of one thing as a (k, 4, 4) array in float64. It mirrors object_dupli.cc; the tests compare the two.
+Instancing on vertices and faces and by particles is left to Blender: `depsgraph.object_instances`, one by one.
 """
 
 from __future__ import annotations
@@ -21,30 +16,21 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import (
-    NO_VALUES,
-    FaceAttributes,
-    Part,
-    SplineReading,
-    float64_matrix,
-)
+from ...core.bodies.reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix
 from ...core.mesh.surface import Surface
 from ...core.verdict.finding import MeasureError, ReadError
-from .findings import (
-    INSTANCES_OF_HIDDEN_OBJECT,
-    NON_FINITE_INSTANCES,
-)
+from .findings import INSTANCES_OF_HIDDEN_OBJECT, NON_FINITE_INSTANCES
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
 from .nurbs.splines import spline_reading
 from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, edit_modifiers, evaluated_geometry
 
 
 class _NeedsInstanceList(Exception):
-    """The instances are of a kind that only Blender's own list of instances has."""
+    """The instances are of a kind that is only in Blender's own list of instances."""
 
 
 class InstanceCollector:
-    """The surfaces found so far with all their places, and the omitted objects.
+    """The collected surfaces with all their places, and the omitted objects.
 
     faceless: (vertices, edges) of the meshes without a face.
     left_out: number of elements without surface, by a word for their kind.
@@ -90,7 +76,7 @@ class InstanceCollector:
             self._add_listed_instances(place)
 
     def parts(self) -> list[Part]:
-        """Return a part for each surface, without vanished instances; raise ReadError if a matrix is not finite."""
+        """Return a part for each surface, without instances of scale 0; ReadError for a non-finite matrix."""
         parts = []
         for key, matrix_blocks in self._matrices.items():
             surface = self._surfaces[key]
@@ -114,7 +100,7 @@ class InstanceCollector:
         return parts
 
     def _add_object(self, evaluated, matrices: NDArray) -> None:
-        """Add an object standing at `matrices` instead of its own matrix, with its instances."""
+        """Add an object with its instances, placed at `matrices` instead of its own matrix."""
         original = evaluated.original
         if original in self._path or len(self._path) > MAX_DEPTH:
             return
@@ -162,7 +148,7 @@ class InstanceCollector:
         self._add_instances(geometry, matrices)
 
     def _add_instances(self, geometry, matrices: NDArray) -> bool:
-        """Add the instances in a geometry set, for each place of the set; return whether there were any."""
+        """Add the instances of a geometry set, once for each place of the set; return whether there were any."""
         cloud = geometry.instances_pointcloud()
         if cloud is None:  # there are no instances
             return False
@@ -202,7 +188,7 @@ class InstanceCollector:
             self._add_object(evaluated, matrices @ float64_matrix(evaluated.matrix_world))
 
     def _add_listed_instances(self, instance_matrix: NDArray) -> None:
-        """Add the root and its instances as `depsgraph.object_instances` has them."""
+        """Add the root and its instances from `depsgraph.object_instances`."""
         original = self.root.original
         if not original.visible_get(view_layer=self.depsgraph.view_layer):
             raise ReadError(INSTANCES_OF_HIDDEN_OBJECT, subject=original.name)
@@ -226,7 +212,7 @@ class InstanceCollector:
                 self._add_mesh(mesh, mesh, matrix, source)
 
     def _add_mesh(self, key: Hashable, mesh, matrices: NDArray, owner=None) -> None:
-        """Add a mesh; owner: the evaluated object with its material slots."""
+        """Add a mesh; owner: the evaluated object whose material slots apply."""
         if mesh is not None:
             if owner is not None and len(mesh.polygons):
                 self.drawn[owner.original] = None
@@ -320,7 +306,7 @@ def _needs_instance_list(obj) -> bool:
 
 
 def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:
-    """Yield each object of a collection and its children once, unless the property `switch` disables it."""
+    """Yield the objects of a collection and its children, each once, unless the property `switch` disables them."""
     visited = set()
     pending = [collection]
     while pending:

@@ -2,13 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mesh and edit mesh to Surface, at the speed of copying arrays.
 
-Blender 4.5 stores a mesh as attributes, and `foreach_get` on an attribute's data is one memory copy
-as long as the buffer has the attribute's own type: float32 for positions, int32 for indices. The
-same numbers through `vertex_values`, `loops` and `loop_triangles` cost 10 to 100 times as much.
-
-The sizes of the faces come from the tessellation (a face of n corners has n - 2 triangles), whose
-`loop_triangle_polygons` is such an attribute too. Triangles and quads are then rows of the corners;
-only n-gons need the slow `loop_triangles`. Quads stay whole: core/mesh/surface.py cuts them as Blender does.
+`foreach_get` on an attribute is one memory copy if the buffer has the attribute's own type; the same numbers through
+`vertex_values`, `loops` and `loop_triangles` cost 10 to 100 times as much. The sizes of the faces follow from the
+attribute `loop_triangle_polygons`. Only n-gons need `loop_triangles`; core/mesh/surface.py cuts quads as Blender does.
 """
 
 from __future__ import annotations
@@ -35,7 +31,7 @@ Read = TypeVar("Read")
 
 
 def plain_mesh(obj, depsgraph):
-    """Return the evaluated mesh of an object that shows only its own mesh, or None if `read_object` has to read it."""
+    """Return the evaluated mesh of an object that only shows this mesh, or None if `read_object` is needed."""
     data, parent = obj.data, obj.parent
     if (
         obj.type != "MESH"
@@ -54,7 +50,7 @@ def plain_mesh(obj, depsgraph):
 
 def mesh_surface(mesh, *, edges: bool = True) -> Surface:
     """Return the surface of a `bpy.types.Mesh` as copied arrays, in its coordinates; edges take a fifth of the time."""
-    points = _attribute(mesh, "position", "vector", (len(mesh.vertices), 3), np.float32)
+    points = vertex_points(mesh)
     corners = _attribute(mesh, ".corner_vert", "value", (len(mesh.loops),), np.int32)
     faces = _faces(mesh, corners)
     # The memory that sorting the faces took is free again: getting new memory costs more than filling it.
@@ -68,6 +64,11 @@ def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | Non
         return None
     if not np.array_equal(_attribute(mesh, ".corner_vert", "value", corners.shape, np.int32), corners):
         return None
+    return vertex_points(mesh)
+
+
+def vertex_points(mesh) -> NDArray[np.float32]:
+    """Return the (n, 3) points of a `bpy.types.Mesh`."""
     return _attribute(mesh, "position", "vector", (len(mesh.vertices), 3), np.float32)
 
 
@@ -112,7 +113,7 @@ def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
 
 
 def face_slots(mesh) -> NDArray[np.int32]:
-    """Return (f,) material indices of the faces, which may be beyond the mesh's last slot."""
+    """Return (f,) material indices of the faces, some of which may be beyond the last slot of the mesh."""
     if mesh.attributes.get("material_index") is None:  # then all faces have the first material
         return np.zeros(len(mesh.polygons), np.int32)
     return _attribute(mesh, "material_index", "value", (len(mesh.polygons),), np.int32)
@@ -140,7 +141,7 @@ def _array(data, member: str, shape: tuple[int, ...], dtype) -> NDArray:
 
 
 def _in_pairs(owners: NDArray[np.int32]) -> bool:
-    """Return whether the owners are 0, 0, 1, 1, 2, 2 and so on."""
+    """Return whether the owners have the form 0, 0, 1, 1, 2, 2, …."""
     # Two at once: the even places alone would accept a triangle followed by a pentagon.
     pairs, step = owners.view(np.int64), (1 << 32) + 1
     count = np.arange(min(FACES_PER_BLOCK, len(pairs))) * step

@@ -2,21 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An object as a Reading: its surfaces in the viewport, and a finding for each decision.
 
-Reading changes nothing: no mode, no selection, no mesh. An object that Blender has not evaluated is
-refused with the reason, never read without its modifiers (visibility.py). The object frame is
-`matrix_world.decompose()`.
+Reading changes nothing. An object that Blender has not evaluated is refused, never read without its modifiers.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from ...core.bodies.reading import (
-    Part,
-    Reading,
-    attribute_to_source,
-    float64_matrix,
-)
+from ...core.bodies.reading import Part, Reading, attribute_to_source, float64_matrix
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import rotation_matrix
 from ...core.nurbs.findings import NON_POSITIVE_WEIGHTS
@@ -34,7 +27,7 @@ from .visibility import evaluated_geometry, require_kind, why_not_evaluated
 def read_object(
     obj, depsgraph, *, materials: bool = False, attribute: str | None = None, edges: bool = True
 ) -> Reading:
-    """Read one object, original or evaluated, as the up-to-date viewport `depsgraph` has it.
+    """Read an object, original or evaluated, as it is in the up-to-date viewport `depsgraph`.
 
     materials: read the materials of its faces, too. attribute: name of a float attribute on vertices to
     read. edges: read the edges that prove surfaces closed.
@@ -67,7 +60,7 @@ def read_lines(obj, depsgraph) -> Reading:
 
 
 def read_patches(obj, depsgraph) -> Reading | None:
-    """Read only the patches of a surface object; None if it is an instancer, or its mesh has to be measured."""
+    """Read the patches of a surface object; None for an instancer, or if the mesh must be measured."""
     obj = obj.original
     reading = locate(obj, depsgraph)
     if obj.instance_type != "NONE":
@@ -83,7 +76,7 @@ def read_patches(obj, depsgraph) -> Reading | None:
 
 
 def locate(obj, depsgraph) -> Reading:
-    """Return a reading with nothing but an evaluated object's name, type and place, or raise ReadError."""
+    """Return a reading that only has an evaluated object's name, type and place, or raise ReadError."""
     evaluated = obj.evaluated_get(depsgraph)
     if not evaluated.is_evaluated:
         raise ReadError(why_not_evaluated(obj, depsgraph), subject=obj.name)

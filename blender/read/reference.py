@@ -23,7 +23,7 @@ Point = tuple[float, ...]
 
 @dataclass(frozen=True)
 class ReferenceChoice:
-    """Choice of a reference, independent of its place.
+    """The choice of a reference, which can be resolved to a point and axes.
 
     `about`: "CENTER", "ORIGIN", "WORLD", "CURSOR", "OBJECT" or "AXIS".
     `object`: the other object's name. `points`: two points of the axis, Blender units.
@@ -35,7 +35,7 @@ class ReferenceChoice:
 
     @classmethod
     def from_settings(cls, settings: PropertyGroup) -> ReferenceChoice:
-        """Return the choice of the scene's settings."""
+        """Return the choice in the scene's settings."""
         if settings.about == "OBJECT":
             return cls("OBJECT", settings.object.name if settings.object is not None else "")
         if settings.about == "AXIS":
@@ -54,7 +54,7 @@ class ReferenceChoice:
 
     @classmethod
     def parse(cls, text: object) -> ReferenceChoice | None:
-        """Return the choice in a text that the property `text` has made; None for anything else."""
+        """Return the choice that the property `text` has written, or None for any other text."""
         try:
             entry = json.loads(str(text))
             points = tuple(tuple(map(float, point)) for point in entry.get("points", ()))

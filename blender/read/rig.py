@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A skinned character: the meshes that an armature deforms, and the objects parented to bones.
-
-Panels and handlers ask for them, so numpy is not loaded.
-"""
+"""A skinned character: the meshes that an armature deforms, and the objects parented to bones. Loads no numpy."""
 
 from __future__ import annotations
 
@@ -18,6 +15,8 @@ from .findings import ARMATURE_IN_EDIT_MODE, NO_ACTIVE_ARMATURE
 from .fingerprint import matrix_bytes, settings_hash
 from .tracking import tracking_paused
 from .visibility import measurable
+
+HOLDING = {"CHILD_OF", "COPY_TRANSFORMS", "COPY_LOCATION", "ARMATURE"}  # constraints that put objects into a hand
 
 
 @contextmanager
@@ -36,7 +35,7 @@ def rest_pose(context: Context, armature: Object) -> Iterator[Depsgraph]:
 
 
 def is_skin_of(obj: Object, armature: Object) -> bool:
-    """Return whether an armature deforms an object, by a modifier that is shown or as its parent."""
+    """Return whether an armature deforms an object, by an enabled modifier or as its parent."""
     if obj.parent == armature and obj.parent_type == "ARMATURE":
         return True
     return any(
@@ -52,7 +51,7 @@ def skinned_objects(armature: Object, objects: Iterable[Object]) -> list[Object]
 
 
 def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[Object, str]]:
-    """Return (object, bone) of measurable objects parented to bones, and of their children, without `skinned`."""
+    """Return (object, bone) of measurable objects below bones, except those in `skinned`."""
     skinned, found = set(skinned), []
     for child in sorted(armature.children, key=lambda obj: obj.name):
         if child.parent_type == "BONE" and child.parent_bone:
@@ -62,8 +61,32 @@ def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[O
     return found
 
 
+def held_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str]]:
+    """Return (object, bone) of measurable objects that a constraint holds to a bone as evaluated, and their children.
+
+    Objects that the armature deforms, and those parented to its bones, are parts of the character already.
+    """
+    found: dict[Object, str] = {}
+    for obj in depsgraph.view_layer.objects:
+        bone = _holding_bone(obj, armature, depsgraph) if len(obj.constraints) else ""
+        if bone and not obj.hide_render:
+            found.update((one, bone) for one in (obj, *obj.children_recursive) if measurable(one))
+    own = rig_objects(armature, depsgraph.view_layer.objects) if found else ()
+    return [(obj, bone) for obj, bone in found.items() if obj not in own]
+
+
+def _holding_bone(obj: Object, armature: Object, depsgraph: Depsgraph) -> str:
+    """Return the bone that a constraint holds an object to, or "" if there is none."""
+    for constraint in obj.evaluated_get(depsgraph).constraints:
+        if constraint.type in HOLDING and not constraint.mute and constraint.influence > 0.0:
+            for target in constraint.targets if constraint.type == "ARMATURE" else (constraint,):
+                if target.target is not None and target.target.original == armature and target.subtarget:
+                    return target.subtarget
+    return ""
+
+
 def rig_hash(armature: Object, objects: Iterable[Object], scene: Scene) -> str:
-    """Return a digest of the bones, the armature's scale and the objects' settings, without the shapes of meshes."""
+    """Return a digest of the bones, the armature's scale and the objects' settings, but not of the meshes."""
     keys = []
     for bone in armature.data.bones:
         settings = armature.pose.bones[bone.name].body_moments
@@ -83,7 +106,7 @@ def rig_objects(armature: Object, objects: Iterable[Object]) -> list[Object]:
 
 
 def require_armature(obj: Object | None) -> Object:
-    """Return the armature object, or raise ReadError for anything else, or if it is in Edit Mode."""
+    """Return the armature object; ReadError for any other object, and for an armature in Edit Mode."""
     if obj is None or obj.type != "ARMATURE":
         raise ReadError(NO_ACTIVE_ARMATURE)
     if obj.mode == "EDIT":

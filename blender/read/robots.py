@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A measured object as a link of a robot: its place, its parents, and the joints that hold it."""
+"""Measured objects as links of a robot: their places, their parents and their joints."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from .objects import read_object
 def object_candidate(
     label: str, obj: Object | None, measurement: Measurement, labels: Mapping[Object, str]
 ) -> Candidate:
-    """Return a measured object as a possible link, with its labeled parents; `obj` is None for instances."""
+    """Return a measured object as a possible link, with the labels of its parents; `obj` is None for instances."""
     if obj is None:
         return make_candidate(label, measurement)
     parents, above = [], obj.parent
@@ -60,7 +60,7 @@ CONSTRAINTS: dict[str, tuple[tuple[str, int, float], ...]] = {
 def constraint_connections(
     scene: Scene, labels: Mapping[Object, str], unit: float
 ) -> tuple[list[Connection], list[Candidate], list[Finding]]:
-    """Return the constraints of labeled objects as joints, frames for other passive objects in them, and findings."""
+    """Return the constraints of labeled objects as joints, frames of unlabeled passive objects, and findings."""
     connections: list[Connection] = []
     bases: dict[str, Candidate] = {}
     findings: list[Finding] = []
@@ -135,7 +135,7 @@ def joint_values(
 
 
 def link_surface(objects: Iterable[Object], depsgraph: Depsgraph, pose: Pose, unit: float) -> Surface | None:
-    """Return the surfaces of a link's objects as triangles in m, in the link's frame; None if they show no faces."""
+    """Return the surface of a link's objects as triangles in m, in the link's frame; None without visible faces."""
     pieces, to_link = [], pose.inverse()
     for obj in objects:
         try:
@@ -147,7 +147,7 @@ def link_surface(objects: Iterable[Object], depsgraph: Depsgraph, pose: Pose, un
 
 
 def sheared_objects(objects: Iterable[Object]) -> list[str]:
-    """Return the names of objects with a matrix that does more than move, turn, scale and mirror."""
+    """Return the names of objects whose matrix is sheared."""
     located = list(objects)
     if not located:
         return []

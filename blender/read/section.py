@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The inputs of a plane section: selected faces, an object's faces, or the outlines of 2-D curves and text.
 
-Curves and text are read by their outlines, not by their fill: Blender fills outlines that touch, coincide or cross
-wrongly and without a warning (4.5 and 5.2 alike: two squares side by side, one of them lower, lose the larger one). The
-outlines come from a copy of the curve without fill, which Blender turns into edges. Only a text on a curve is read by
-its fill.
+Blender fills outlines that touch, coincide or cross wrongly, without a warning, so edges of a copy without fill are
+read. Only a text on a curve is read by its fill.
 """
 
 from __future__ import annotations
@@ -71,7 +69,7 @@ class SectionReading:
 
 
 def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | None = None) -> SectionReading:
-    """Read the faces, in Edit Mode only the `selected` ones, or the outlines of an object, or raise ReadError."""
+    """Read an object's faces (in Edit Mode only the `selected` ones) or its outlines, or raise ReadError."""
     obj = obj.original
     if obj.type not in SECTION_TYPES:
         raise ReadError(FLAT_OF_TYPE, subject=obj.name)

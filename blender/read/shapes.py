@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Digests of a mesh object's surface, cheap enough for every evaluation by Blender; and keys of many transforms."""
+"""Digests of a mesh object's surface, fast enough for every evaluation by Blender; and keys of many transforms."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def surface_digest(surface: Surface, face_count: int) -> bytes | None:
 
 
 def transform_keys(matrices: NDArray[np.float64]) -> list[str]:
-    """Return the `transform_key` of objects with bodies that move along, from their (n, 4, 4) `matrix_world`."""
+    """Return the `transform_key` of each (n, 4, 4) `matrix_world`, for objects whose bodies move along."""
     columns = matrices[:, :3, :3].astype(np.float64)
     lengths = np.sqrt(np.add.reduce(columns * columns, axis=1))
     with np.errstate(invalid="ignore"):  # axes of zero or infinite length become NaN, so they are not at right angles

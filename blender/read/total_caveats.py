@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects that would count in a total but are, or may be, no part of the body, such as cutters and helpers."""
+"""Objects in a total that are, or may be, no part of the body, such as cutters and helpers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .findings import BOOLEAN_OPERAND, NOT_RENDERED, TOTAL_DOUBTFUL_PARTS
 
 
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
-    """Return the objects that are no parts of the displayed body, each with the reason: an operand, or not rendered."""
+    """Return the objects that are no parts of the body, each with the reason: it is an operand, or not rendered."""
     # A layer that is switched off renders nothing; if all are switched off, the open layer counts.
     layers = [layer for layer in scene.view_layers if layer.use] or [view_layer]
     rendered = {obj for layer in layers for obj in _rendered(layer.layer_collection) if not obj.hide_render}
@@ -28,7 +28,7 @@ def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Findin
 
 
 def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:
-    """Return the operands of Boolean modifiers of some objects, each with the first user by name."""
+    """Return the operands of objects' Boolean modifiers, each with the first object by name that uses it."""
     operands: dict[Object, Object] = {}
     for user in sorted(objects, key=lambda obj: obj.name):
         for operand in _operands(user):
@@ -37,7 +37,7 @@ def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:
 
 
 def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Finding]:
-    """Return a finding for each reason why some of the objects may be no parts of the body that they are summed to."""
+    """Return a finding for each reason why some of the summed objects may be no parts of the body."""
     if len(objects) < 2:
         return []
     objects = sorted(objects, key=lambda obj: obj.name)
@@ -81,7 +81,7 @@ def _operands(obj: Object) -> Iterator[Object]:
 
 
 def _rendered(layer: LayerCollection) -> Iterator[Object]:
-    """Yield the objects of rendered collections, also of those inside an excluded collection."""
+    """Yield the objects of rendered collections, also if a parent collection is excluded."""
     if not layer.collection.hide_render:
         if not layer.exclude:
             yield from layer.collection.objects

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A pause in the tracking of edits, while Blender is read, or changed and changed back."""
+"""A pause in the tracking of edits, during readings and temporary changes."""
 
 from __future__ import annotations
 

@@ -1,10 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The union of overlapping shells, by Blender's own exact boolean.
-
-The boolean is a modifier, and a modifier needs an object in a scene. Object and scene are made for the call, are not
-displayed, and are removed when it returns.
-"""
+"""The union of overlapping shells, by Blender's own exact boolean, in a scene made for the call."""
 
 from __future__ import annotations
 

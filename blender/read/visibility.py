@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks that an object can be read and that Blender has evaluated it.
 
-Blender does not evaluate objects that are disabled in viewports, excluded from the view layer or in another scene, and
-then returns the object without its modifiers and at its last place as if nothing were wrong. `evaluated_geometry()` is
-the one test: it refuses such an object, also if only the object's transform was evaluated for another object. Objects
-that are merely hidden (the eye), or evaluated because something shown needs them, are read rightly and reported.
+Blender returns an object that is disabled in viewports, excluded from the view layer or in another scene without its
+modifiers, as if nothing were wrong; `evaluated_geometry()` refuses it. Merely hidden objects are read and reported.
 """
 
 from __future__ import annotations
@@ -43,7 +41,7 @@ MAX_DEPTH = 7  # of instances within instances: Blender stops here too (MAX_DUPL
 
 
 def measurable(obj) -> bool:
-    """Return whether the object's kind may show a surface: cheap enough for a poll, so it promises nothing more."""
+    """Return whether the object's kind may show a surface, fast enough for a poll."""
     if shows_collection(obj):
         return True
     if obj.type == "EMPTY":
@@ -56,7 +54,7 @@ def measurable(obj) -> bool:
 
 
 def shows_flat_region(obj) -> bool:
-    """Return whether a curve object can show nothing but the flat region that its curves bound."""
+    """Return whether a curve object shows only the flat region inside its curves."""
     curve = obj.data
     return not (
         curve.extrude
@@ -122,7 +120,7 @@ def evaluated_geometry(obj, depsgraph, reader):
 
 
 def _shape_keys_fit(curve) -> bool:
-    """Return whether a curve's shape keys have as many points as its splines: joining curves adds no key points."""
+    """Return whether a curve's shape keys have as many points as its splines, which joining curves can break."""
     if curve.shape_keys is None or curve.is_editmode:
         return True
     count = sum(len(spline.bezier_points) + len(spline.points) for spline in curve.splines)
@@ -142,7 +140,7 @@ def _sculpt_mode_reason(obj) -> Finding | None:
 
 
 def hidden_reason(obj, depsgraph) -> Finding | None:
-    """Return the reason why the view layer does not show the object; None if it does or has yet to be updated."""
+    """Return the reason why the view layer hides the object; None if it is visible or not updated yet."""
     if obj.visible_get(view_layer=depsgraph.view_layer):
         return None
     homes = set(obj.users_collection)
@@ -171,7 +169,7 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
 
 
 def edit_modifiers(obj) -> list:
-    """Return the modifiers that act while the object's mesh is in Edit Mode."""
+    """Return the modifiers that act while the mesh is in Edit Mode."""
     return [modifier for modifier in obj.modifiers if modifier.show_viewport and modifier.show_in_editmode]
 
 

@@ -59,10 +59,6 @@ DATA_WITHOUT_TRANSFORM = error(
     "Geometry of this type cannot be moved so inside its object. Use Object > Convert > Mesh, Add Empty, or Align "
     "Object to World.",
 )
-RENDER_ONLY_MODIFIER = error(
-    "render_only_modifier",
-    "The modifier “{modifier}” is not shown in viewports and may depend on the origin. Show or remove it.",
-)
 DENSITY_COORDINATES = error(
     "density_coordinates",
     "The density polynomial uses {frame:word} coordinates, so the density would change. Change Coordinates.",
@@ -70,6 +66,13 @@ DENSITY_COORDINATES = error(
 BOUND_TO_ARMATURE = error(
     "bound_to_armature",
     "Bound to the armature “{armature}”, which would not move along. Rotate the armature, or apply its modifier.",
+)
+OWN_AXES_USED = error(
+    "own_axes_used",
+    "“{cause}” may depend on the object's own origin or axes, which would change. Show and apply it, or remove it.",
+)
+COPY_DIFFERS = error(
+    "copy_differs", "Equal to “{object}” in shape, but not in {aspects}. Allow that under May Differ, or make it equal."
 )
 SHAPE_WOULD_CHANGE = error(
     "shape_would_change", "The shape would change. Apply the scale, or use Object > Convert > Mesh."

@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Collections of objects made for an armature.
-
-Objects of an earlier run are replaced; everything else in the collection stays.
-"""
+"""Collections of objects that the add-on makes."""
 
 from __future__ import annotations
 
@@ -11,23 +8,28 @@ import bpy
 from bpy.types import Collection, Context, Object
 
 
+def made_collection(context: Context, key: str, owner: object, name: str) -> Collection:
+    """Return the scene's collection whose ID property `key` is the owner, included in the view layer, or a new one."""
+    for collection in context.scene.collection.children_recursive:
+        if collection.get(key) == owner and collection.is_editable:
+            _include(context, collection)
+            return collection
+    collection = bpy.data.collections.new(name)
+    collection[key] = owner
+    context.scene.collection.children.link(collection)
+    return collection
+
+
 class MadeCollection:
-    """A scene's collection of objects made for an armature, cleared of earlier ones and included in the view layer.
+    """A scene's collection of objects made for an armature, cleared of earlier ones; everything else in it stays.
 
     key: name of the ID property, of the collection and the objects made in it, that holds the armature object.
     """
 
     def __init__(self, context: Context, armature: Object, key: str, name: str):
         self._armature, self._key = armature, key
-        for collection in context.scene.collection.children_recursive:
-            if collection.get(key) == armature and collection.is_editable:
-                self._collection = collection
-                self._clear()
-                _include(context, collection)
-                return
-        self._collection = bpy.data.collections.new("{:s} {:s}".format(armature.name, name))
-        self._collection[key] = armature
-        context.scene.collection.children.link(self._collection)
+        self._collection = made_collection(context, key, armature, "{:s} {:s}".format(armature.name, name))
+        self._clear()
 
     def _clear(self) -> None:
         made = [obj for obj in self._collection.objects if obj.get(self._key) == self._armature]

@@ -31,14 +31,15 @@ from ...core.verdict.findings import LINKED_OBJECT
 from ..read.findings import SCALE_ZERO_AXIS
 from ..settings.density import density_anchor
 from .changes import SceneChange, ancestors, dependents, independent_rounds, run_change, run_together
-from .dependents import SAME_SHAPE_RTOL, DependentsGuard, referring, same_shape, shape, transform_shape
+from .dependents import SAME_SHAPE_RTOL, DependentsGuard, Shape, referring, same_shape, shape, transform_shape
 from .findings import (
     BOUND_TO_ARMATURE,
     DATA_COPIED,
     DATA_WITHOUT_TRANSFORM,
     DENSITY_COORDINATES,
+    FOLLOWS_MOVED,
     MODIFIERS_CHANGE_SHAPE,
-    RENDER_ONLY_MODIFIER,
+    OWN_AXES_USED,
     SHAPE_WOULD_CHANGE,
     SHOWS_INSTANCES,
     TRANSFORM_CONSTRAINED,
@@ -99,7 +100,7 @@ def check(obj: Object) -> None:
         if modifier.show_render and not modifier.show_viewport and modifier.type not in FRAME_INDEPENDENT_MODIFIERS
     ]
     if unseen:
-        raise EditRefusedError(RENDER_ONLY_MODIFIER, modifier=unseen[0])
+        raise EditRefusedError(OWN_AXES_USED, cause=unseen[0])
     if density_anchor(obj) == "own":
         raise EditRefusedError(DENSITY_COORDINATES, frame="object")
     if abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
@@ -114,7 +115,7 @@ def reframe(
     users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
     refused: dict[Object, Finding] = {}
     # objects that share a mesh are changed in one way, so that they go on sharing it
-    others = {plan.obj.data for plan in plans if not shows_own_mesh(plan.obj, users)}
+    others = {plan.obj.data for plan in plans if plan.mesh is not None or not shows_own_mesh(plan.obj, users)}
     own = [plan for plan in plans if plan.obj.data not in others]
     carried_out = set(reframe_own_meshes(context, own))
     done = len(carried_out)
@@ -169,7 +170,7 @@ def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> Scene
     depsgraph = yield
     objects = [plan.obj for plan in group]
     data = group[0].obj.data
-    before = {obj: shape(obj, depsgraph) for obj in objects}
+    before = {plan.obj: _in_order(shape(plan.obj, depsgraph), plan.order) for plan in group}
     around = DependentsGuard(objects, users, depsgraph)
     was = {obj: world(obj) for obj in objects}
     channels = [TransformChannels(obj) for obj in objects]
@@ -177,17 +178,22 @@ def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> Scene
     succeeded = False
     try:
         yield from run_together(set_world_matrix(plan) for plan in group)
-        change = data_change(was[group[0].obj], world(group[0].obj), group[0].move_only)
-        trial = data.copy()
-        transform_data(trial, change)
+        shown = group[0].mesh
+        if shown is None:
+            change = data_change(was[group[0].obj], world(group[0].obj), group[0].move_only)
+            shown = trial = data.copy()
+            transform_data(trial, change)
         for obj in objects:
-            obj.data = trial
+            obj.data = shown
         around.compensate()
         depsgraph = yield
         for plan in group:
             if not same_shape(before[plan.obj], shape(plan.obj, depsgraph), plan.size):
                 raise EditRefusedError(_reason_of_change(plan.obj, FRAME_INDEPENDENT_MODIFIERS))
         around.verify(depsgraph, min(plan.size for plan in group))
+        if around.findings and group[0].mesh is not None:
+            follower = around.findings[0].values["object"]
+            raise EditRefusedError(FOLLOWS_MOVED, follower=follower, target=objects[0].name)
         group[0].findings += around.findings
         succeeded = True
     finally:
@@ -203,9 +209,17 @@ def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> Scene
                     obj.data = data
                 transform_data(data, change)
             bpy.data.batch_remove([trial])
-        elif succeeded:
+        elif trial is not None:
             for plan in group:
                 plan.findings.append(finding(DATA_COPIED))
+
+
+def _in_order(own: Shape | None, order: NDArray[np.intp] | None) -> Shape | None:
+    """Return a shape with its first points in another order; others have points that no order of vertices tells."""
+    if own is None or order is None:
+        return own
+    (first, rest), *more = own
+    return [(first[order], rest), *more] if len(first) == len(order) else []
 
 
 def check_movable(obj: Object) -> None:

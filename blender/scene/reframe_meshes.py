@@ -43,7 +43,8 @@ class Plan:
     """The wanted place of one object.
 
     target: the (4, 4) matrix_world. size: of the body, in Blender units. move_only: keep the axes to the bit. findings:
-    added while the plan is carried out.
+    added while the plan is carried out. mesh: shown from then on, instead of the changed data; order: the numbers of
+    its (n,) vertices in the object's own mesh.
     """
 
     obj: Object
@@ -51,6 +52,8 @@ class Plan:
     size: float
     move_only: bool
     findings: list[Finding] = field(default_factory=list)
+    mesh: Mesh | None = None
+    order: NDArray[np.intp] | None = None
 
 
 def location_tolerance(obj: Object, size: float) -> float:

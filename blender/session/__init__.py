@@ -1,18 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Session state while a file is open: staleness, results, live numbers, walls, moments."""
+"""The session's state while a file is open: staleness, results, live numbers, walls, moments."""
 
 from ...core.lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     BalanceGroup="balance_group",
+    CharacterMotion="character_motion",
     SimilarSearch="similar",
-    bill_rows="bill",
+    balance_pose="pose_balance",
+    bill_csv="bill",
     check_stability="statics",
     lay_on_ground="statics",
     make_rigid_bodies="rigid_bodies",
+    plan_colliders="colliders",
     reframe_objects="snapping",
     remeasure="snapping",
+    remove_colliders="colliders",
+    store_colliders="colliders",
     store_measured="snapping",
 )

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from math import floor
 
 import bpy
 import numpy as np
@@ -20,6 +21,7 @@ from ..read.assembly import Member, MemberKind, members_of, settings_of
 from ..read.rig import is_skin_of
 from ..read.visibility import measurable
 from ..write.properties import BALANCE_GROUP
+from ..write.reports import Refused
 from .findings import BALANCE_GROUP_EMPTY_GROUP, BALANCE_GROUP_WITHOUT_CONTACTS, NO_SUCH_NAME
 from .live.motion import Motion
 from .stored import balance_groups, stability
@@ -67,16 +69,18 @@ class BalanceGroup:
             raise EditRefusedError(BALANCE_GROUP_EMPTY_GROUP)
         return sorted(members, key=lambda obj: obj.name_full)
 
-    def follow(self, scene: Scene, frames: range) -> Generator[int, None, None]:
+    def follow(self, scene: Scene, frames: Sequence[float]) -> Generator[int, None, None]:
         """Measure frame after frame, yield the number of finished frames, and restore the scene's frame at the end."""
         before, subframe = scene.frame_current, scene.frame_subframe
         motion = Motion(len(frames))
         self._frames = frames
         try:
             for done, frame in enumerate(frames, 1):
-                scene.frame_set(frame)
+                scene.frame_set(floor(frame), subframe=frame % 1.0)
                 try:
                     self._add_frame(motion, self._context.evaluated_depsgraph_get())
+                except Refused:
+                    raise
                 except Exception as error:
                     self.failure = internal_error.finding_of(error)
                     return
@@ -105,20 +109,25 @@ class BalanceGroup:
         touching = points[-points @ down <= self._ground + reach]
         return support_of_contacts(touching, center, down) if len(touching) else None
 
-    def store(self, context: Context) -> Object:
+    def store(
+        self,
+        context: Context,
+        signals: Mapping[str, NDArray] | None = None,
+        spans: Sequence[tuple[float, float, float, float]] = (),
+    ) -> Object:
         """Store the path as keys of the group's empty, which is added if there is none, and return the empty."""
-        inside = None
+        signals, centers = dict(signals or {}), np.array(self.centers)
         if self.feet:
-            inside = np.array([support is not None and support.stands for support in self.supports])
-        path = balance_groups.Path(np.array(self._frames, np.float64), np.array(self.centers), inside)
+            stands = [support is not None and support.stands for support in self.supports]
+            signals[balance_groups.INSIDE] = np.array(stands)
         empty = balance_groups.find(context.scene, self.objects)
         if empty is None:
             empty = bpy.data.objects.new("Balance", None)
             empty.empty_display_type, empty.show_in_front = "SPHERE", True
-            empty.empty_display_size = 0.05 * float(np.ptp(path.centers, axis=0).max())
+            empty.empty_display_size = 0.05 * float(np.ptp(centers, axis=0).max())
             empty[BALANCE_GROUP] = balance_groups.group_text(self.objects)
             context.scene.collection.objects.link(empty)
-        balance_groups.store(empty, path, self.supports)
+        balance_groups.store(empty, np.array(self._frames, np.float64), centers, signals, self.supports, spans)
         context.view_layer.update()
         return empty
 

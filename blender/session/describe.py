@@ -105,7 +105,7 @@ def _check(options: dict[str, Any]) -> None:
 
 
 def _chosen(objects: Object | str | Iterable[Object | str] | None) -> list[Object]:
-    """Return the objects once each. Raises ValueError."""
+    """Return the objects, each once. Raises ValueError."""
     if objects is None:
         return list(bpy.context.view_layer.objects.selected)  # also without a window
     several: Iterable[Any] = [objects] if isinstance(objects, (Object, str)) else objects

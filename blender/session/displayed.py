@@ -1,18 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The displayed numbers of objects, and the trust in them: panels, list and overlay ask here.
-
-Panels of stored numbers are drawn without numpy; live numbers are computed by other modules.
-"""
+"""The displayed numbers of objects, and the trust in them: panels, list and overlay ask here. Loads no numpy."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+import bpy
 from bpy.types import ID, Context, Object, PoseBone, Scene
 
 from ...core.inertia.plain_body import PlainBody, add_bodies
+from ...core.lazy import loaded_module
 from ...core.measurement.trust import Trust, open_body_caveats, trust_of
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
@@ -91,6 +90,9 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
     scene: sets the unit scale.
     """
+    weighed = _weighed(obj, scene) if obj.type == "ARMATURE" else None
+    if weighed is not None:
+        return weighed
     if obj.type == "ARMATURE" and armatures.stands_for_meshes(obj):
         total = _as_one(obj, scene, [displayed(mesh, scene) for mesh in armatures.deformed_meshes(obj)])
         if total is not None:
@@ -115,7 +117,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an original object at its current place, a character's in its current pose.
+    """Return the displayed numbers of an original object at its current place, or of a character in its current pose.
 
     None if there are no numbers, or the mass is 0.
     """
@@ -123,7 +125,7 @@ def drawn(obj: Object, scene: Scene) -> Displayed | None:
 
 
 def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]:
-    """Return `drawn` of many objects. An answer is kept until there is a report about its object."""
+    """Return `drawn` of many objects, cached until Blender or the session reports a change of the object."""
     global _drawn_in
     settings = scene.body_moments
     key = scene.session_uid, scene.unit_settings.scale_length, settings.default_material, settings.default_density
@@ -139,7 +141,7 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
 
 
 def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | None:
-    """Return `drawn` of an object, and keep it if it depends on no other. before: the numbers before a mere move."""
+    """Return `drawn` of an object; keep it if it depends on no other object. before: its numbers before it moved."""
     if obj.type == "ARMATURE":
         shown = displayed(obj, scene)
         if shown is not None and not shown.is_posed:  # its own stored numbers are of the rest pose
@@ -161,14 +163,14 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
 
 
 def note_updates(events: handlers.Updates) -> None:
-    """Forget the drawn numbers of objects that Blender has evaluated anew; mere moves leave all but the place."""
+    """Drop the cached numbers of objects that Blender has evaluated again; after a move, only the place."""
     for uid in (*events.reshaped, *events.others):
         _drawn.pop(uid, None)
     _moved.update(_drawn.keys() & events.moved)
 
 
 def forget_drawn(data: ID | None = None) -> None:
-    """Forget the drawn numbers of an object, or of all."""
+    """Drop the cached numbers of an object, or of all."""
     if data is None:
         _drawn.clear()
         _moved.clear()
@@ -208,6 +210,21 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
     own = world.in_object(armature.matrix_world, unit)
     worst = max(known, key=lambda part: tuple(Trust).index(part.trust))
     return Displayed(own, world, unit, worst.method, worst.findings, worst.trust, is_posed=True)
+
+
+def _weighed(armature: Object, scene: Scene) -> Displayed | None:
+    """Return a character whose weight is shown, by its bones in the present pose; None for others."""
+    depsgraph, character = bpy.context.view_layer.depsgraph, loaded_module(live, "character")
+    if not armature.body_moments_weight.show or character is None or depsgraph is None:
+        return None
+    weight = character.weight(armature, depsgraph)
+    if weight is None:
+        return None
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    method, findings, reason = properties.method(armature), properties.findings(armature), stale_reason(armature, scene)
+    trust = trust_of(method, findings) if reason is None else Trust.OUT_OF_DATE
+    own = weight.body.in_object(armature.matrix_world, unit)
+    return Displayed(own, weight.body, unit, method, findings, trust, reason, is_posed=True)
 
 
 def shown_objects(context: Context) -> list[Object]:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `blender/session`."""
 
-from ...core.verdict.finding import error, note, warning
+from ...core.verdict.finding import error, warning
 
 MASS_MOMENTS_UNKNOWN = error(
     "mass_moments_unknown",
@@ -12,7 +12,6 @@ MOMENTS_OF_AREA_ONLY = error(
     "moments_of_area_only", "These numbers exist for the area of flat shapes alone. Set Domain to Area."
 )
 INVARIANTS_ORDER = error("invariants_order", "Invariants need order {order}. Set Order, and compute the moments.")
-DENSITY_DEFAULT_KEPT = note("density_default_kept", "No density is set: {density} was used. Set Density or a material.")
 LEFT_OUT_OF_ROBOT = warning("left_out_of_robot", "{count} of {total} objects are no links: {causes}")
 NO_SUCH_NAME = error("no_such_name", "There is no {kind:word} “{name}” in the file or its scene. Choose another one.")
 BALANCE_GROUP_WITHOUT_CONTACTS = error(

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rigid bodies as Blender's physics engine takes them to be, for one object or a thousand.
 
-Bullet takes an object's origin as its center of mass and its axes as principal axes; Blender's own Calculate Mass
-weighs the collision shape. So mass, origin and axes belong together.
+Bullet takes an object's origin as its center of mass and its axes as principal axes, so these belong together.
 """
 
 from __future__ import annotations
@@ -24,20 +23,24 @@ from ..bodies.stacks.stack import Stacked
 from ..read.tracking import tracking_paused
 from ..scene import reframe
 from ..scene.changes import require_storable_data
+from ..scene.colliders import colliders_by_body
 from ..scene.findings import OPEN_OBJECT, RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
 from ..scene.rigid_world import MIN_MASS, add_joint, add_rigid_bodies, remove_joint, require_rigid_world
 from ..scene.snap_targets import POSE, SnapTarget, matrix_along_axes, matrix_at_center
+from ..settings.given import COLLIDER
 from ..write import properties, reports
 from .snapping import store_measured
 from .stored import assembly
 from .tracking import staleness
 
+# Blender's collision shapes of colliders that are primitives; all others are convex hulls.
+COLLISION_SHAPES = {"box": "BOX", "sphere": "SPHERE", "capsule": "CAPSULE", "cylinder": "CYLINDER"}
 PROBE_DENSITY = 1e6  # for Calculate Mass: high, as Blender's rigid bodies weigh no less than a gram
 
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """An object that becomes a rigid body, with the objects below it that become parts of the same body."""
+    """An object that becomes a rigid body, with the objects below it that belong to the same body."""
 
     obj: Object
     members: tuple[Object, ...] = ()
@@ -134,15 +137,19 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
 def _add(context: Context, measured: dict[Object, Measured], type: str, shape: str) -> list[Object]:
     """Add rigid bodies and set collision shapes. Return the objects that had no rigid body before."""
     parts = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
+    colliders = colliders_by_body(context.scene.objects) if shape == "KEEP" else {}
+    added = [collider for part in parts for collider in colliders.get(part, ())]
     new = [obj for obj in parts if obj.rigid_body is None]
-    add_rigid_bodies(context, new, type)
+    add_rigid_bodies(context, [*new, *(obj for obj in added if obj.rigid_body is None)], type)
+    for collider in added:
+        collider.rigid_body.collision_shape = COLLISION_SHAPES.get(collider[COLLIDER]["kind"], "CONVEX_HULL")
     fresh = set(new)
     for one in measured.values():
         inner = {part.parent for part in one.body.members}
         for part in (one.body.obj, *one.body.members):
             if part in fresh:
                 part.rigid_body.collision_shape = "CONVEX_HULL"
-            if part in inner:
+            if part in inner or part in colliders:
                 part.rigid_body.collision_shape = "COMPOUND"
             elif shape != "KEEP":
                 part.rigid_body.collision_shape = shape
@@ -191,7 +198,7 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody
 
 
 def _measured_part(part: Object, ask: Callable[[Object], MeasuredBody | Stacked]) -> MeasuredBody | Stacked:
-    """Measure an object of a body as it is now; raise EditRefusedError if it cannot be part of a rigid body."""
+    """Measure a part of a body as it is now; raise EditRefusedError if it cannot belong to a rigid body."""
     require_storable_data(part)
     if part.type != "MESH":
         raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
@@ -212,7 +219,7 @@ def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> di
 
 
 def _joint_in_place(context: Context, obj: Object) -> Object | None:
-    """Add an empty with a copy of the object's joint at its place and return it, or None if there is no joint."""
+    """Add an empty with a copy of the object's joint, in its place, and return it; None without a joint."""
     joint = obj.rigid_body_constraint
     if joint is None:
         return None

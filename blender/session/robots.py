@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import bpy
 import numpy as np
@@ -14,9 +14,11 @@ from numpy.typing import NDArray
 
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
+from ...core.numerics.rotations import rotation_matrix
 from ...core.robots.findings import ROBOT_WITHOUT_LINKS
 from ...core.robots.links import Candidate, Connection, assemble_robot, make_candidate
-from ...core.robots.model import Robot
+from ...core.robots.model import Link, Pose, Robot, Shape
+from ...core.robots.write.shapes import with_colliders
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.rig import measure_rig
@@ -24,6 +26,8 @@ from ..bodies.stacks.many import measured_in_turn
 from ..read import robots as reading
 from ..read.robots import link_surface, object_candidate
 from ..read.visibility import measurable
+from ..scene.colliders import colliders_by_body, read_colliders
+from ..settings.given import COLLIDER
 from ..settings.options import AS_SET, MeasureOptions
 from ..write import reports
 from .findings import LEFT_OUT_OF_ROBOT
@@ -41,6 +45,23 @@ class SceneLinks:
     unit: float
     members: dict[str, list[Object]] = field(default_factory=dict)
     pieces: dict[str, tuple[tuple[Surface, NDArray[np.float64]], ...]] = field(default_factory=dict)
+
+    def with_colliders(self) -> SceneLinks:
+        """Return the links with the colliders of their objects in place of their geometry as collision shapes."""
+        by_body = colliders_by_body(bpy.data.objects)
+
+        def colliders_of(link: Link) -> list[Shape]:
+            placed: list[Shape] = []
+            for obj in self.members.get(link.name, ()):
+                location, turn, _scale = obj.matrix_world.decompose()
+                frame = Pose(np.array(location, np.float64) * self.unit, rotation_matrix(turn))
+                shapes = read_colliders(by_body.get(obj, ()), frame.rotation, self.unit)
+                is_own = np.array_equal(frame.rotation, link.pose.rotation) and len(self.members[link.name]) == 1
+                to_link = Pose() if is_own else link.pose.inverse() @ frame  # equal frames without rounding
+                placed += [replace(shape, pose=to_link @ shape.pose) for shape in shapes]
+            return placed
+
+        return replace(self, robot=with_colliders(self.robot, colliders_of))
 
     def surface(self, context: Context, label: str) -> Surface | None:
         """Return a link's surface, in meters along the link's axes; None if the link shows no faces."""
@@ -60,12 +81,13 @@ class SceneLinks:
 
 
 def candidates(context: Context, collection: str, selected: bool) -> list[Object]:
-    """Return the objects of the collection if one is named, else the selected objects, or all rendered objects."""
+    """Return the objects of the named collection, else the selected ones, else all rendered ones; no colliders."""
+    chosen = [obj for obj in context.view_layer.objects if not obj.hide_render]
     if collection:
-        return list(bpy.data.collections[collection].all_objects)
-    if selected:
-        return list(context.view_layer.objects.selected)
-    return [obj for obj in context.view_layer.objects if not obj.hide_render]
+        chosen = bpy.data.collections[collection].all_objects
+    elif selected:
+        chosen = context.view_layer.objects.selected
+    return [obj for obj in chosen if COLLIDER not in obj]
 
 
 def jointed_robot(
@@ -127,7 +149,7 @@ def collection_links(
 
 
 def bone_links(context: Context, name: str, objects: list[Object], options: MeasureOptions = AS_SET) -> SceneLinks:
-    """Return a robot with a link, in rest frame, for each bone that has a part, and joints with the bones' limits."""
+    """Return a robot with a link in rest frame for each bone that has a part; joints have the limits of the bones."""
     made, connections, findings, pieces = [], [], [], {}
     unit = options.meters_per_unit(context.scene)
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""New origins and axes of objects, with new measurements of the objects with stored results."""
+"""New origins and axes of objects; objects with stored results are measured again."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def reframe_objects(
     def plans_of(
         chosen: Sequence[Object], right: dict[Object, Measured | Stacked]
     ) -> tuple[list[reframe.Plan], list[Finding]]:
-        """Return plans and refusals; add measurements of unchanged objects with stored results to `right`."""
+        """Return plans and refusals; measurements of unchanged objects with stored results go to `right`."""
         plans: list[reframe.Plan] = []
         failures: list[Finding] = []
         measured = measured_in_turn(chosen, context.evaluated_depsgraph_get(), CENTER if move_only else POSE)

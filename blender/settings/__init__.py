@@ -9,13 +9,6 @@ from ...core.lazy import lazy_names
 if TYPE_CHECKING:
     from . import density as density
     from . import given as given
-    from . import limits as limits
     from . import options as options
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    density="density",
-    given="given",
-    limits="limits",
-    options="options",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

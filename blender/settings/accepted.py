@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings that a user has judged and accepted, by object and code.
+"""Findings that the user has accepted, by object and code.
 
 An accepted warning counts as a note in the panel, in stored results and in records.
 """
@@ -23,7 +23,7 @@ def accepted_codes(obj: Object) -> frozenset[str]:
 
 
 def set_accepted(obj: Object, code: str, accepted: bool) -> bool:
-    """Accept the findings with a code for an object, or withdraw this; return whether anything changed."""
+    """Accept the findings with a code for an object, or revoke this; return whether anything changed."""
     before = accepted_codes(obj)
     after = before | {code} if accepted else before - {code}
     if after != before:
@@ -32,7 +32,7 @@ def set_accepted(obj: Object, code: str, accepted: bool) -> bool:
 
 
 def with_acceptance(findings: Iterable[Finding], codes: Collection[str]) -> tuple[Finding, ...]:
-    """Return the findings, marked as accepted if and only if `codes` contains their code."""
+    """Return the findings, marked as accepted exactly if `codes` contains their code."""
     return tuple(_marked(finding, finding.code in codes) for finding in findings)
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of the masses of assemblies and of pose bones.
+"""The settings of the masses of assemblies and of pose bones, and of the weight of characters.
 
 An assembly is a collection, or an empty with its children; the rows of its tree are kept beside its settings.
 """
@@ -8,7 +8,7 @@ An assembly is a collection, or an empty with its children; the rows of its tree
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Collection, Context, Object, PoseBone, PropertyGroup
 
-from .given import GivenPartProperties, shows_collection
+from .given import GivenPartProperties, density_property, mass_property, shows_collection
 from .hooks import part_changed
 
 Root = Object | Collection
@@ -49,21 +49,13 @@ class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
         default="MEMBERS",
         update=part_changed,
     )
-    mass: FloatProperty(
-        name="Mass",
-        description="Mass of the whole in kilograms, independent of the scene units",
-        default=1.0,
-        min=0.0,
-        step=10,
-        precision=6,
-        update=part_changed,
-    )
+    mass: mass_property("Mass of the whole in kilograms, independent of the scene units", part_changed)
     rows: CollectionProperty(name="Members", type=BodyMomentsAssemblyRow)
     active_row: IntProperty(name="Active Member", description="Member that is highlighted in the tree")
 
 
 def is_assembly(data: Root) -> bool:
-    """Return whether `data` is a collection, or an empty that stands for its children."""
+    """Return whether `data` is a collection, or an empty that is measured with its children."""
     return isinstance(data, Collection) or data.type == "EMPTY" and not shows_collection(data) and bool(data.children)
 
 
@@ -95,30 +87,55 @@ class BodyMomentsBoneSettings(PropertyGroup):
         default="MESH",
         update=part_changed,
     )
-    density: FloatProperty(
-        name="Density",
-        description="Density in kg/m³ of what is skinned to the bone, independent of the scene units",
-        default=1000.0,
-        min=0.0,
-        soft_max=25000.0,
-        step=1000,
-        precision=3,
+    density: density_property(
+        "Density in kg/m³ of what is skinned to the bone, independent of the scene units", part_changed
+    )
+    mass: mass_property("Mass of the bone's part in kilograms, independent of the scene units", part_changed)
+    is_contact: BoolProperty(
+        name="Contact",
+        description="Only such bones touch the ground. If no bone of the armature is one, every bone may",
+        override={"LIBRARY_OVERRIDABLE"},
+        update=part_changed,
+    )
+
+
+class BodyMomentsWeightSettings(PropertyGroup):
+    """Settings of an armature's weight: what the viewport shows, its total mass and its ground."""
+
+    show: BoolProperty(
+        name="Weight",
+        description="Draw center of mass, plumb line and support polygon of the character as it is posed",
+        override={"LIBRARY_OVERRIDABLE"},
         update=part_changed,
     )
     mass: FloatProperty(
-        name="Mass",
-        description="Mass of the bone's part in kilograms, independent of the scene units",
-        default=1.0,
+        name="Total Mass",
+        description="Mass of all bones in kilograms; those with a mass of their own keep it. At 0, the measured mass",
+        default=0.0,
         min=0.0,
         step=10,
-        precision=6,
+        precision=3,
+        override={"LIBRARY_OVERRIDABLE"},
+        update=part_changed,
+    )
+    ground: FloatProperty(
+        name="Ground",
+        description="Height of the ground, against gravity from the world origin. Show Weight finds it",
+        unit="LENGTH",
+        override={"LIBRARY_OVERRIDABLE"},
         update=part_changed,
     )
 
 
-CLASSES = (BodyMomentsAssemblyRow, BodyMomentsAssemblySettings, BodyMomentsBoneSettings)
+CLASSES = (
+    BodyMomentsAssemblyRow,
+    BodyMomentsAssemblySettings,
+    BodyMomentsBoneSettings,
+    BodyMomentsWeightSettings,
+)
 POINTERS = {
     (Collection, "body_moments"): BodyMomentsAssemblySettings,
     (Object, "body_moments_assembly"): BodyMomentsAssemblySettings,
+    (Object, "body_moments_weight"): BodyMomentsWeightSettings,
     (PoseBone, "body_moments"): BodyMomentsBoneSettings,
 }

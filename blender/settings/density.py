@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The density of an object in its settings: one number or a varying field, and its key for the fingerprint."""
+"""The density in an object's settings, one number or a varying field, and its key for the fingerprint."""
 
 from __future__ import annotations
 

@@ -1,21 +1,34 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The given center and inertia of a part with a given mass.
+"""Settings of masses and densities that objects, materials, assemblies and bones share; given centers and inertia.
 
-Objects and assemblies have the same settings for them, which count only if the mass is given.
+A given center and inertia count only if the mass is given.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from bpy.props import BoolProperty, FloatVectorProperty
+from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty
 from bpy.types import Object, PropertyGroup
 
 from ...core.measurement.documents import plain
 from ...core.numerics.float32 import shortest_decimal
-from .hooks import changed
+from .hooks import Hook, changed
 
 GIVEN_PROPERTIES = ("use_center", "given_center", "use_inertia", "given_inertia_diagonal", "given_inertia_products")
 Row = tuple[float, ...]
+COLLIDER = "body_collider"  # ID property of a collider: kind, size in m and mass in kg; its parent is the body
+COLLIDERS = "body_colliders"  # ID property of a body with colliders: what they do to its physics
+
+
+def mass_property(description: str, update: Hook, name: str = "Mass") -> Any:
+    """Return a property of a given mass."""
+    return FloatProperty(name=name, description=description, default=1.0, min=0.0, step=10, precision=6, update=update)
+
+
+def density_property(description: str, update: Hook, **special: Any) -> Any:
+    """Return a property of a density in kg/m³; `special` arguments replace the usual ones."""
+    usual = {"name": "Density", "default": 1000.0, "min": 0.0, "soft_max": 25000.0, "step": 1000, "precision": 3}
+    return FloatProperty(description=description, update=update, **{**usual, **special})
 
 
 class GivenPartProperties:
@@ -60,7 +73,7 @@ class GivenPartProperties:
 
 
 class GivenPart(NamedTuple):
-    """Given values of a part beside its mass, SI, in its own frame; a value is None if it follows from the geometry.
+    """Given values of a part besides its mass, SI, in its own frame; None for values that follow from the geometry.
 
     center: (3,) center of mass, m. inertia: (3, 3) rows of the tensor about the center, kg·m².
     """
@@ -85,16 +98,16 @@ class GivenPart(NamedTuple):
 
     @property
     def key(self) -> str:
-        """Text that changes with the given values, "" if there are none."""
+        """A text that changes with the given values, "" if there are none."""
         return repr(plain([self.center, self.inertia])) if self else ""
 
 
 def shows_collection(obj: Object) -> bool:
-    """Return whether the object instances a collection; it may keep a chosen collection with instancing off."""
+    """Return whether the object instances a collection; a chosen collection may have its instancing off."""
     return obj.instance_type == "COLLECTION" and obj.instance_collection is not None
 
 
 def is_point_mass(obj: Object) -> bool:
-    """Return whether an object without any geometry stands for a part of given mass."""
+    """Return whether an object without geometry is a part of given mass."""
     settings = getattr(obj, "body_moments", None)  # None if the add-on is not registered
     return obj.type == "EMPTY" and not shows_collection(obj) and settings is not None and settings.mass_from == "MASS"

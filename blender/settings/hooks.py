@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Functions called when settings change, so that settings need not know the session: the session registers them."""
+"""Functions called after a change of a setting; the session registers them, so that settings need not import it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LISTS = on_change, on_density_change, on_wall_change, on_threshold_change, on_de
 
 
 def _update(*hooks: list[Hook]) -> Hook:
-    """Return the update function of properties: it calls all of these hooks."""
+    """Return the update function of a property, which calls all of these hooks."""
 
     def call(settings: PropertyGroup, context: Context) -> None:
         for hook in chain(*hooks):

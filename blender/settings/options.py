@@ -1,26 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Overrides of the objects' own settings."""
+"""Options that override objects' settings, and their resolution into the settings of a measurement."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
-from bpy.types import Scene
+from bpy.types import Object, Scene
 
+from ...core.measurement.settings import RequestedResults, Settings
 from ...core.numerics.float32 import shortest_decimal
+from .density import object_density
 
 
 @dataclass(frozen=True)
-class MeasureOptions:
-    """Overrides of the objects' own settings, in SI units; None leaves the setting.
+class MeasureOptions(RequestedResults):
+    """Overrides of the objects' own settings, as in `Settings`; None leaves the setting.
 
-    kind: "solid", "shell" or "wire"; density: kg/m³, of a wire kg/m; mass: kg; thickness: m; overlap: "signed" or
-    "union"; wall: of a shell, "thin", "inward", "outward" or "centered"; unit_scale: meters per Blender unit, else the
-    scene's. order: of the measurement's moments; None for the order that mass properties need. surface: moments of the
-    area, too. pose: the principal frame follows the body's shape to sixth order, for any number of faces. compare:
-    bodies that need no display mesh are compared with it. axes: moments above third order choose the principal axes if
-    lower moments leave a choice; otherwise any of the possible axes may result.
+    unit_scale: meters per Blender unit, else the scene's.
     """
 
     kind: str | None = None
@@ -30,12 +27,6 @@ class MeasureOptions:
     overlap: str | None = None
     wall: str | None = None
     unit_scale: float | None = None
-    threads: int = 1
-    order: int | None = None
-    surface: bool = False
-    pose: bool = False
-    compare: bool = True
-    axes: bool = True
 
     def meters_per_unit(self, scene: Scene) -> float:
         """Return the length of a Blender unit in meters: the given one, else the scene's."""
@@ -43,3 +34,28 @@ class MeasureOptions:
 
 
 AS_SET = MeasureOptions()  # every object as its own settings say
+
+
+def object_settings(obj: Object, scene: Scene, options: MeasureOptions = AS_SET, unit: float | None = None) -> Settings:
+    """Return the options with gaps filled from the object's, and the scene's, settings."""
+    properties = obj.body_moments
+    density, mass = options.density, options.mass
+    unit = unit or options.meters_per_unit(scene)
+    # Volume objects do not show the setting Kind
+    kind = options.kind or ("solid" if obj.type == "VOLUME" else properties.kind.lower())
+    if density is None and mass is None:
+        if properties.mass_from == "MASS":
+            mass = shortest_decimal(properties.mass)
+        else:
+            is_wire = kind == "wire"
+            density = shortest_decimal(properties.linear_density) if is_wire else object_density(properties, scene)
+    return Settings(
+        kind=kind,
+        density=density,
+        mass=mass,
+        thickness=shortest_decimal(properties.thickness) * unit if options.thickness is None else options.thickness,
+        overlap=options.overlap or properties.overlap.lower(),
+        wall=options.wall or properties.wall.lower(),
+        unit=unit,
+        **{field.name: getattr(options, field.name) for field in fields(RequestedResults)},
+    )

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: initial settings of a scene.
+"""The add-on's preferences: initial settings of a scene, copied into it when it is first used (`copy_defaults`).
 
-They are copied into a scene when it is first used (`copy_defaults`), and from then on the scene decides: a file gives
-the same numbers on every machine, and in batch, which never reads preferences.
+So a file gives the same numbers on every machine, and in batch, which never reads preferences.
 """
 
 from __future__ import annotations
@@ -17,6 +16,7 @@ from bpy.types import AddonPreferences, Context, Scene, UILayout
 
 from ...core.density.materials import BY_NAME, MATERIALS
 from ...core.numerics.float32 import shortest_decimal
+from .given import density_property
 from .hooks import default_density_changed
 
 ADDON_ID = __name__.removesuffix(".blender.settings.preferences")
@@ -80,15 +80,11 @@ class SceneDefaults:
         default="NONE",
         update=default_density_changed,
     )
-    default_density: FloatProperty(
+    default_density: density_property(
+        "Density in kg/m³ of objects whose density has not been set",
+        default_density_changed,
         name="Default Density",
-        description="Density in kg/m³ of objects whose density has not been set",
-        default=1000.0,
         min=0.01,
-        soft_max=25000.0,
-        step=1000,
-        precision=3,
-        update=default_density_changed,
     )
 
 
@@ -166,7 +162,7 @@ def copy_defaults(scene: Scene) -> None:
 
 
 def default_density(scene: Scene) -> float | None:
-    """Return the density in kg/m³ of the scene's objects that have none of their own, None if the scene has none."""
+    """Return the density in kg/m³ of the scene's objects without their own, None if the scene has none."""
     settings = scene.body_moments
     if settings.default_material == "CUSTOM":
         return shortest_decimal(settings.default_density)

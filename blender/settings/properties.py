@@ -1,10 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of an object's body and of its materials.
+"""The settings of an object's body and of its materials, in property groups; results live in ID properties.
 
-They live in property groups (`Object.body_moments`, `Material.body_moments`, `Scene.body_moments`); results live in ID
-properties, never here. The given mass has no unit type: Blender would scale a `unit='MASS'`
-property by scale_length³, while a weighed part weighs the same in all units.
+The given mass has no unit type: Blender would scale it by scale_length³, while a part weighs the same in all units.
 """
 
 import bpy
@@ -14,7 +12,7 @@ from bpy.types import Context, Material, Object, PropertyGroup, Scene
 from ...core.density.materials import BY_NAME, CT_DENSITIES, DENSITY_UNITS, density_unit
 from ...core.numerics.float32 import shortest_decimal
 from .density import object_density
-from .given import GIVEN_PROPERTIES, GivenPartProperties, is_point_mass
+from .given import GIVEN_PROPERTIES, GivenPartProperties, density_property, is_point_mass, mass_property
 from .hooks import changed, density_changed, threshold_changed, wall_changed
 
 TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Blender's own translations
@@ -41,7 +39,7 @@ def _forget_material(settings: PropertyGroup, _context: Context | None = None) -
 
 
 def _density_in(unit: str, description: str):
-    """Return a property that shows and sets the setting `density` in another unit, for fields of a panel."""
+    """Return a property that gets and sets the setting `density` in another unit."""
     factor, name = DENSITY_UNITS[unit]
     return FloatProperty(
         name="Density ({:s})".format(name),
@@ -142,38 +140,16 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         default="density",
         update=changed,
     )
-    density: FloatProperty(
-        name="Density",
-        description="Density in kg/m³, independent of the scene units",
-        default=1000.0,
-        min=0.0,
-        soft_min=0.01,
-        soft_max=25000.0,
-        step=1000,
-        precision=3,
-        update=_density_changed,
-    )
+    density: density_property("Density in kg/m³, independent of the scene units", _density_changed, soft_min=0.01)
     density_kg_m3: _density_in("KG_M3", "Density in {:s}")
     density_g_cm3: _density_in("G_CM3", "Density in {:s}")
     density_lb_in3: _density_in("LB_IN3", "Density in {:s}")
     density_lb_ft3: _density_in("LB_FT3", "Density in {:s}")
-    linear_density: FloatProperty(
-        name="Linear Density",
-        description="Mass per length of the wire in kg/m, independent of the scene units",
-        default=1.0,
-        min=0.0,
-        step=10,
-        precision=6,
-        update=density_changed,
+    linear_density: mass_property(
+        "Mass per length of the wire in kg/m, independent of the scene units", density_changed, "Linear Density"
     )
-    mass: FloatProperty(
-        name="Mass",
-        description="Mass in kilograms, independent of the scene units. Type pounds as 5*0.45359237",
-        default=1.0,
-        min=0.0,
-        step=10,
-        precision=6,
-        update=density_changed,
+    mass: mass_property(
+        "Mass in kilograms, independent of the scene units. Type pounds as 5*0.45359237", density_changed
     )
     wall: EnumProperty(
         name="Wall",
@@ -263,15 +239,13 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         default="FACTOR",
         update=changed,
     )
-    value_density: FloatProperty(
+    value_density: density_property(
+        "Density in kg/m³ where the grid value is 1",
+        changed,
         name="Density of Value 1",
-        description="Density in kg/m³ where the grid value is 1",
         default=1.0,
-        min=0.0,
-        soft_max=25000.0,
         step=100,
         precision=4,
-        update=changed,
     )
     transfer_table: StringProperty(
         name="Transfer Table",
@@ -314,15 +288,10 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
 class BodyMomentsMaterialSettings(PropertyGroup):
     """Settings of a material's density."""
 
-    density: FloatProperty(
-        name="Density",
-        description="Density in kg/m³, independent of the scene units. At 0, the density of the object is used",
+    density: density_property(
+        "Density in kg/m³, independent of the scene units. At 0, the density of the object is used",
+        _forget_material,
         default=0.0,
-        min=0.0,
-        soft_max=25000.0,
-        step=1000,
-        precision=3,
-        update=_forget_material,
     )
     density_kg_m3: _density_in("KG_M3", "Density in {:s}. At 0, the density of the object is used")
     density_g_cm3: _density_in("G_CM3", "Density in {:s}. At 0, the density of the object is used")
@@ -352,7 +321,7 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
 
 
 def _comparable(value):
-    """Return the value in a form that can be compared: an array as its numbers."""
+    """Return the value in a form that can be compared: an array as a tuple of its numbers."""
     return value[:] if hasattr(value, "foreach_get") else value
 
 

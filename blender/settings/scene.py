@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of a scene: display of numbers, initial settings of its objects, the overlay, and the reference.
+"""The settings of a scene, declared as property groups: display, initial settings, overlay, and reference.
 
 Inertia and moments are shown about the reference.
 """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stored results: ID properties on the object, the public contract for drivers, rigs and exporters.
+"""The stored results as ID properties of an object: the public contract for drivers, rigs and exporters.
 
 SI units, object frame (the object's location and rotation, unit scale). Inertia is six tensor entries about the center
 of mass, xx, yy, zz, xy, xz, yz, with xy = -∫xy dm.
@@ -82,6 +82,7 @@ LENGTHS = {
     "body_error_bound": 8,
 }
 BALANCE_GROUP = "body_balance_group"  # on an empty that shows a group: the names of its objects, one a line
+BALANCE_SPANS = "body_balance_spans"  # on it: first frame, last frame, N·s and N·m·s from nothing, span after span
 OPTIONAL = ("body_length", "body_display_volume")  # for wires, and for bodies measured without their display mesh
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 
@@ -235,7 +236,7 @@ def store_reference(obj: Owner, values: dict) -> None:
 
 
 def require_storable(obj: Owner) -> None:
-    """Raise EditRefusedError for an owner that cannot hold results."""
+    """Raise EditRefusedError for an owner that cannot store results."""
     data = obj.id_data
     if not data.is_editable or data.override_library is not None:  # saving drops an override's new ID properties
         raise EditRefusedError(LINKED_OBJECT, subject=data.name_full)
@@ -252,7 +253,7 @@ def clear(obj: Owner) -> bool:
 
 
 def retrigger_drivers(obj: Owner) -> None:
-    """Make Blender evaluate the drivers that read the stored results, and nothing else.
+    """Make Blender evaluate only the drivers that read the stored results.
 
     Tags do more: TIME evaluates the object's animation, which reverts unkeyed changes; OBJECT evaluates dependents of
     its place, such as Booleans that it is an operand of. If a property is set that is only drawn, Blender copies the
@@ -265,12 +266,12 @@ def retrigger_drivers(obj: Owner) -> None:
 
 
 def is_stored(obj: Owner) -> bool:
-    """Return whether the object carries results."""
+    """Return whether the object has results."""
     return stored(obj) is not None
 
 
 def method(obj: Owner) -> Method | None:
-    """Return the method of the stored numbers; None if there are none, or this version does not know their method."""
+    """Return the method of the stored numbers; None without numbers, and for a method of another version."""
     return Method.parse(method_text(obj))
 
 
@@ -338,18 +339,18 @@ def is_estimated(obj: bpy.types.Object) -> bool:
 
 
 def optional(obj: Owner, key: str) -> float | None:
-    """Return the result of a key in OPTIONAL, or None if the object does not carry it."""
+    """Return the value of a key in OPTIONAL, or None if the object does not have it."""
     value = obj.get(key)
     return value if isinstance(value, float) else None
 
 
 def density_from(obj: Owner) -> str:
-    """Return the source of the stored numbers' density, "" if it is the same everywhere."""
+    """Return the source of the stored numbers' density, "" if the density is uniform."""
     return str(obj.get("body_density_from", ""))
 
 
 def stored(obj: Owner) -> PlainBody | None:
-    """Return the stored results, in the object frame; None if one is missing or, error bounds aside, not finite."""
+    """Return the stored results, in the object frame; None if one is missing or (except error bounds) not finite."""
     values: list[Any] = []
     for key, length in LENGTHS.items():
         value = obj.get(key)

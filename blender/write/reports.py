@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Texts of operators: reports, reasons why a button is off, the status bar.
+"""Texts of operators: reports, reasons for disabled buttons, the status bar.
 
 A text of the interface is an English template at the place where it is shown; `phrase` translates and fills it.
 Findings are shown by their sentences. Both are in the language of the interface, with lengths in the scene's units.
@@ -25,6 +25,14 @@ MAX_REPORTED = 3  # findings that a report names; it counts the others
 LEVELS = {Severity.NOTE: "INFO", Severity.WARNING: "WARNING", Severity.ERROR: "ERROR"}
 
 
+class Refused(Exception):
+    """The reason why an operator does nothing: an English text, filled with values."""
+
+    def __init__(self, text: str, **values: Any):
+        super().__init__(text)
+        self.text, self.values = text, values
+
+
 def phrase(template: str, plural: str | None = None, /, **values: Any) -> str:
     """Return an interface text, translated and filled as sentences are; plural: for a `count` other than 1."""
     return fill(template, plural, values, bpy.app.translations.pgettext_rpt, _length)
@@ -35,7 +43,7 @@ def text(*parts: Finding | str) -> str:
     joined = ""
     for part in parts:
         added = part if isinstance(part, str) else sentence(part, bpy.app.translations.pgettext_rpt, _length)
-        between = " " if joined.endswith(".") else ". " if added.endswith(".") else "; "
+        between = " " if joined.endswith((".", ":")) else ". " if added.endswith(".") else "; "
         joined += between + added if joined else added
     return joined
 
@@ -49,7 +57,7 @@ def _rank(part: Finding | str) -> Severity:
 
 
 def report(operator: Operator, *parts: Finding | str, level: Severity = Severity.NOTE) -> None:
-    """Report texts and findings at once, as severe as the most severe finding. level: the severity of the texts."""
+    """Report texts and findings in one message, with the highest severity. level: the severity of the texts."""
     worst = max(level, *map(_rank, parts), key=[*Severity].index)
     operator.report({LEVELS[worst]}, text(*parts))
 
@@ -62,7 +70,7 @@ def unavailable(operator: type[Operator], reason: str) -> bool:
 
 @contextmanager
 def progress(count: float) -> Iterator[Callable[[float], None]]:
-    """Yield a function to call with the completed part of `count`; shown at the cursor if `count` is more than 1."""
+    """Yield a function that displays the finished part of `count` at the cursor, if `count` is more than 1."""
     manager = bpy.context.window_manager
     if count <= 1:
         yield lambda _done: None
@@ -75,13 +83,13 @@ def progress(count: float) -> Iterator[Callable[[float], None]]:
 
 
 def first(parts: Sequence[Any]) -> list[Any]:
-    """Return at most MAX_REPORTED findings or texts, the most severe first, and the number of the others."""
+    """Return at most MAX_REPORTED findings or texts, the most severe first, and the number of omitted ones."""
     ranked = sorted(parts, key=lambda part: [*Severity].index(_rank(part)), reverse=True)
     return truncate_findings(ranked, MAX_REPORTED)
 
 
 def failure(name: str, reason: Finding | Exception) -> Finding:
-    """Return the finding that one of several objects was left as it is: it was refused, or this program failed."""
+    """Return the finding that one of several objects was left unchanged, by a refusal or an internal error."""
     cause = reason if isinstance(reason, Finding) else internal_error.finding_of(reason)
     return finding(FAILURE, object=name, cause=cause.as_record())
 

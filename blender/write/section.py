@@ -44,7 +44,7 @@ ABOUT = ("x", "y", "1", "2")
 
 
 class StoredSection(NamedTuple):
-    """A stored section; `unit` is in meters per Blender unit at the time of the measurement."""
+    """A stored section; `unit` is in meters per Blender unit at its measurement."""
 
     section: Section
     description: str

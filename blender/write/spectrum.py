@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.files.whole_file import whole_file
-from ...core.fourier.spectrum import Spectrum
+from ...core.fourier.wave_vectors import Spectrum
 from ...core.measurement.documents import SPECTRUM_ARRAYS
 
 IMAGE_MARK = "body_fourier"  # property of the images that may be overwritten; its value is their name
@@ -28,7 +28,7 @@ def save(
     check: Callable[[Path], None] | None = None,
     plane: Mapping[str, Any] | None = None,
 ) -> None:
-    """Write a spectrum as an .npz file, whole or not at all.
+    """Write a spectrum as an .npz file, complete or not at all.
 
     The arrays are q, (M, 3) in rad/m; F, (M,) complex in m³ or m²; error, (M,) bounds of the rounding; input, a bound
     of the error by float32 coordinates; method; frame. check: as in `whole_file`. plane: the further

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A report that a person reads, in the order of CAD dialogs: verdict, mass, volume, center, principal axes, tensor.
 
-It is made from a document (`documents.document`) alone, and results stored on objects become a document first, so
-that the report can state everything that JSON states. Entries missing in a document are left out.
+It is made from a document (`documents.document`); results stored on objects become a document first.
 """
 
 from __future__ import annotations
@@ -167,7 +166,7 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
 
 
 def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any]:
-    """Return the record of an object's stored results; its health is empty, because it is not stored."""
+    """Return the record of an object's stored results, with an empty health, which is not stored."""
     method, findings = properties.method(obj), properties.findings(obj)
     kinds = {Verdict.SHELL: "shell", Verdict.WIRE: "wire"}
     source = properties.density_from(obj)

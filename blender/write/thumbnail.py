@@ -60,7 +60,7 @@ def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) ->
 
 
 def _covered_pixels(corners: NDArray) -> tuple[NDArray, NDArray[np.float64]]:
-    """Return the (k,) triangles that cover centers of pixels, and these (k, 3) points; none if there are too many."""
+    """Return the (k,) triangles that cover centers of pixels, and these (k, 3) points; none if too many."""
     flat = corners[:, :, :2]
     first, last = np.ceil(flat.min(axis=1)).astype(int), np.floor(flat.max(axis=1)).astype(int)
     spans = np.maximum(last - first + 1, 0)

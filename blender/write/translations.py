@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Other languages, by Blender's own mechanism: the text in the source is looked up, and then filled.
 
-Blender itself looks up labels, tooltips and texts without placeholders. Everything with placeholders goes through
-`localized` or `localized_sentence`, and is drawn with `translate=False`. Stored texts and records stay English.
-
-The translations are `locale/*.po`, by the English text, in gettext's format, which the tools of translators write. Only
-the file of the interface's language is read.
+Blender looks up labels, tooltips and texts without placeholders; all others go through `localized` or
+`localized_sentence`, and are drawn with `translate=False`. Stored texts and records stay English. The translations are
+`locale/*.po`, by the English text; only the file of the interface's language is read.
 """
 
 from __future__ import annotations
@@ -76,7 +74,7 @@ def register_language(*_: Any) -> None:
 
 
 def localized(text: str) -> str:
-    """Return an interface text in the user's language, before it is filled."""
+    """Return an interface text in the user's language, not yet filled with values."""
     return bpy.app.translations.pgettext_iface(text, CONTEXT)
 
 

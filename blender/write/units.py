@@ -1,11 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""SI numbers in the scene's units, with their units.
+"""SI numbers in the scene's units, with their units, digits and grouping.
 
-Blender's own formatter has no density and no inertia, and shows a microgram as "0 kg". So all
-quantities are formatted here, from the scene's system, length unit and mass unit, and from its number format: how many
-significant digits, how they are grouped, in which unit densities are. Areas, volumes and inertias follow the two chosen
-units; an adaptive unit is chosen for each column of numbers, which share it and their decimals.
+Blender's own formatter has no density and no inertia, and shows a microgram as "0 kg". Areas, volumes and inertias
+follow the scene's length and mass unit; the numbers of a column share an adaptive unit and their decimals.
 """
 
 from __future__ import annotations
@@ -113,7 +111,7 @@ class Units(NamedTuple):
         return text
 
     def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
-        """Return SI values of one quantity as a column, all in one unit with equally many decimals.
+        """Return SI values of one quantity as a column of texts, in one unit and with equally many decimals.
 
         The largest value decides the unit. size: of the body that they belong to; rounding beside it is shown as 0.
         """
@@ -190,7 +188,7 @@ def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[
 
 
 def rounded_up(bound: float) -> float:
-    """Return a bound rounded up to two digits, as rounding down would make it wrong."""
+    """Return a bound rounded up to two digits, so that it stays a bound."""
     text = "{:.1e}".format(bound)
     if not float(text) < bound:
         return float(text)
@@ -250,6 +248,6 @@ def report_vector(values: Sequence[float | None], size: float = 0.0) -> str:
 
 
 def clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
-    """Return the values, with 0.0 for those that are only rounding beside the largest value or the body's size."""
+    """Return the values, with 0.0 for values within rounding of the largest one or of the body's size."""
     largest = max([size, *(abs(value) for value in values if value is not None)])
     return [0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value for value in values]

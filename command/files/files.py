@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Opening of a user's file as the scene, which raises FileError with the reason if it fails.
 
-Every file starts from an empty scene of factory settings, so that no object of an earlier file, or of a user's own
-start-up file, is measured with it. Scripts inside .blend files never run. Files that Blender's importers accept
-silently are refused here: a FIFO (it would block for ever), a file without objects.
+Every file starts from an empty scene of factory settings. Scripts inside .blend files never run. Files that Blender's
+importers accept silently are refused: a FIFO (it would block for ever), a file without objects.
 """
 
 from __future__ import annotations
@@ -23,11 +22,8 @@ from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from .finite import check_numbers
-from .import_3mf import import_3mf
-from .import_gltf import import_gltf
-from .import_mesh import import_mesh
-from .import_surfaces import import_iges, import_obj
 from .import_usd import import_usd
+from .importers import import_3mf, import_gltf, import_iges, import_mesh, import_obj
 from .references import Opened
 from .suffixes import BLEND, USD, check_file, file_suffix
 

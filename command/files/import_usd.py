@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ...blender.scene.findings import SURFACES_ROUNDED
 from ...blender.scene.surface_objects import surface_data
 from ...core.cad.obj import UPRIGHT
-from ...core.cad.revolution import revolved_solid
+from ...core.cad.surfaces import revolved_solid
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, USD_CAGE, USD_UNREAD

@@ -1,24 +1,40 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Output of the result: to a file, whole or not at all, or alone on the standard output.
+"""Output of the result: to a file, whole or not at all, or alone on the standard output; checks of its place.
 
-Blender and its importers print on the standard output from C. So `claim_stdout` keeps the original
-standard output for the result, and descriptor 1 becomes the standard error. It is not restored, because output that C
-has buffered would then follow the result: the process ends after the commands that call `claim_stdout`.
+Blender and its importers print on the standard output from C. So `claim_stdout` keeps the original one for the result,
+and descriptor 1 becomes the standard error until the process ends, as C may print what it has buffered at any time.
 """
 
 from __future__ import annotations
 
+import csv
 import os
+import re
 import sys
-from collections.abc import Callable, Iterable
+import zipfile
+from argparse import Namespace
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
+from typing import NoReturn
 
 from ...core.files.whole_file import whole_file
+from ...core.measurement.documents import FLAT_SPECTRUM_ARRAYS, SPECTRUM_ARRAYS, to_csv
 from ...core.measurement.plain_text import print_message
+from ...core.robots.write.marker import is_audit, is_ours
 from ...core.verdict.finding import system_reason
+from ..options.arguments import TARGETS
+from ..options.arguments import fail as fail_measure
 
 _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may not be 1 any more
+_HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
+_BEGINNING = re.compile(rb'(\s*\[?\s*\{\s*"schema"\s*:\s*"body-moments[a-z-]*/)|<!doctype html><!-- Body Moments')
+_SPECTRUM = {name + ".npy" for name in SPECTRUM_ARRAYS}
+_FLAT_SPECTRUM = _SPECTRUM | {name + ".npy" for name in FLAT_SPECTRUM_ARRAYS}
+_COLUMNS = next(csv.reader(to_csv([])))
+_LAST = 2  # columns at the end, behind optional ones
+Fail = Callable[[str], NoReturn]  # ends a command with the reason and its usage
 
 
 def claim_stdout() -> int:
@@ -69,3 +85,71 @@ def _write_all(channel: int, data: bytes) -> None:
     view = memoryview(data)
     while view:
         view = view[os.write(channel, view) :]
+
+
+def is_replaceable(path: Path) -> bool:
+    """Return whether a result may replace `path` without loss: nothing, no regular file, an empty file, or a result.
+
+    Raises OSError.
+    """
+    return not path.is_file() or not path.stat().st_size or is_result(path)
+
+
+def is_result(path: Path) -> bool:
+    """Return whether a file is a result, a journal or a list of ours. Raises OSError."""
+    with open(path, "rb") as file:
+        head = file.read(_HEAD)
+    return bool(_BEGINNING.match(head)) or is_ours(head) or is_audit(head) or _is_table(head) or _is_spectrum(path)
+
+
+def guard(force: bool) -> Callable[[Path], None]:
+    """Return a check for `whole_file` that raises FileExistsError if a foreign file would be lost, unless `force`."""
+
+    def check(path: Path) -> None:
+        if not force and not is_replaceable(path):
+            raise FileExistsError("{} is not a result of body_moments and would be lost".format(path))
+
+    return check
+
+
+def _is_table(head: bytes) -> bool:
+    columns = head.split(b"\n", 1)[0].rstrip(b"\r").decode("utf-8", "replace").split(",")
+    return columns[: len(_COLUMNS) - _LAST] == _COLUMNS[:-_LAST] and columns[-_LAST:] == _COLUMNS[-_LAST:]
+
+
+def _is_spectrum(path: Path) -> bool:
+    with suppress(zipfile.BadZipFile), zipfile.ZipFile(path) as arrays:
+        return {*arrays.namelist()} in (_SPECTRUM, _FLAT_SPECTRUM)
+    return False
+
+
+def check_targets(options: Namespace, read: Sequence[str | Path], fail: Fail = fail_measure) -> None:
+    """Call `fail` with a message if a result cannot be written, or would replace an input or a foreign file."""
+    for option in TARGETS:
+        target = getattr(options, option, None)
+        if target is None or is_stdout(target):
+            continue
+        try:
+            refusal = _find_refusal(target, read, options.force)
+        except OSError as error:  # a name that is too long, a folder that may not be entered
+            refusal = "{}: {}. Use another name".format(error.filename or target, system_reason(error))
+        if refusal:
+            fail("argument --{}: {}".format(option.replace("_", "-"), refusal))
+
+
+def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
+    """Return the reason why a result must not be written, or an empty text. Raises OSError."""
+    if not target.parent.is_dir():
+        return "no folder {}".format(target.parent)
+    if target.is_dir():
+        return "{} is a folder".format(target)
+    if is_stream(target):
+        return ""
+    folder = os.path.dirname(os.path.realpath(target))
+    if not os.access(folder, os.W_OK):
+        return "no file can be written in {}. Use another folder".format(folder)
+    if target.exists() and any(os.path.exists(path) and target.samefile(path) for path in read):
+        return "{} is a file that is read. Use another name".format(target)
+    if not (force or is_replaceable(target)):
+        return "{} is not a result of body_moments and would be lost. Use another name, or --force".format(target)
+    return ""

@@ -11,4 +11,4 @@ if TYPE_CHECKING:
     from . import scene as scene
 
 # These need Blender.
-__getattr__, __dir__, __all__ = lazy_names(__name__, robots="robots", scene="scene")
+__getattr__, __dir__, __all__ = lazy_names(__name__)

@@ -18,11 +18,10 @@ from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.write.thumbnail import thumbnail
 from ...core.bodies.array_file import ArrayOptions, measure_array
 from ...core.bodies.findings import DENSITY_DEFAULTED, SHAPE_OF_GRID
-from ...core.bodies.measure import measure_reading
-from ...core.bodies.mesh_file import body_of_mesh, read_mesh
-from ...core.bodies.stream import measure_mesh_file
-from ...core.cad.meshes import read_meshes
+from ...core.bodies.mesh_file import body_of_mesh, measure_mesh_file, read_mesh
+from ...core.bodies.reading import measure_reading
 from ...core.cad.obj import has_surfaces
+from ...core.cad.surface_file import read_meshes
 from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import Settings
@@ -36,7 +35,7 @@ from .. import measure
 from ..files.suffixes import STREAMED, UNITLESS, check_file, file_suffix
 from ..findings import FOURIER_OBJECT_COUNT, RESULTS_NEED_BLEND, STREAM_OPTIONS
 from ..options.arguments import words
-from ..options.density import density_of
+from ..options.checks import density_of
 from ..options.file import OF_ARRAYS, body_findings, file_findings, unused
 from ..options.needs_blender import NEEDS_BLENDER, boolean_and_wire, options_of_blender
 from ..supervisor.processes import has_blender

@@ -79,15 +79,19 @@ def measure_combined(options: MeasureOptions, internal: Internal, assets: bool =
     def add_rig(armature: Object) -> None:
         found.rigs.append(measure_rig(bpy.context, armature))
 
-    roots = dict.fromkeys(_assemblies(scene))
-    for root in roots:
+    roots = dict.fromkeys(_roots(scene))
+    measured = [
+        root for root in roots if root.get("body_method") == Verdict.ASSEMBLY or settings_of(root).mass_from == "MASS"
+    ]
+    for root in measured:
         found.errors.extend(_tried(root.name, partial(add_assembly, root), internal))
-    for root in _assets(scene) if assets else ():
-        if root not in roots:
+    for root in roots if assets else ():
+        if root.asset_data is not None and root.library is None and root not in measured:
             with suppress(MeasureError):  # assemblies of lamps, or of objects that are left out
                 add_assembly(root)
-    for armature in _armatures(scene):
-        found.errors.extend(_tried(armature.name, partial(add_rig, armature), internal))
+    for armature in sorted(scene.objects, key=lambda obj: obj.name):
+        if armature.type == "ARMATURE" and armature.get("body_method") == Verdict.ASSEMBLY:
+            found.errors.extend(_tried(armature.name, partial(add_rig, armature), internal))
     return found
 
 
@@ -100,26 +104,7 @@ def _tried(name: str, work: Callable[[], object], internal: Internal) -> Iterato
         yield internal(name, error)
 
 
-def _assemblies(scene: Scene) -> Iterator[Root]:
-    """Yield the assemblies of a scene that have been measured, or have a given mass."""
-    for root in _roots(scene):
-        if root.get("body_method") == Verdict.ASSEMBLY or settings_of(root).mass_from == "MASS":
-            yield root
-
-
-def _assets(scene: Scene) -> Iterator[Root]:
-    """Yield the assemblies of a scene that are assets of its file."""
-    return (root for root in _roots(scene) if root.asset_data is not None and root.library is None)
-
-
 def _roots(scene: Scene) -> Iterator[Root]:
     """Yield all collections of a scene, and the empties that are assemblies of their children."""
     empties = (obj for obj in scene.objects if obj.type == "EMPTY" and is_assembly(obj))
     yield from (scene.collection, *scene.collection.children_recursive, *sorted(empties, key=lambda obj: obj.name))
-
-
-def _armatures(scene: Scene) -> Iterator[Object]:
-    """Yield the armature objects of a scene with measured bones."""
-    for obj in sorted(scene.objects, key=lambda obj: obj.name):
-        if obj.type == "ARMATURE" and obj.get("body_method") == Verdict.ASSEMBLY:
-            yield obj

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of a file's objects: together if only mass properties are requested, else each with its shape."""
+"""Measurement of the objects of a file: bodies together or one by one, with their shapes; flat shapes; transforms."""
 
 from __future__ import annotations
 
@@ -11,19 +11,30 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ...blender.bodies.flat.flat import NO_BODY, area_findings, clearer_refusal, flat_region
+from ...blender.bodies.flat.flat_shape import flat_shape_of
+from ...blender.bodies.fourier import flat_transform, object_transform
 from ...blender.bodies.measure_object import Measured, measure_object
 from ...blender.bodies.shape.shape import NoShapeError, shape_of
 from ...blender.bodies.stacks.many import measured_in_turn
 from ...blender.bodies.stacks.stack import Stacked
 from ...blender.read.objects import read_object
 from ...blender.settings.options import MeasureOptions
+from ...blender.write import spectrum
 from ...blender.write.thumbnail import thumbnail
 from ...core.bodies.findings import SIGNATURE_NEEDS_POLYGONS
 from ...core.measurement.measurement import Measurement
+from ...core.measurement.record import flat_record
+from ...core.moments.complex_form import flusser_invariants, hu_invariants, normalize
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, finding
 from ...core.verdict.method import Source
+from ..files.output import guard
 from ..findings import SIGNATURE_OF_DISPLAY_MESH
+from ..options.file import unused
+
+LEAST_ORDER = 2  # moments to this order are always computed
+HU_ORDER = 3  # order for Hu's invariants
 
 
 def measured_together(
@@ -83,3 +94,69 @@ def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | 
         return None
     properties = measurement.mass_properties
     return thumbnail(surface.points.astype(np.float64) * unit, triangles, properties.center, properties.principal.axes)
+
+
+def write_transform(obj: bpy.types.Object, options: Namespace, measure_options: MeasureOptions) -> tuple[Finding, ...]:
+    """Write an object's Fourier transform to a file, and return findings. Raises MeasureError and OSError."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    if options.flat:
+        unit = measure_options.unit_scale
+        under_way = flat_transform(obj, depsgraph, options.waves, frame=options.frame, unit=unit)
+    else:
+        under_way = object_transform(obj, depsgraph, measure_options, options.waves, frame=options.frame)
+    for _ in under_way.steps():
+        pass
+    transform, findings = under_way.result()
+    spectrum.save(options.fourier, transform, options.frame, guard(options.force), under_way.arrays)
+    return findings
+
+
+def is_flat_shape(options: Namespace, refusal: MeasureError) -> bool:
+    """Return whether --flat is given and the refusal says that an object is no body."""
+    return options.flat and refusal.finding.code in NO_BODY
+
+
+def record_of_flat(
+    label: str,
+    obj: bpy.types.Object,
+    options: Namespace,
+    unit: float | None,
+    refusal: MeasureError,
+    findings: tuple[Finding, ...],
+) -> dict[str, Any]:
+    """Return the record of an object as a flat shape.
+
+    refusal: the reason why it is no body. findings: about its file. Raises MeasureError.
+    """
+    try:
+        return _record(label, obj, options, unit, findings)
+    except MeasureError as error:
+        raise clearer_refusal(refusal, error) from None
+
+
+def _record(
+    label: str, obj: bpy.types.Object, options: Namespace, unit: float | None, findings: tuple[Finding, ...]
+) -> dict[str, Any]:
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    order = options.order
+    region = flat_region(obj, depsgraph, selected=False, unit=unit)
+    moments = region.moments(max(order or 0, LEAST_ORDER))
+    posed = unused(["pose"] if options.pose else [])
+    more: dict[str, Any] = {"pose": None} if options.pose else {}
+    more |= {"signature": flat_shape_of(obj, depsgraph, unit).signature().as_record()} if options.signature else {}
+    invariants = []
+    if order is not None and order >= HU_ORDER:
+        normalized = normalize(moments)
+        invariants = [*hu_invariants(normalized), *flusser_invariants(normalized)]
+    return flat_record(
+        label,
+        obj.type,
+        region.plane,
+        moments,
+        (*region.findings, *area_findings(region, moments.total), *posed, *findings),
+        order=order,
+        invariants=invariants,
+        more=more,
+        about=options.about,
+        frame=(options.frame, region.rotation, region.location),
+    )

@@ -59,7 +59,7 @@ def complete(
     if not (options.no_meshes or options.inertial_only or is_stream(options.output)):
         surface_of, read = partial(made.surface, bpy.context), Path(document["file"]) if document["file"] else None
         try:
-            seen = without_collision(made.robot) if options.collision == "none" else made.robot
+            seen = without_collision(made.robot) if options.collision == "none" else made.with_colliders().robot
             robot, told = with_geometry(seen, options.format, surface_of, options.output, read, options.force)
         except OSError as error:
             failed = [finding(FILE_NOT_WRITTEN, file=error.filename or "meshes", error=system_reason(error))]

@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Production of a file's document, by Blender or without it.
 
-Every failure is an entry in `errors` and stops nothing else: a file that cannot be opened, an object that cannot be
-measured, a file that cannot be saved. An unexpected failure is such an entry too, with its traceback on the
-standard error.
+Every failure is an entry in `errors` and stops nothing else; an unexpected one prints its traceback, too.
 """
 
 from __future__ import annotations

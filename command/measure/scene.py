@@ -12,6 +12,7 @@ from typing import Any
 
 import bpy
 
+from ...blender import session
 from ...blender.bodies.measure_object import Measured
 from ...blender.bodies.stacks.stack import Stacked
 from ...blender.read.total_caveats import operands_of, total_caveats
@@ -19,6 +20,7 @@ from ...blender.read.tracking import tracking_paused
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import properties as settings
 from ...blender.settings.density import unset_density
+from ...blender.settings.given import COLLIDERS
 from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...blender.write.properties import store
@@ -29,22 +31,16 @@ from ...core.measurement.trust import open_body_caveats
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ..files.files import newer_version, open_file, requested_file
-from ..files.references import Opened, missing_links
-from ..files.saving import Place
-from ..files.scripts import blocked_scripts, scripts_of_open_file
+from ..files.references import Opened, blocked_scripts, missing_links, scripts_of_open_file
+from ..files.saving import Place, write_assets
 from ..files.suffixes import BLEND, file_suffix
-from ..findings import (
-    FOURIER_OBJECT_COUNT,
-    PART_UNAVAILABLE,
-    RESULTS_NEED_BLEND,
-    SOLID_OPERAND_MEASURED,
-)
-from ..options import density as density_options
+from ..findings import FOURIER_OBJECT_COUNT, PART_UNAVAILABLE, RESULTS_NEED_BLEND, SOLID_OPERAND_MEASURED
+from ..options.checks import density_of
 from ..options.file import body_findings, file_findings, is_unitless
-from . import assets, flat, fourier, robots
+from . import robots
 from .combined import Combined, measure_combined
 from .entries import Contents, failure
-from .measuring import measure_shape, measured_together, thumbnail_of
+from .measuring import is_flat_shape, measure_shape, measured_together, record_of_flat, thumbnail_of, write_transform
 from .objects import objects_to_measure, other_scenes, set_density, why_nothing
 
 
@@ -57,7 +53,7 @@ def measure_options(options: Namespace, threads: int) -> MeasureOptions:
     """Return the options of a command line that override the settings of objects."""
     return MeasureOptions(
         **{name: getattr(options, name) for name in ("kind", "mass", "thickness", "overlap", "wall")},
-        density=density_options.density_of(options),
+        density=density_of(options),
         order=options.order,
         surface=options.surface_moments,
         threads=threads,
@@ -119,7 +115,7 @@ class Scene:
         is_changed = options.write
         if options.asset_metadata and path is not None and file_suffix(path) == BLEND:
             of_objects = {obj: one for _, obj, one in contents.measured}
-            in_file, told = assets.write(of_objects | self._combined.measurements(), path, options.asset_metadata)
+            in_file, told = write_assets(of_objects | self._combined.measurements(), path, options.asset_metadata)
             is_changed = is_changed or in_file
             contents.caveats += told
         if is_changed:
@@ -200,8 +196,8 @@ class Scene:
                 (in_turn(obj).measurement, {}, ()) if in_turn else measure_shape(obj, self.options, measure_options)
             )
         except MeasureError as refusal:
-            if flat.is_meant(self.options, refusal):
-                return None, flat.record_of(label, obj, self.options, measure_options.unit_scale, refusal, findings)
+            if is_flat_shape(self.options, refusal):
+                return None, record_of_flat(label, obj, self.options, measure_options.unit_scale, refusal, findings)
             if order is None:
                 raise
             lower = replace(measure_options, order=None)
@@ -214,6 +210,8 @@ class Scene:
             *(*self._default_density(obj, measurement), *body_findings(self.options, measurement)),
         )
         named = replace(measurement, name=label, findings=findings)
+        colliders = session.colliders.collider_record(obj, measurement, bpy.context) if COLLIDERS in obj else None
+        more |= {} if colliders is None else {"colliders": colliders}
         if self.options.thumbnails:
             more["thumbnail"] = thumbnail_of(obj, measurement, measure_options.unit_scale)
         return measurement, record.record(named, self.options.frame, order, surface, more, self.options.about)
@@ -227,7 +225,7 @@ class Scene:
             yield finding(DENSITY_DEFAULTED, density="1 kg/m" if unset == "linear_density" else "1000 kg/m³")
 
     def _open(self, path: str | None, file: str | None) -> Opened:
-        """Open `path`, if given, and return what was found. FileError if there is none and `file` is not loaded."""
+        """Open `path`, if given, and return the findings. FileError if no path is given and `file` is not loaded."""
         if path is not None:
             unresolved = open_file(path)
             self.has_opened = True
@@ -250,7 +248,7 @@ class Scene:
             return  # the reason is among the errors already
         (label, obj), (entry,) = chosen[0], objects
         try:
-            record.add_findings(entry, fourier.write(obj, self.options, measure_options))
+            record.add_findings(entry, write_transform(obj, self.options, measure_options))
         except MeasureError as refusal:
             yield failure(label, _unavailable("Fourier transform", refusal))
         except OSError as error:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`measure` over files: children measure them; this process gathers the answers, and opens no file.
+"""`measure` over files in children; with --resume it asks the journal's entries which files to measure again.
 
 Standard library only: it runs in Blender, in a Python with the bpy module, and in any other with --blender PATH.
 """
@@ -26,12 +26,12 @@ from ...core.measurement.documents import failed_document
 from ...core.measurement.plain_text import PROGRAM, counted, print_message
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.verdict.finding import Finding, finding, system_reason
-from ..files import output, own_results
+from ..files import output
 from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
-from ..options import needs_blender, targets
+from ..options import needs_blender
 from ..options.arguments import ONE_FILE, ONE_OBJECT, fail, files_of_options, of_numbers, run_of, version
-from ..options.formats import FORMATS
 from ..options.measure_parser import DEFAULT_TIMEOUT
+from ..options.option_types import FORMATS
 from ..parser import UsageError
 from ..supervisor import listing, processes
 from ..supervisor.journal import Journal, locked, state
@@ -50,7 +50,7 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
     if options.blender is None:
         needs_blender.check(options, paths)
     command = processes.run_command(_blender(options), ["child"])
-    targets.check_targets(options, files_of_options(options, paths, opened))
+    output.check_targets(options, files_of_options(options, paths, opened))
     with ExitStack() as ends:
         places = _Places(options, ends)
         run = _Supervised(options, paths, command, places)
@@ -122,11 +122,11 @@ class _Places:
             shutil.rmtree(self.work, ignore_errors=True)  # left behind by a run that was killed
             kept = [self.journal]
             if not options.resume:
-                is_older = target.is_file() and own_results.is_result(target)
+                is_older = target.is_file() and output.is_result(target)
                 self._replaced = [self.journal, *([target] if is_older else [])]
                 kept += map(_old, self._replaced)
             for path in kept:
-                if not (options.force or own_results.is_replaceable(path)):
+                if not (options.force or output.is_replaceable(path)):
                     fail("argument --output: {} is in the way, and no result. Move it, or use --force".format(path))
         except BlockingIOError:
             fail("argument --output: another run is writing {}. Use another name, or wait".format(target))
@@ -257,7 +257,7 @@ class _Supervised:
         options = self._options
         documents = _Documents(journal, self._paths)
         text = FORMATS[options.format](documents)
-        return output.write_result(text, options.output, channel, own_results.guard(options.force))
+        return output.write_result(text, options.output, channel, output.guard(options.force))
 
 
 @dataclass

@@ -14,7 +14,7 @@ from ...core.measurement.documents import FRAMES
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ..parser import COMMANDS, Parser
 from . import option_types as types
-from .formats import FORMATS
+from .option_types import FORMATS
 
 DEFAULT_ORDER = 2  # For --surface-moments without --order: the order that inertia needs.
 DEFAULT_TIMEOUT = 1800.0  # seconds for one file

@@ -6,11 +6,13 @@ from __future__ import annotations
 
 import math
 from argparse import ArgumentTypeError
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
 
+from ...core.measurement import documents
+from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.verdict.number_text import parse_number, parse_whole
 from ..parser import COMMANDS
-from .formats import FORMATS
 
 # Equal to the values in the core, which needs numpy: the process that supervises others may have none.
 MAX_ORDER = 30
@@ -18,6 +20,15 @@ MAX_SPLINE_ORDER = 16
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 ABOUT = ("center", "origin", "world")
 _NAMED = {"value": False, "materials": False, "attribute": True, "volume": True}  # by source: True if a name follows
+
+
+def _to_robot(file_documents: Iterable[dict[str, Any]]) -> Iterator[str]:
+    """Yield the robot description of each file, as written by the process that measured it."""
+    return (one.get("robot", "") for one in file_documents)
+
+
+# Functions from documents, which may be iterated twice, to pieces of text.
+FORMATS = {**documents.FORMATS, **dict.fromkeys(ROBOT_FORMATS, _to_robot)}
 
 
 def command(text: str) -> str:

@@ -12,6 +12,6 @@ from ...core.lazy import lazy_names
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     Journal="journal",
-    WholeRun="whole_run",
+    WholeRun="processes",
     expand="listing",
 )

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Journal of a run: JSON lines, appended as each file ends, from which the run can continue after any end.
+"""The journal of a run, JSON lines; `Entry.reason_to_measure` decides whether --resume measures a file again.
 
 A line has the file's key (path, size, time of its last change, digest of the options, versions of the add-on and of
 Blender), its status, the attempts and seconds it took, sizes and times of the files that it refers to, and its

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Child processes: their start, memory and end."""
+"""Child processes: their start, memory and end; a whole run in a process of its own, for a window."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from . import windows
+from .lifeline import WINDOW
 
 _WINDOWS = os.name == "nt"
 _MEMORY_SHARE = 0.8  # share of the machine's memory, for all processes that measure
@@ -23,6 +24,7 @@ _TOOL = 5.0  # seconds that a tool of the system may take to answer
 _GRACE = 0.4  # seconds to clean up in, for a child that is asked to end
 # Blender without a window, of factory settings, that runs no script of a file and reaches no network.
 _SWITCHES = ("-b", "--factory-startup", "--disable-autoexec", "--offline-mode", "-q", "--python-exit-code", "70")
+_STOP = 5.0  # seconds that a run may take to stop
 
 
 def run_command(blender: str | None, words: Sequence[str]) -> list[str]:
@@ -147,3 +149,47 @@ def cores() -> int:
         return len(os.sched_getaffinity(0))
     except AttributeError:
         return os.cpu_count() or 1
+
+
+class WholeRun:
+    """A running `measure` with the given words.
+
+    output: its result. blender: the Blender to start; None for this Python, if it has the bpy module. Raises OSError.
+    """
+
+    def __init__(self, words: Sequence[str], output: Path, blender: str | None) -> None:
+        command = run_command(blender, ["measure", *words, "--output", str(output)])
+        self._journal = output.with_name(output.name + ".journal")
+        self._place, self._lines = 0, 0
+        nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
+        flags = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows it can be asked to end then
+        environment = {**os.environ, WINDOW: "1"}
+        self._process = subprocess.Popen(command, env=environment, creationflags=flags, **nowhere)
+
+    @property
+    def exit_code(self) -> int | None:
+        """The exit code of the run, None while it is under way."""
+        return self._process.poll()
+
+    def done(self) -> int:
+        """Return the count of files that the journal records so far."""
+        try:
+            with open(self._journal, "rb") as file:
+                file.seek(self._place)
+                data = file.read()
+        except OSError:
+            return self._lines
+        self._place += len(data)
+        self._lines += data.count(b"\n")
+        return self._lines
+
+    def stop(self) -> None:
+        """End the run and its children. Measured files stay in its journal."""
+        if self._process.poll() is None:
+            with suppress(OSError):
+                self._process.send_signal(getattr(signal, "CTRL_BREAK_EVENT", signal.SIGTERM))
+            try:
+                self._process.wait(_STOP)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()

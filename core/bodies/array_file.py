@@ -21,8 +21,7 @@ from ..scans.findings import SCAN_UNSTATED
 from ..scans.limits import DEFAULT_LIMITS, Limits
 from ..scans.positions import Positions, place_samples, read_all_positions
 from ..verdict.finding import Finding, ReadError, finding
-from .bare_file import about_file, bare_reading
-from .density_grid import density_body
+from .density_grid import Samples, density_body
 from .findings import (
     DENSITY_FROM_SAMPLES,
     GIVEN_DENSITY_IGNORED,
@@ -31,13 +30,8 @@ from .findings import (
     GRID_TOO_LARGE,
     SAMPLES_POSITIONED,
 )
-from .measure import measure_reading
-from .threshold import (
-    MAX_SAMPLES,
-    TRILINEAR,
-    ThresholdGrid,
-    threshold_grid_body,
-)
+from .reading import about_file, bare_reading, measure_reading
+from .threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
 
 
 @dataclass(frozen=True)
@@ -108,10 +102,8 @@ def _density_body(
     findings += (finding(GRID_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
     if settings.density is not None:
         findings += (finding(GIVEN_DENSITY_IGNORED),)
-    scale = scan.slope, scan.intercept
-    body = density_body(
-        scan.samples, shape, matrix, grid, None, findings, *scale, progress, settings.order or KNOWN_ORDER, positions
-    )
+    samples = Samples(scan.samples, shape, matrix, grid, None, scan.slope, scan.intercept, positions)
+    body = density_body(samples, findings, progress, settings.order or KNOWN_ORDER)
     return replace(body, density_from=finding(DENSITY_FROM_SAMPLES))
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -21,114 +22,97 @@ from ..scans.positions import EVEN, Positions
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method, Source, Verdict
-from .findings import (
-    GRID_EMPTY,
-    GRID_WITHOUT_SURFACE,
-    MASS_OVERFLOW,
-)
+from .findings import GRID_EMPTY, GRID_WITHOUT_SURFACE, MASS_OVERFLOW
 from .mesh_body import MAX_MASS_MOMENT
 
 
 @dataclass(frozen=True, eq=False)
-class GridBody(Body):
-    """Samples at matrix @ (i, j, k, 1), in meters, that stand for slope · sample + intercept.
+class Samples:
+    """Samples of a density at matrix @ (i, j, k, 1), in meters, that stand for slope · value + intercept.
 
-    `samples`: one array, or (offset, array) block by block; `shape`: (3,) shape of the box that holds them.
-    `background`: a value that counts as empty.
-    `positions`: positions of the samples along each axis, or None for 0, 1, 2, …
+    values: one array, or (offset, array) block by block. shape: (3,) shape of the box that holds them. background: a
+    value that counts as empty. positions: of the samples along each axis, None for 0, 1, 2, …
     """
+
+    values: Blocks | NDArray
+    shape: Sequence[int]
+    matrix: NDArray[np.float64]
+    options: GridOptions = GridOptions()
+    background: float | None = None
+    slope: float = 1.0
+    intercept: float = 0.0
+    positions: Positions = EVEN
+
+    @cached_property
+    def _weigh(self) -> Callable[[NDArray], NDArray]:
+        return density_function(self.options, self.background)
+
+    def densities(self, block: NDArray) -> NDArray[np.float64]:
+        """Return the densities, kg/m³, of a block of values."""
+        scaled = self.slope != 1.0 or self.intercept != 0.0
+        return self._weigh(block * self.slope + self.intercept if scaled else block)
+
+    def volume_moments(self, order: int) -> Moments:
+        """Return the moments of the voxels that are not empty."""
+
+        def occupied(block: NDArray) -> NDArray[np.float64]:
+            return (self.densities(block) != 0.0).astype(np.float64)
+
+        return replace(self.grid_moments(occupied, 1, order), measure=Measure.VOLUME)
+
+    def grid_moments(self, value: Callable[[NDArray], NDArray], spline_order: int, order: int) -> Moments:
+        """Return the moments of a function of the values, interpolated by a spline."""
+        return grid_moments(self.values, self.shape, self.matrix, spline_order, order, value, self.positions)
+
+
+@dataclass(frozen=True, eq=False)
+class GridBody(Body):
+    """The body of samples; a grid has no area."""
 
     any_order: ClassVar[bool] = True
 
-    samples: Blocks | NDArray = field(kw_only=True)
-    shape: Sequence[int] = ()
-    matrix: NDArray[np.float64] = field(kw_only=True)
-    options: GridOptions = GridOptions()
-    background: float | None = None
-    slope: float = field(kw_only=True)
-    intercept: float = field(kw_only=True)
-    positions: Positions = EVEN
+    samples: Samples = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments of the voxels that are not empty; a grid has no area."""
-        weigh = _Weights(self.options, self.background, self.slope, self.intercept)
-        volume = _occupied(self.samples, self.shape, self.matrix, weigh, order, self.positions)
+        volume = self.samples.volume_moments(order)
         return volume, Moments(np.zeros_like(volume.raw), volume.about, Measure.AREA) if area else None
 
 
-class _Weights:
-    """Densities of blocks of samples, kg/m³."""
-
-    def __init__(self, options: GridOptions, background: float | None, slope: float, intercept: float):
-        self._weigh = density_function(options, background)
-        self._slope, self._intercept = slope, intercept
-
-    def densities(self, block: NDArray) -> NDArray[np.float64]:
-        scaled = self._slope != 1.0 or self._intercept != 0.0
-        return self._weigh(block * self._slope + self._intercept if scaled else block)
-
-    def occupied(self, block: NDArray) -> NDArray[np.float64]:
-        """Return 1 for filled samples, 0 for empty ones."""
-        return (self.densities(block) != 0.0).astype(np.float64)
-
-
-def _occupied(
-    samples: Blocks | NDArray, shape: Sequence[int], matrix: NDArray, weigh: _Weights, order: int, positions: Positions
-) -> Moments:
-    moments = grid_moments(samples, shape, matrix, order=order, value=weigh.occupied, positions=positions)
-    return replace(moments, measure=Measure.VOLUME)
-
-
 def density_body(
-    samples: Blocks | NDArray,
-    shape: Sequence[int],
-    matrix: NDArray,
-    options: GridOptions,
-    background: float | None = None,
+    samples: Samples,
     findings: tuple[Finding, ...] = (),
-    slope: float = 1.0,
-    intercept: float = 0.0,
     progress: Callable[[int], None] = lambda samples: None,
     order: int = KNOWN_ORDER,
-    positions: Positions = EVEN,
 ) -> GridBody:
-    """Return the body of samples at matrix @ (i, j, k, 1), in meters, that stand for slope · sample + intercept.
+    """Return the body of samples, with its mass moments to an order, or raise ReadError if they are empty.
 
-    background: a value that counts as empty. progress: called with the number of samples about to be read. order: of
-    the wanted mass moments. positions: of the samples along each axis, None for 0, 1, 2, …
+    progress: called with the number of samples about to be read.
     """
-    if min(shape) < 1:
+    if min(samples.shape) < 1:
         raise ReadError(GRID_EMPTY)
-    weigh = _Weights(options, background, slope, intercept)
 
     def densities(block: NDArray) -> NDArray[np.float64]:
         progress(block.size)
-        return weigh.densities(block)
+        return samples.densities(block)
 
-    mass = grid_moments(samples, shape, matrix, options.spline_order, value=densities, positions=positions)
+    mass = samples.grid_moments(densities, samples.options.spline_order, KNOWN_ORDER)
     higher = None
     if order > KNOWN_ORDER:
-        higher = grid_moments(samples, shape, matrix, options.spline_order, order, densities, positions)
+        higher = samples.grid_moments(densities, samples.options.spline_order, order)
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError(MASS_OVERFLOW)
     if not mass.total > 0.0:
         raise ReadError(GRID_EMPTY)
-    volume = _occupied(samples, shape, matrix, weigh, 3, positions)
-    findings += (*empty_background_note(options, background), finding(GRID_WITHOUT_SURFACE))
+    volume = samples.volume_moments(KNOWN_ORDER)
+    empty = empty_background_note(samples.options, samples.background)
     return GridBody(
         volume,
         Moments(np.zeros(1), volume.about, Measure.AREA),
         MeshHealth(closed=True),
         Method(Verdict.EXACT, Source.GRID),
-        findings,
+        (*findings, *empty, finding(GRID_WITHOUT_SURFACE)),
         mass=mass,
         higher_mass=higher,
         samples=samples,
-        shape=shape,
-        matrix=matrix,
-        options=options,
-        background=background,
-        slope=slope,
-        intercept=intercept,
-        positions=positions,
     )

@@ -15,7 +15,7 @@ from ..mesh.surface import Surface
 from ..moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
 from ..moments.images import sum_of_images
 from ..moments.moments import Moments
-from ..polyhedron.sheared_areas import area_of_images
+from ..polyhedron.integration import area_of_images
 from ..solid.findings import COMPONENTS_NESTED, COMPONENTS_OVERLAP, OVERLAP_UNCHECKED
 from ..solid.instance_overlaps import PlaceComparison
 from ..solid.solid_verdict import SolidIntegrals
@@ -87,7 +87,7 @@ def instances_overlap(reading: Reading) -> bool:
 
 
 def instances_size(reading: Reading) -> float:
-    """Return the diagonal of the box around all places, in Blender units."""
+    """Return the diagonal of the box around all instances, in Blender units."""
     centers, extents = _boxes(reading)
     return float(np.linalg.norm((centers + extents).max(axis=0) - (centers - extents).min(axis=0)))
 

@@ -16,12 +16,7 @@ from ..measurement.body import Body
 from ..mesh.surface import Surface
 from ..moments.affine_maps import are_similarities
 from ..moments.images import sum_of_images
-from ..moments.moments import (
-    Moments,
-    monomials,
-    stack_moments,
-    sum_moments,
-)
+from ..moments.moments import Moments, monomials, stack_moments, sum_moments
 from ..moments.symmetric_tensors import invert_through_point
 from ..numerics.rotations import polar_rotation
 from ..polyhedron import polyhedron_moments

@@ -14,10 +14,7 @@ from ..mesh.surface import Surface, normals
 from ..moments.images import sum_of_images
 from ..moments.moments import Moments, sum_moments
 from ..polyhedron import polyhedron_moments
-from ..solid.findings import (
-    DUPLICATE_FACES_COUNTED,
-    NON_PLANAR_FACES,
-)
+from ..solid.findings import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES
 from ..solid.instance_overlaps import compare_places
 from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict.finding import Finding, finding

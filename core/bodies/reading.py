@@ -1,19 +1,26 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The result of reading an object: surfaces, their places in the world, a finding for each decision."""
+"""The result of reading an object: surfaces, their places, a finding for each decision; the measurement of its body."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..measurement.body import Body
+from ..measurement.builder import measure_body
+from ..measurement.measurement import Measurement
+from ..measurement.settings import Settings, fingerprint
 from ..mesh.surface import Surface, join_surfaces
 from ..moments.affine_maps import are_singular
 from ..nurbs.curve import Curve
 from ..nurbs.patch import Face
-from ..verdict.finding import Finding
+from ..streams.findings import FILE_UNREADABLE
+from ..verdict.finding import Finding, MeasureError, ReadError, system_reason
 
 NO_SLOTS = np.empty(0, np.intp)
 NO_VALUES = np.empty(0)
@@ -129,3 +136,40 @@ def to_si(matrices: ArrayLike, unit: float) -> NDArray[np.float64]:
 def float64_matrix(matrix) -> NDArray[np.float64]:
     """Return a `mathutils.Matrix` as a (4, 4) float64 array, to the bit."""
     return np.array([row[:] for row in matrix], np.float64)
+
+
+def measure_reading(reading: Reading, body: Body, settings: Settings, transform: str = "") -> Measurement:
+    """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown moments.
+
+    transform: the key of the object's transform in the fingerprint.
+    """
+    settings = replace(settings, varying=body.density_key)
+    digested = [moments for moments in (body.volume, body.area, body.mass, body.length) if moments is not None]
+    geometry = b"".join([moments.raw.tobytes() for moments in digested])
+    return measure_body(
+        body,
+        settings,
+        findings=tuple(reading.findings),
+        name=reading.name,
+        type=reading.type,
+        rotation=np.asarray(reading.rotation, np.float64),
+        location=np.asarray(reading.location, np.float64) * settings.unit,
+        fingerprint=fingerprint(geometry, transform, settings.digest),
+    )
+
+
+def bare_reading(name: str, kind: str) -> Reading:
+    """Return the frame of a file: the world's origin and axes; `kind` is its type in the records."""
+    return Reading(name, kind, np.eye(4), np.eye(3), np.zeros(3))
+
+
+@contextmanager
+def about_file(name: str) -> Iterator[None]:
+    """Add the file's name to errors; errors of the system become a ReadError."""
+    try:
+        yield
+    except MeasureError as error:
+        error.about(name)
+        raise
+    except OSError as error:
+        raise ReadError(FILE_UNREADABLE, subject=name, error=system_reason(error)) from error

@@ -21,21 +21,11 @@ from ..mesh.boxes import boxes_overlap
 from ..mesh.surface import Surface
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.images import sum_of_images
-from ..moments.moments import (
-    Measure,
-    Moments,
-    monomials,
-    sum_moments,
-)
+from ..moments.moments import Measure, Moments, monomials, sum_moments
 from ..polyhedron import polyhedron_moments
 from ..solid.findings import INVERTED_COMPONENTS
 from ..solid.measure import SolidIntegrals
-from ..verdict.finding import (
-    Finding,
-    ReadError,
-    finding,
-    unique,
-)
+from ..verdict.finding import Finding, ReadError, finding, unique
 from ..verdict.findings import FLIPPED_FACES
 from ..verdict.method import Verdict
 from ..verdict.tolerances import NEGLIGIBLE

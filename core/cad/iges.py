@@ -216,7 +216,7 @@ class _Reader:
         return self._within(base, matrix @ self._matrix(base), boundaries, bool(has_outer))
 
     def _boundary(self, pointer: int, base: Entry, matrix: NDArray) -> Boundary:
-        """Return a boundary by a curve on a surface (142); with nothing known if it is on another one."""
+        """Return the boundary given by a curve on a surface (142), unknown if the curve lies on another surface."""
         try:
             entry = self._entry(pointer, PARAMETER_CURVE)
         except (ValueError, LookupError):

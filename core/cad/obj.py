@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Free-form surfaces of Wavefront .obj files: ``surf`` of B-splines and Bézier patches, rational or not.
+"""Wavefront .obj files: free-form surfaces, ``surf`` of B-splines and Bézier patches, rational or not; and faces.
 
-Advanced Visualizer, Appendix B1, Object Files (.obj), version 3.0. Each ``o`` makes a body. As in Blender's importer,
-Y up becomes Z up. Faces, lines and curves are left to that importer.
+Advanced Visualizer, Appendix B1, Object Files (.obj), version 3.0. Each ``o`` makes a body or begins a mesh. As in
+Blender's importer, Y up becomes Z up. Lines, curves, groups, normals and textures are not read.
 """
 
 from __future__ import annotations
@@ -18,10 +18,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..nurbs.patch import Face
+from ..streams.decimals import parse_decimals
+from ..streams.file_mesh import FileMesh, name_of_file, without_repeats
 from ..streams.findings import FILE_TOO_LARGE
+from ..streams.misread import map_file
 from ..verdict.finding import FileError
 from ..verdict.number_text import parse_number, parse_whole
 from .findings import OBJ_CALL, SURFACE_ORDER, SURFACE_TRIMMED, SURFACE_UNSUPPORTED
+from .obj_text import Lines, blocks, check_obj_text
 from .surfaces import (
     MAX_ORDER,
     MAX_SURFACES,
@@ -39,6 +43,8 @@ TRIMS = {"trim", "hole"}
 UPRIGHT = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
 _WORD = re.compile(rb"(?:^|[\r\n])[ \t]*surf[ \t\\]")
 _WANTED = {"v", "cstype", "deg", "surf", "parm", "end", "o", "call", "curv", "curv2", "bmat", *TRIMS}
+_COMMENT = re.compile(rb"#[^\n]*")
+_OBJECT = re.compile(rb"^[ \t\v]*o[ \t\v]+(\S[^\n]*?)\s*$", re.MULTILINE)
 
 
 def has_surfaces(path: str | Path) -> bool:
@@ -187,3 +193,67 @@ def _indices(words: list[str], count: int) -> NDArray[np.int64]:
     if (numbers < 0).any() or (numbers >= count).any():
         raise ValueError("no such vertex")
     return numbers
+
+
+def read_obj_meshes(path: Path) -> list[FileMesh]:
+    """Return the meshes, in the file's own axes. Raises FileError and OSError."""
+    return _split(*read_obj_faces(path))
+
+
+def read_obj_faces(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], list]:
+    """Return (n, 3) points, (k,) corners and (m,) sides of faces; of objects the first face, first vertex and name."""
+    data = map_file(path) if path.stat().st_size else b""
+    check_obj_text(data)
+    points, corners, sides = [np.zeros((0, 3))], [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
+    starts, counts, faces = [(0, 0, name_of_file(path))], np.zeros(3, np.int64), 0
+    for _, text in blocks(data):
+        lines = Lines(_COMMENT.sub(b"", text) if b"#" in text else text, counts)
+        points.append(_read_points(lines))
+        index, lengths, places = _read_faces(lines)
+        corners.append(index)
+        sides.append(lengths)
+        if b"o" in text:
+            for name in _OBJECT.finditer(lines.text):
+                before = int(np.searchsorted(places, name.start()))
+                vertices = int(lines.before[0, np.searchsorted(lines.starts, name.start(), "right") - 1])
+                starts.append((faces + before, vertices, name[1].decode("utf-8", "replace")))
+        counts, faces = lines.after, faces + len(lengths)
+    return np.concatenate(points), np.concatenate(corners), np.concatenate(sides), starts
+
+
+def _read_points(lines: Lines) -> NDArray[np.float64]:
+    """Return the (n, 3) vertices of a block."""
+    is_vertex = lines.kinds[0]
+    values, at, _ = parse_decimals(lines.keep(is_vertex))
+    line = np.searchsorted(lines.starts, at, "right")
+    first = np.flatnonzero(np.diff(line, prepend=-1))
+    return values[first[:, None] + np.arange(3)]
+
+
+def _read_faces(lines: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.intp]]:
+    """Return the (k,) vertices of the faces of a block, the (m,) counts of their corners, and their lines' offsets."""
+    is_face = lines.has_kind("f")
+    at, role, value = lines.indices(is_face)
+    at, value = at[role == 0], value[role == 0]
+    line = np.searchsorted(lines.starts, at, "right") - 1
+    is_backward = lines.letters[at] == ord("-")
+    index = np.where(is_backward, lines.before[0, line] - value, value - 1)
+    first = np.flatnonzero(np.diff(line, prepend=-1))
+    return index, np.diff(first, append=len(index)), lines.starts[line[first]]
+
+
+def _split(points: NDArray, corners: NDArray, sides: NDArray, starts: list[tuple[int, int, str]]) -> list[FileMesh]:
+    """Return one mesh for each object. starts: the first face and the first vertex of each object, and its name."""
+    ends = np.append(0, np.cumsum(sides))
+    meshes = []
+    for i, (end, last, _) in enumerate([*starts[1:], (len(sides), len(points), "")]):
+        begin, first, name = starts[i]
+        if begin == end and (first == last or i == 0 < len(starts) - 1):  # What follows may use the first vertices.
+            continue
+        own = corners[ends[begin] : ends[end]]
+        own_points = points
+        if end - begin < len(sides):
+            used, own = np.unique(own, return_inverse=True)
+            own_points = points[used]
+        meshes.append(FileMesh(name, own_points, *without_repeats(own, sides[begin:end])))
+    return meshes

@@ -1,16 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reader of the surfaces of a file, chosen by its suffix."""
+"""Readers of the surfaces and of the meshes of a file, chosen by its suffix."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ..scans.findings import FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
 from ..scans.limits import DEFAULT_LIMITS, Limits
+from ..streams.boxes import box_of_blocks
+from ..streams.file_mesh import FileMesh
+from ..streams.measure import KINDS
 from ..verdict.finding import FileError
 from .iges import read_iges
-from .obj import read_obj
+from .obj import UPRIGHT, read_obj, read_obj_meshes
 from .surfaces import SurfaceFile
 
 _READERS = {".igs": read_iges, ".iges": read_iges, ".obj": read_obj}
@@ -22,11 +29,33 @@ def read_surfaces(path: str | Path, limits: Limits = DEFAULT_LIMITS, for_blender
 
     for_blender: only those that Blender's surfaces can be.
     """
+    path, suffix = _existing_file(path, SUFFIXES)
+    limits.check(path, "text_bytes", path.stat().st_size)
+    return _READERS[suffix](path, for_blender)
+
+
+def read_meshes(path: str | Path) -> tuple[list[FileMesh], NDArray[np.float64]]:
+    """Return the meshes of an .stl, .ply or .obj file, in its unit, and (4, 4) the map to z up.
+
+    Names and places are those of Blender's importers. Of the formats, only .obj can hold several meshes, and has y up.
+    Raise FileError or OSError.
+    """
+    path, suffix = _existing_file(path, (*KINDS, ".obj"))
+    if suffix == ".obj":
+        meshes, upright = read_obj_meshes(path), UPRIGHT
+    else:
+        meshes, upright = [KINDS[suffix](path).mesh()], np.eye(4)
+    for mesh in meshes:
+        box_of_blocks([mesh.points], "vertex")
+    return meshes, upright
+
+
+def _existing_file(path: str | Path, suffixes: Sequence[str]) -> tuple[Path, str]:
+    """Return a path and its suffix in lower case, or raise FileError if it is no file of these kinds."""
     path = Path(path)
-    read = _READERS.get(path.suffix.lower())
-    if read is None:
-        raise FileError(FILE_TYPE, suffixes=" ".join(SUFFIXES))
+    suffix = path.suffix.lower()
+    if suffix not in suffixes:
+        raise FileError(FILE_TYPE, suffixes=" ".join(suffixes))
     if not path.is_file():
         raise FileError(FILE_NOT_REGULAR if path.exists() else FILE_MISSING)
-    limits.check(path, "text_bytes", path.stat().st_size)
-    return read(path, for_blender)
+    return path, suffix

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The contents of a file of surfaces: bodies of patches, and the names of refused surfaces."""
+"""The contents of a file of surfaces: bodies of patches, and the names of refused surfaces; surfaces of revolution."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
@@ -12,17 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.bspline import SplineSpace
 from ..nurbs.bezier_form import bezier_patches
+from ..nurbs.blender_knots import blender_space
 from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 from ..nurbs.patch import Face, Patch
 from ..streams.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
-from .findings import (
-    NO_SURFACE_KEPT,
-    SURFACE_DAMAGED,
-    SURFACE_ORDER,
-    SURFACE_POINTS,
-    SURFACE_TOO_LARGE,
-)
+from .findings import NO_SURFACE_KEPT, SURFACE_DAMAGED, SURFACE_ORDER, SURFACE_POINTS, SURFACE_TOO_LARGE
 
 MAX_ORDER = 6  # largest order of the surfaces that are kept
 MAX_POINTS = 1 << 18  # control points of one patch in Bézier form
@@ -31,6 +27,10 @@ MAX_TOTAL_POINTS = 1 << 22  # Control points of all patches of a file.
 MAX_NAMES = 1000  # names in a refusal
 MAX_REASONS = 8  # reasons in one refusal
 MAX_COORDINATE = 3e38  # Just below the largest float32.
+# A quarter of a circle is (1 - t², 2t) / (1 + t²), which has the weights 1, 1, 2.
+_CIRCLE = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)], np.float64)
+_WEIGHTS = np.array([1.0, 1.0, 2.0, 1.0, 1.0, 1.0, 2.0, 1.0, 1.0])
+_ORDER = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +107,7 @@ class Refusals:
     def file(
         self, bodies: Sequence[SurfaceBody], unit: float | None = None, notes: Sequence[Finding] = ()
     ) -> SurfaceFile:
-        """Return a SurfaceFile of the bodies with patches, and the refusals. FileError if no body has any."""
+        """Return the file's bodies with patches, and its refusals. FileError if no body has patches."""
         refused, kept = self.findings(), tuple(body for body in bodies if body.patches)
         if not kept and refused:
             causes = [reason.as_record() for reason in truncate_findings(refused, MAX_REASONS)]
@@ -158,3 +158,49 @@ def bezier_surface(
 def is_storable(patch: Patch) -> bool:
     """Return whether float32 can hold all weights of a patch as positive numbers."""
     return patch.weights is None or bool(patch.weights.min() >= 1e-30 * patch.weights.max())
+
+
+def revolved_solid(bottom: float, top: float, height: float, axis: str, is_round: bool) -> Patch | None:
+    """Return a solid's surface about an axis "X", "Y" or "Z", facing outward, or None if it has no volume.
+
+    bottom, top: the radii at the ends of its straight part, which is `height` long; with a negative height the ends
+    change places. is_round: whether half balls, and no disks, follow it. Other axes are taken as Z.
+    """
+    bottom, top = (abs(top), abs(bottom)) if height < 0.0 else (abs(bottom), abs(top))
+    half = abs(height) / 2.0
+    if not (math.isfinite(bottom + top + half) and max(bottom, top) > 0.0 and (half > 0.0 or is_round)):
+        return None
+    profile = _Profile(0.0, -half - bottom * is_round)
+    profile.extend(bottom, -half, bend=is_round)
+    profile.extend(top, half)
+    profile.extend(0.0, half + top * is_round, bend=is_round)
+    radii, heights, weights = np.array(profile.rows).T
+    columns = radii[None, :, None] * np.concatenate([_CIRCLE, np.zeros((9, 1))], axis=1)[:, None]
+    columns[..., 2] = heights
+    # Rotated so that the third axis becomes the wanted one.
+    points = np.roll(columns, max("ZXY".find(axis), 0), axis=2)
+    return Patch((_space(len(_CIRCLE)), _space(len(radii))), points, np.outer(_WEIGHTS, weights))
+
+
+class _Profile:
+    """Control points (radius, height, weight) of quadratic arcs and lines from one end of the axis to the other."""
+
+    def __init__(self, radius: float, height: float) -> None:
+        self.rows = [(radius, height, 1.0)]
+
+    def extend(self, radius: float, height: float, bend: bool = False) -> None:
+        """Add a line, or with `bend` a quarter of a circle, to a point. Nothing is added if the point is the last."""
+        last_radius, last_height, weight = self.rows[-1]
+        if (radius, height) == (last_radius, last_height):
+            return
+        if not bend:
+            middle, end = ((last_radius + radius) / 2.0, (last_height + height) / 2.0), weight
+        elif radius > last_radius:
+            middle, end = (radius, last_height), 2.0 * weight
+        else:
+            middle, end = (last_radius, height), weight / 2.0
+        self.rows += [(*middle, min(weight, end)), (radius, height, end)]
+
+
+def _space(count: int) -> SplineSpace:
+    return blender_space(count, _ORDER, cyclic=False, bezier=True, endpoint=True)  # type: ignore[return-value]

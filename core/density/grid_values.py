@@ -5,16 +5,23 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..scans.positions import AXES, EVEN, Positions
-from ..verdict.finding import Finding, ReadError, finding
-from .findings import BACKGROUND_EMPTY, DENSITY_NON_FINITE, POSITIONS_DAMAGED, VALUES_NEGATIVE
+from ..verdict.finding import Finding, MeasureError, ReadError, finding
+from .findings import (
+    BACKGROUND_EMPTY,
+    DENSITY_NON_FINITE,
+    POSITIONS_DAMAGED,
+    TRANSFER_TABLE_NUMBERS,
+    TRANSFER_TABLE_SYNTAX,
+    VALUES_NEGATIVE,
+)
 from .grid_options import GridOptions
-from .transfer_function import parse_table
 
 
 def sample_positions(options: GridOptions, grid: str, low: NDArray, shape: Sequence[int]) -> Positions:
@@ -74,3 +81,22 @@ def _parsed_positions(text: str) -> dict[str, NDArray[np.float64]] | None:
         return None
     ascending = all(row.ndim == 1 and len(row) > 1 and (np.diff(row) > 0.0).all() for row in rows.values())
     return rows if ascending and all(np.isfinite(row).all() for row in rows.values()) else None
+
+
+def parse_table(text: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return (n,) values, ascending, and (n,) densities in kg/m³; MeasureError if the text is no such table."""
+    entries = []
+    for pair in re.split(r"[,;\n]", text):
+        words = pair.split()
+        if not words:
+            continue
+        try:
+            value, density = map(float, words)
+        except ValueError:
+            raise MeasureError(TRANSFER_TABLE_SYNTAX, part=pair.strip()) from None
+        entries.append((value, density))
+    table = np.array(entries, np.float64).reshape(-1, 2)
+    rises = (np.diff(table[:, 0]) > 0.0).all()
+    if len(table) < 2 or not (np.isfinite(table).all() and rises and (table[:, 1] >= 0.0).all()):
+        raise MeasureError(TRANSFER_TABLE_NUMBERS)
+    return table[:, 0], table[:, 1]

@@ -17,7 +17,7 @@ table adds no more than 9 roundings for each order and each corner to sums with 
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import factorial
 
@@ -34,6 +34,7 @@ from ..moments.moments import (
     monomial_index,
     monomials,
 )
+from ..solid.orientation import ClosedParts
 
 TRIANGLES_PER_BLOCK = 4096  # triangles whose table of 20 monomials stays in the cache
 MIN_TRIANGLES_PER_BLOCK = 64
@@ -176,3 +177,49 @@ def _monomial_bounds(reach: NDArray, order: int) -> NDArray[np.float64]:
 def to_mass_moments(moments: Moments, factor: float = 1.0) -> Moments:
     """Return density-weighted moments, already transformed, as mass moments; factor: a sheet's thickness."""
     return replace(moments, measure=Measure.MASS) * factor
+
+
+@dataclass(frozen=True, eq=False)
+class PartDensities:
+    """Densities of parts, found from the densities of their faces, as arrays with an entry for each part.
+
+    A cavity takes its volume away from the part that it is cut from, whatever material its own faces have.
+    has_several_materials: the part's faces differ in density. has_foreign_cavity_material: the part is a cavity with a
+    face of another density than the part that it is cut from. first_face: a part's first mesh face, -1 if it has none.
+    range_by_area, most_by_area: the range of its faces' densities, and the largest density, times the part's area.
+    """
+
+    density: NDArray[np.float64]
+    has_several_materials: NDArray[np.bool_]
+    has_foreign_cavity_material: NDArray[np.bool_]
+    first_face: NDArray[np.integer]
+    range_by_area: NDArray[np.float64]
+    most_by_area: NDArray[np.float64]
+
+
+def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
+    """Return one density for each part: the mean of the (f,) face densities by area under the linear map."""
+    of_mesh = parts.face >= 0
+    part, face, area = parts.part[of_mesh], parts.face[of_mesh], parts.areas(linear)[of_mesh]
+    first = np.full(parts.number, np.iinfo(np.int64).max)
+    least, most = np.full(parts.number, np.inf), np.full(parts.number, -np.inf)
+    np.minimum.at(first, part, face)
+    np.minimum.at(least, part, faces[face])
+    np.maximum.at(most, part, faces[face])
+    there = first < np.iinfo(np.int64).max
+    least, most = np.where(there, least, 0.0), np.where(there, most, 0.0)
+    total = np.asarray(np.bincount(part, area, minlength=parts.number), np.float64)
+    sums = np.bincount(part, area * faces[face], minlength=parts.number)
+    mean = np.divide(sums, total, out=(least + most) / 2.0, where=total > 0.0)
+    differs = most > least
+    of_mesh = np.where(differs, np.clip(mean, least, most), least)
+    cavity = parts.host_part != np.arange(parts.number)
+    density = of_mesh[parts.host_part]
+    return PartDensities(
+        density,
+        differs & ~cavity,
+        cavity & there & (differs | (of_mesh != density)),
+        np.where(there, first, -1),
+        (most - least) * total,
+        most * total,
+    )

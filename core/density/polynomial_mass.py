@@ -1,18 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mass moments of bodies with polynomial density: moments times a polynomial are moments of lower order.
-
-With F[α] = ∫ x^α and a density p(y), y = D u + e in the coordinates u about the moments' own point, the mass has the
-functional G[α] = Σ_β p_β (y^β F)[α]; multiplying by a linear form costs one order, as in `moments`. So mass moments to
-order 3 come exactly from moments to order 3 + degree. The polynomial is expanded exactly about the place of the body,
-so that neither a body far away nor a density given far away loses digits.
-"""
+"""The mass of bodies whose density is a polynomial, and a check that it is nowhere negative."""
 
 from __future__ import annotations
+
+from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..mesh.point_triangle import winding_number
 from ..moments.affine_maps import absolute_moments, multiply_by_linear_form, to_trailing_axis, transform_by_horner
 from ..moments.exponents import monomial_count, monomials, order_from_count, product_indices
 from ..moments.images import MAPS_PER_BLOCK
@@ -21,6 +18,10 @@ from ..numerics.rotations import polar_rotation
 from .polynomial import Polynomial
 
 Terms = dict[tuple[int, int, int], float]
+NEGLIGIBLE_RTOL = 1e-6  # Relative to the largest density: the effect of float32 coordinates.
+GRID_POINTS = 9  # points along each side of the box that are tried
+GRID_STEPS = np.array(list(product((np.arange(GRID_POINTS) + 0.5) / GRID_POINTS, repeat=3)))
+MAX_LOCATED_POINTS = 24  # points that are located in the body
 
 
 def polynomial_mass_of_images(
@@ -137,3 +138,35 @@ def local_coordinates(matrices: NDArray) -> NDArray[np.float64]:
     fields[:, :3, :3] = axes.transpose(0, 2, 1) @ np.asarray(matrices, np.float64)[:, :3, :3]
     fields[:, 3, 3] = 1.0
     return fields
+
+
+def find_negative_point(
+    density: Polynomial, points: NDArray, triangles: NDArray, solid: bool
+) -> tuple[tuple[float, NDArray] | None, bool]:
+    """Return a negative value and its (3,) point, or None; and True if there may be an undetected negative value."""
+    used = np.unique(triangles)
+    tried = points[used]
+    if density.degree > 1:
+        tried = np.concatenate([tried, points[triangles].mean(axis=1)])
+    values = density(tried)
+    low, high = points[used].min(axis=0), points[used].max(axis=0)
+    grid = low + GRID_STEPS * (high - low) if solid and density.degree > 1 else tried[:0]
+    inner = density(grid)
+
+    def inside(i: int) -> bool:
+        return abs(winding_number(points, triangles, grid[i])) > 0.5
+
+    largest = float(np.abs(values).max())
+    least = int(np.argmin(values))
+    if values[least] < 0.0:  # the density may be close to zero all over the surface
+        most = next(filter(inside, np.argsort(-inner, kind="stable")[:MAX_LOCATED_POINTS].tolist()), None)
+        largest = largest if most is None else max(largest, inner[most])
+    if values[least] < -NEGLIGIBLE_RTOL * largest:
+        return (float(values[least]), tried[least]), False
+    if density.degree <= 1:
+        return None, False
+    if density.lower_bound(low, high) >= -NEGLIGIBLE_RTOL * largest:
+        return None, False
+    worst = np.argsort(inner, kind="stable")[:MAX_LOCATED_POINTS]
+    negative_index = next(filter(inside, worst[inner[worst] < -NEGLIGIBLE_RTOL * largest].tolist()), None)
+    return (None, True) if negative_index is None else ((float(inner[negative_index]), grid[negative_index]), False)

@@ -57,7 +57,7 @@ class Cells:
         return Cells.join(parts)
 
     def column_axes(self) -> NDArray[np.intp]:
-        """Return the (n,) axes along which the density is most clearly monotone; -1 if there is none."""
+        """Return for n cells the axis along which the density is most clearly monotone, -1 if it is along none."""
         steps = np.stack([np.diff(self.corners, axis=axis).reshape(-1, 4) for axis in (1, 2, 3)], axis=1)
         one_way = (steps >= 0.0).all(axis=2) | (steps <= 0.0).all(axis=2)
         steps = np.abs(steps)

@@ -117,7 +117,7 @@ class Section:
 
     @property
     def moduli(self) -> tuple[float, ...]:
-        """The elastic section moduli about x, y, 1, 2, each for the outermost corner: the smaller of two sides."""
+        """The elastic section moduli about x, y, 1, 2: the smaller one of both sides of each axis."""
         return tuple(moment / float(reach) for moment, reach in zip(self._about_axes, self.reach))
 
     @property

@@ -23,9 +23,8 @@ from ..numerics.compensated import phase_factors
 from ..verdict.finding import MeasureError
 from ..verdict.findings import NO_FACES
 from .grid import GridTransform
-from .spectrum import Spectrum
 from .transform import Transform
-from .wave_vectors import FrequencyGrid, wave_vectors
+from .wave_vectors import FrequencyGrid, Spectrum, wave_vectors
 
 # pairs of triangles and frequencies, about 20 s: larger grids are transformed to FOURIER_RTOL
 MAX_CLOSED_FORM_PAIRS = 2e8

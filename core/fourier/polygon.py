@@ -19,10 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 from ..moments.moments import U
 from ..numerics.arguments import check_filled, float_array
 from ..numerics.compensated import phase_factors
-from .spectrum import Spectrum
 from .transform import ROUNDING_FACTOR, ZERO_WAVE_NUMBER
 from .triangle_kernel import PAIRS_PER_BLOCK
-from .wave_vectors import FrequencyGrid, wave_vectors
+from .wave_vectors import FrequencyGrid, Spectrum, wave_vectors
 
 SERIES_TERMS = 10  # Terms of sinc(t) - 1 for t up to 1.
 

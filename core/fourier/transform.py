@@ -31,9 +31,8 @@ from ..numerics.compensated import phase_factors, two_sum
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
 from .findings import FOURIER_OF_OPEN_SURFACE
-from .spectrum import Spectrum
 from .triangle_kernel import PAIRS_PER_BLOCK, TRIANGLES_PER_BLOCK, PhaseMeans, SortedTriangles
-from .wave_vectors import FrequencyGrid, GridWaves, ListWaves, wave_vectors
+from .wave_vectors import FrequencyGrid, GridWaves, ListWaves, Spectrum, wave_vectors
 
 PAIRS_PER_TASK = 1 << 20  # pairs of triangles and frequencies that are handed out at a time: about a tenth of a second
 ZERO_WAVE_NUMBER = 1e-20  # |q| R below which F is V - i q·∫x dV, to all digits

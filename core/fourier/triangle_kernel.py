@@ -209,7 +209,7 @@ class PhaseMeans:
     def _series_of_pairs(
         self, pairs: NDArray, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray
     ) -> tuple[NDArray, NDArray]:
-        """Return D - 1/2 by the series, for the pairs that need it in a block that is evaluated by edges."""
+        """Return D - 1/2 by the power series, for pairs (wave vector, triangle) with too little difference in phase."""
         row, column = np.divmod(pairs, len(self.block.lengths))
         a, b, c = (d.reshape(-1)[pairs] for d in (a, b, c))
         real, imaginary = _series(a * a + a * b + b * b, a * b * c, SPLIT_SERIES_TERMS)

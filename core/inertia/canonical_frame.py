@@ -65,7 +65,7 @@ class SecondMomentAxes:
 
 @dataclass(frozen=True)
 class FrameRule:
-    """Rule that fixes frames beside second moments.
+    """Rule that fixes the frames that second moments leave open.
 
     extreme: the degree of the moment that is extreme along the frames' third axis; 0 if second moments fix an axis.
     axis, harmonic: the axis about which the harmonic (degree, m, k) is real; None if no harmonic is clear. sign: of the
@@ -98,7 +98,7 @@ class EquivalentFrames:
 
 
 def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray) -> EquivalentFrames:
-    """Return the frames that moments (order 3 to MAX_ORDER) choose; starts: (k, 3, 3) by third moments."""
+    """Return the frames that moments of order 3 to MAX_ORDER choose; starts: (k, 3, 3) frames by third moments."""
     central = moments.about_center()
     total = central.raw[0]
     with np.errstate(over="ignore", under="ignore"):

@@ -160,7 +160,7 @@ def turn_tensor(tensor: Sequence[float], axes: Axes) -> Vector:
 
 
 def move_tensor(tensor: Sequence[float], mass: float, arm: Sequence[float]) -> Vector:
-    """Return a tensor about a point from that about the center of mass, which is away by `arm`: parallel axes."""
+    """Return the inertia tensor about a point `arm` away from the center of mass, given that about the center."""
     x, y, z = arm
     products = y * y + z * z, z * z + x * x, x * x + y * y, -x * y, -x * z, -y * z
     return tuple(entry + mass * product for entry, product in zip(tensor, products))

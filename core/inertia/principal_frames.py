@@ -32,13 +32,7 @@ from ..verdict.finding import MeasureError, finding
 from ..verdict.findings import OBJECT_TOO_SMALL
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
 from .canonical_stack import choose_about_axis, choose_half_turns
-from .findings import (
-    AXES_AMBIGUOUS,
-    AXES_FREE,
-    AXES_FREE_BY_SHAPE,
-    NEGATIVE_INERTIA,
-    STRICT_RULE_UNDEFINED,
-)
+from .findings import AXES_AMBIGUOUS, AXES_FREE, AXES_FREE_BY_SHAPE, NEGATIVE_INERTIA, STRICT_RULE_UNDEFINED
 from .frame_choice import align_frames, complete_free_axes, nearest_frames
 from .plain_body import EQUAL_AXES, SYMMETRIES
 from .shared_search import shared_frames

@@ -15,16 +15,31 @@ from ..numerics.float32 import shortest_decimal
 VERSION = "v1"
 
 
+@dataclass(frozen=True, kw_only=True)
+class RequestedResults:
+    """Results that a measurement has on request.
+
+    order: of the moments; None for the order that mass properties need. surface: area moments, too. pose: the principal
+    frame follows the shape to sixth order, for any number of faces. compare: bodies that need no display mesh are
+    compared with it. axes: True to choose ambiguous principal axes by moments above third order; else any of them may
+    result.
+    """
+
+    order: int | None = None
+    surface: bool = False
+    pose: bool = False
+    compare: bool = True
+    axes: bool = True
+    threads: int = 1
+
+
 @dataclass(frozen=True)
-class Settings:
+class Settings(RequestedResults):
     """Settings of one object's measurement, in SI units; at most one of density and mass is given.
 
     kind: "solid", "shell" or "wire". density: kg/m³, of a wire kg/m; mass: kg. thickness: of a shell, m. overlap:
     "signed" or "union". wall: of a shell, "thin", "inward", "outward" or "centered". unit: meters per Blender unit.
-    varying: text of the settings that decide a varying density or a given center or inertia. order: of the moments;
-    None for the order that mass properties need. surface: area moments, too. pose: the principal frame follows
-    the shape to sixth order, for any number of faces. compare: bodies that need no display mesh are compared with it.
-    axes: True to choose ambiguous principal axes by moments above third order; else any of them may result.
+    varying: text of the settings that decide a varying density or a given center or inertia.
     """
 
     kind: str = "solid"
@@ -35,12 +50,6 @@ class Settings:
     wall: str = "thin"
     unit: float = 1.0
     varying: str = ""
-    order: int | None = None
-    surface: bool = False
-    pose: bool = False
-    compare: bool = True
-    axes: bool = True
-    threads: int = 1
 
     @property
     def digest(self) -> str:

@@ -98,12 +98,48 @@ def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | N
         raise MeasureError(HULL_WITHOUT_EXTENT)
     if len(corners) == 3:
         return _flat_hull(points, corners, tolerance)
-    hull = _GrowingHull(grid, corners, step)
-    while (max_corners is None or len(hull.corners) < 2 * max_corners) and hull.add_points():
-        pass
+    hull = _GrowingHull(grid, np.array([corners]), np.zeros(len(grid), np.intp), step)
+    while max_corners is None or len(hull.corners) // 2 + 2 < max_corners:
+        if not hull.add_points(None if max_corners is None else max_corners - len(hull.corners) // 2 - 2):
+            break
     indices, triangles = np.unique(hull.corners, return_inverse=True)
     gap = max(float(hull.height.max(initial=0.0)) / 2.0**GRID_BITS, tolerance) * extent
     return ConvexHull(points[indices], indices, triangles.reshape(-1, 3), hull.neighbors, is_flat=False, gap=gap)
+
+
+def hull_volumes(points: NDArray[np.float64], starts: NDArray[np.intp], tolerance: float) -> NDArray[np.float64]:
+    """Return the volumes of the hulls of (k,) sets of points, which begin at these rows; all hulls grow at once.
+
+    tolerance: relative to the extent of each set, as for `convex_hull`. A flat set has no volume.
+    """
+    sizes = np.diff(np.append(starts, len(points)))
+    low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
+    extent = (high - low).max(axis=1)
+    steps = 2.0**GRID_BITS / np.where(extent > 0.0, extent, 1.0)
+    grid = np.rint((points - low.repeat(sizes, axis=0)) * steps.repeat(sizes)[:, None]).astype(np.int64)
+    step, volumes = max(tolerance * 2.0**GRID_BITS, 1.0), np.zeros(len(starts))
+    corners: list[list[int]] = []
+    solid: list[int] = []
+    for i, (start, size) in enumerate(zip(starts.tolist(), sizes.tolist())):
+        if size > 3 and extent[i] > 0.0:
+            first = _first_corners(grid[start : start + size].astype(np.float64), step)
+            if len(first) == 4:
+                corners.append([start + corner for corner in first])
+                solid.append(i)
+    if not solid:
+        return volumes
+    number = np.full(len(starts), -1)
+    number[solid] = np.arange(len(solid))
+    owner = number.repeat(sizes)
+    hull = _GrowingHull(grid, np.array(corners), owner, step)
+    while hull.add_points():
+        pass
+    a, b, c = (grid[hull.corners[:, k]].astype(np.float64) for k in range(3))
+    whose = owner[hull.corners[:, 0]]
+    apex = grid[np.array(corners)[whose, 0]].astype(np.float64)
+    sixth = np.einsum("ij,ij->i", a - apex, np.cross(b - apex, c - apex)) / 6.0
+    volumes[solid] = np.bincount(whose, sixth, len(solid)) / steps[solid] ** 3
+    return volumes
 
 
 def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
@@ -134,22 +170,22 @@ def _farthest(distances: NDArray, reach: NDArray, least: float) -> int:
 
 
 class _GrowingHull:
-    """A hull on the grid, and the points that are still outside it, each with one face that it sees.
+    """Hulls on the grid, one of each set of points, and the points still outside, each with a face that it sees.
 
+    first: (k, 4) corners of a tetrahedron in each set. owner: (n,) the set of each point, or -1 to leave it out.
     corners: (m, 3) of its faces. normals: (m, 3) exact integers. outside, seen, height: the points, their faces, and
     their heights in steps of the grid. reach: squared distances of all points from the middle.
     """
 
-    def __init__(self, grid: NDArray[np.int64], corners: list[int], step: float) -> None:
-        a, b, c, d = corners
+    def __init__(self, grid: NDArray[np.int64], first: NDArray[np.intp], owner: NDArray[np.intp], step: float) -> None:
         self.grid, self.step = grid, step
         self.reach = ((grid.astype(np.float64) - 2.0 ** (GRID_BITS - 1)) ** 2).sum(axis=1)
-        self.corners = np.array([[a, b, c], [a, d, b], [b, d, c], [c, d, a]], np.intp)
-        self.neighbors = np.array([[1, 2, 3], [3, 2, 0], [1, 3, 0], [2, 1, 0]], np.intp)
+        self.corners = first[:, [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]].reshape(-1, 3)
+        beyond = np.array([[1, 2, 3], [3, 2, 0], [1, 3, 0], [2, 1, 0]], np.intp)
+        self.neighbors = (4 * np.arange(len(first))[:, None, None] + beyond).reshape(-1, 3)
         self._set_normals(np.zeros((0, 3), np.int64), self.corners)
-        every = np.arange(len(grid))
-        counts = np.full(len(grid), 4)
-        self.outside, self.seen, self.height = self._highest(every, counts, np.zeros(len(grid), np.intp))
+        every = np.flatnonzero(owner >= 0)
+        self.outside, self.seen, self.height = self._highest(every, np.full(len(every), 4), 4 * owner[every])
 
     def _set_normals(self, kept: NDArray[np.int64], added: NDArray[np.intp]) -> None:
         """Set the normals of the faces: `kept`, then the normals of new ones, below 2^60, so exact."""
@@ -169,7 +205,7 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """Return outside points, the faces they are highest above (`counts` from `firsts` on), and the heights."""
+        """Return outside points, the face each is highest above (of `counts` from `firsts` on), and their heights."""
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
             number = counts[block]
@@ -184,8 +220,8 @@ class _GrowingHull:
         points, faces, height = (np.concatenate(arrays) for arrays in zip(*parts))
         return points, faces, height
 
-    def add_points(self) -> bool:
-        """Add the farthest points outside, as many as do not disturb each other. Return whether there were any."""
+    def add_points(self, most: int | None = None) -> bool:
+        """Add at most so many farthest points whose visible faces do not touch. Return whether there were any."""
         if not len(self.outside):
             return False
         farthest = np.zeros(len(self.corners))
@@ -199,6 +235,8 @@ class _GrowingHull:
         apexes = self.outside[place]
         visible, horizon = self._visible_faces(apexes, self.seen[place])
         keeps = self._independent(len(apexes), visible, horizon)
+        if most is not None:
+            keeps &= np.cumsum(keeps) <= most
         visible, horizon = visible[keeps[visible[:, 0]]], horizon[keeps[horizon[:, 0]]]
         self._replace_faces(apexes, visible, horizon[np.argsort(horizon[:, 0], kind="stable")])
         return True

@@ -21,7 +21,7 @@ TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 
 def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float64]:
-    """Return the (m,) distances of (m, 3) points, or of one, from (m, 3, 3) triangles, each from its own."""
+    """Return the (m,) distances of (m, 3) points, or of one point, each from its own of (m, 3, 3) triangles."""
     point, ends = np.asarray(points, np.float64).T, np.ascontiguousarray(corners.transpose(1, 2, 0))
     if point.ndim == 1:
         point = point[:, None]

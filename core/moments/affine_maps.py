@@ -79,7 +79,7 @@ def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: i
 
 
 def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
-    """Map functionals (..., m, K): the first of each m by the map (..., 3, 3), the others by its absolute value."""
+    """Map functionals (..., m, K): the first of m by the map (..., 3, 3), its bounds by the map's absolute value."""
     forms, out = np.stack([linear, np.abs(linear)], axis=-3), np.array(values)
     table = np.ones((*forms.shape[:-2], 1, 1))
     for degree in range(1, order + 1):

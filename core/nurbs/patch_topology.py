@@ -31,9 +31,9 @@ from ..verdict.finding import MeasureError
 from .bezier_form import bezier_curves
 from .curve import Curve
 from .findings import DISCONTINUOUS_PATCH
+from .flat_face import self_intersects
 from .patch import Face, Patch
 from .patch_moments import vector_area
-from .planar_regions import self_intersects
 
 SAMPLES_PER_SIDE = 33  # Least number of points at which sides are compared.
 PAIRS_PER_BLOCK = 4096  # pairs of sides compared at a time

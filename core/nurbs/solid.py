@@ -48,14 +48,7 @@ from .findings import (
 )
 from .flat_face import FlatFace, split_faces
 from .patch import Face, Patch, patches_center, patches_size
-from .patch_moments import (
-    area_moments,
-    area_slope,
-    sheet_moments,
-    volume_moments,
-    with_area_error,
-    with_swept_error,
-)
+from .patch_moments import area_moments, area_slope, sheet_moments, volume_moments, with_area_error, with_swept_error
 from .patch_topology import PatchTopology, find_topology
 
 SAMPLES_PER_SPAN, FINE_SAMPLES_PER_SPAN = 8, 48  # For comparing parts, and for parts that seem to cross.
@@ -352,7 +345,7 @@ def _sampled(face: Face, each: int) -> tuple[NDArray, NDArray[np.intp], float]:
 
 
 def _sagitta(grid: NDArray, each: int) -> float:
-    """Return how far a surface may be from the chords of its samples along the first axis, ignoring bends at knots."""
+    """Return the largest distance of a surface from the chords of its samples along the first axis, bends ignored."""
     bend = np.linalg.norm(np.diff(grid, 2, axis=0), axis=2) / 8.0
     bend[each - 1 :: each] = 0.0
     return float(bend.max())

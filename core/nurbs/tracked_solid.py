@@ -3,16 +3,17 @@
 """A body of patches that is measured again and again while its control points move.
 
 Orientation and caps are decided anew each time, as in `measure_patches`; only the moments come from tables
-(`incremental`). For rational patches the tables' rule is fixed and has no error estimate. Its error depends on the
-weights, so the rule is compared with measured moments: of the body, and of patches with its weights and random points,
-as a flat body says little about later shapes. If the weights change, or the body moves far from the reference point of
-its moments, everything is measured anew.
+(`IncrementalPatchMoments`). For rational patches the tables' rule is fixed and has no error estimate. Its error depends
+on the weights, so the rule is compared with measured moments: of the body, and of patches with its weights and random
+points, as a flat body says little about later shapes. If the weights change, or the body moves far from the reference
+point of its moments, everything is measured anew.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,14 +22,15 @@ from ..moments.moments import Measure, Moments, monomials, sum_moments
 from ..numerics.bspline import SplineSpace
 from ..verdict.method import Verdict
 from ..verdict.tolerances import welding_tolerance
-from .incremental import IncrementalPatchMoments
+from .bezier import MAX_CELLS, cells_of_nets, homogeneous
 from .patch import Patch, patches_center, patches_size
-from .patch_moments import area_slope, volume_moments
+from .patch_moments import area_slope, exact_points, flux_sums, integrand_in_blocks, volume_moments
 from .patch_topology import PatchTopology, find_topology
 from .solid import PatchIntegrals, assess, measure_patches, oriented_parts
 
 MAX_RULE_ERROR = 1e-10  # Relative to the largest possible moment: rules with larger errors are not used.
 RULE_ERROR_GROWTH = 8.0  # Estimated growth of the rule's error as control points move.
+RATIONAL_GAUSS_POINTS = 16  # Gauss points in a span of a rational patch
 
 
 class TrackedSolid:
@@ -86,7 +88,7 @@ class TrackedSolid:
         return True
 
     def _assess(self, patches: Sequence[Patch], topology: PatchTopology, stored: float) -> PatchIntegrals:
-        """Return the measurement that the stored fluxes give, with the decisions of `measure_patches`."""
+        """Return the measurement of the present fluxes of all patches, with the decisions of `measure_patches`."""
         about = self.measure.volume.about
         total = sum(evaluator.area for evaluator in self._evaluators)
         area = Moments(np.array([total]), about, Measure.AREA, self._area_error * total)
@@ -122,3 +124,48 @@ def _rule_error_at_random(patch: Patch) -> float:
     off = np.abs(evaluator.moments(points).raw - volume_moments([perturbed], 3, about)[0].raw)
     reach = float(np.sqrt((points**2).sum(axis=2).max()))
     return float((off / (evaluator.area * reach ** (monomials(3).sum(axis=1) + 1.0))).max())
+
+
+class IncrementalPatchMoments:
+    """Moments of a patch in a fixed function space and with fixed weights, its control points free to move.
+
+    Only the matrices from control points to Bézier ones (`bezier`) are precomputed: the integrals of products of basis
+    functions Φ of Soldea, Elber and Rivlin (section 3) need up to 10,000 times as much memory. Gauss rules are exact
+    for polynomial patches; for rational ones there is no error estimate. `area` is the area of the patch as last
+    evaluated, by the same points: an approximation.
+    """
+
+    def __init__(self, patch: Patch, order: int, about: NDArray):
+        self.spaces, self.weights, self.about = patch.spaces, patch.weights, about
+        along_s, along_t = (
+            (exact_points(space.order, order) if self.weights is None else RATIONAL_GAUSS_POINTS,)
+            for space in self.spaces
+        )
+        self._rule = along_s, along_t
+        self._flux = partial(flux_sums, order=order, area=True)
+        self._divisor = monomials(order).sum(axis=1) + 3.0
+        self._points, self._anchor = np.full_like(patch.points, np.nan), about
+        self._sums = np.zeros((len(self._divisor) + 1, *(len(space.spans) for space in self.spaces)))
+        self.area = 0.0
+
+    def moments(self, points: NDArray) -> Moments:
+        """Return the patch's flux as moments; only spans on which moved control points act are evaluated anew."""
+        moved = (points != self._points).any(axis=2)
+        self._points = points.copy()
+        if moved.all():
+            self._anchor = self._points[0, 0]
+        net, anchor = self._points - self._anchor, (self._anchor - self.about)[None]
+        net = net if self.weights is None else homogeneous(net, self.weights)
+        s_spans, t_spans = (
+            np.flatnonzero(moved.any(axis=1 - axis)[space.active_controls].any(axis=1))
+            for axis, space in enumerate(self.spaces)
+        )
+        step = max(1, MAX_CELLS // max(1, len(t_spans)))
+        for start in range(0, len(s_spans) if len(t_spans) else 0, step):
+            spans = s_spans[start : start + step], t_spans
+            cells = cells_of_nets(net[None], anchor, self.spaces, spans, (False, False), 0.0)
+            sums = integrand_in_blocks(cells, self._rule, self._flux)[0]
+            self._sums[:, spans[0][:, None], t_spans] = sums.reshape(len(sums), len(spans[0]), -1)
+        total = np.add.reduce(self._sums, axis=(1, 2))
+        self.area = float(total[-1])
+        return Moments(total[:-1] / self._divisor, self.about)

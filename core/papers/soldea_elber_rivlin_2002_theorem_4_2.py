@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Theorem 4.2 of Soldea, Elber and Rivlin, as printed: the reference that `spline_tables` is compared with.
+"""Theorem 4.2 of Soldea, Elber and Rivlin, as printed: the reference for `full_support_integrals`.
 
 With δ_{x,y} = (t_{x+y} - t_x) / y and [t_m, t_{m+1}) the interval that holds t,
 

@@ -28,9 +28,17 @@ from numpy.typing import NDArray
 
 from ..inertia.findings import MOMENTS_OVERFLOW
 from ..mesh.surface import Surface, turned_quads
-from ..moments.exponents import count_of_degree, factorial_ratios, monomial_count, monomials, quotient_indices
-from ..moments.moments import Measure, Moments, U
-from ..numerics.arrays import indices_in_range
+from ..moments.exponents import (
+    count_of_degree,
+    factorial_ratios,
+    monomial_count,
+    monomial_values,
+    monomials,
+    quotient_indices,
+)
+from ..moments.moments import Measure, Moments, U, unchecked_moments
+from ..numerics.arrays import batches, indices_in_range
+from ..numerics.vectors import cross, dot
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import check_size
 from .any_order_kernel import UNDERFLOW_BOUND, AnyOrderKernel, Sums, absolute_sums, row_count
@@ -43,6 +51,7 @@ MIN_FACES_PER_BLOCK = 4608
 BLOCKS_PER_TASK = 8  # blocks that are handed to a thread at once
 MAX_UNSCALED_EXPONENT = 8  # powers of two up to which coordinates are left as they are
 MAX_EXPONENT = 1000.0  # powers of two beyond which a moment overflows
+TRIANGLES_PER_BLOCK = 512  # triangles whose levels stay in the cache
 
 
 @lru_cache
@@ -252,3 +261,64 @@ class StreamIntegrator:
                     table[known : monomial_count(degree), axis] * half_ulp[axis] * lower[quotients]
                 )
         return moved
+
+
+def extend_small_moments(
+    volume: Moments,
+    order: int,
+    points: NDArray,
+    triangles: NDArray[np.integer],
+    counts: NDArray[np.integer],
+    reach: NDArray,
+) -> Moments:
+    """Return the moments of n bodies, `volume` (n, 20), to a higher order; reach: (n, 3) of points from their point."""
+    known, ends = volume.raw.shape[1], np.cumsum(counts)
+    powers = monomials(order)[known:]
+    degree = powers.sum(axis=1)
+    factors = area_factors(order)[known:] / (degree + 3.0)
+    coordinates, sums, sizes = np.ascontiguousarray(points.T), [], []
+    for part in batches(counts, TRIANGLES_PER_BLOCK):
+        rows, own = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]], counts[part]
+        corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
+        a, b, c = (corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]).transpose(1, 0, 2)
+        det = dot(a, cross(b - a, c - a))
+        starts = np.cumsum(own) - own
+        sums.append(np.add.reduceat(_coefficients(a, b, c, order)[known:] * det, starts, axis=1).T)
+        sizes.append(np.add.reduceat(np.abs(det), starts))
+    raw = np.concatenate(sums) * factors
+    largest = monomial_values(reach, order)[:, known:]
+    # A coefficient is off by (6 n + 8) u, a determinant as much as the known total, and the sums by their lengths.
+    relative = U * (14.0 * degree + 16.0 + 3.0 * counts[:, None])
+    size = np.concatenate(sizes)[:, None] / (2.0 * degree + 6.0)
+    error = (relative * size + 2.0 * volume.rounding_error[:, :1]) * largest + 8.0 * U * np.abs(raw)
+    return unchecked_moments(
+        np.concatenate([volume.raw, raw], axis=1),
+        volume.about,
+        Measure.VOLUME,
+        np.concatenate([volume.rounding_error, error], axis=1),
+        np.concatenate([volume.input_error, volume.input_error[:, :1] * largest], axis=1),
+    )
+
+
+def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:
+    """Return the (K, t) S_α of triangles with corners (3, t)."""
+    vectors, out = np.stack([a, c, b], axis=1), np.empty((monomial_count(order), a.shape[1]))
+    levels, terms = (
+        np.empty((2, count_of_degree(order), 3, a.shape[1])),
+        np.empty((count_of_degree(order - 1), *a.shape)),
+    )
+    levels[0, 0] = out[0] = 1.0  # C, D and S of degree 0
+    for degree in range(1, order + 1):
+        below, count = count_of_degree(degree - 1), count_of_degree(degree)
+        known, grown = levels[1 - degree % 2, :below], levels[degree % 2, :count]
+        np.multiply(known, vectors[0], out=grown[:below])
+        grown[below:] = 0.0
+        for z, vector in enumerate(vectors[1:]):
+            np.multiply(known, vector, out=terms[:below])
+            for rows in range(1, degree + 1):  # In each run of equal q + r, rows times y or z are the next run's.
+                source, target = rows * (rows - 1) // 2, rows * (rows + 1) // 2 + z
+                grown[target : target + rows] += terms[source : source + rows]
+        grown[:, 1] += grown[:, 0]
+        grown[:, 2] += grown[:, 1]
+        out[monomial_count(degree - 1) : monomial_count(degree)] = grown[:, 2]
+    return out

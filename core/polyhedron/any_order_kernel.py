@@ -170,7 +170,7 @@ class _Block:
             self._append_call(np.add, self.levels[1, part], grown, self.levels[1, part])
 
     def _append_raise(self, degree: int, vectors: NDArray) -> None:
-        """Append the calls that put Σ_i v_i L_{α-e_i}, v (3, c-1, 1, k), in place of all levels L, one degree lower."""
+        """Append the calls that replace all levels L, one degree lower, by Σ_i v_i L_{α-e_i}, v (3, c-1, 1, k)."""
         levels, below = self.levels, count_of_degree(degree - 1)
         last, new = levels[:, below - degree : below], levels[:, below : below + degree + 1]
         self._append_call(np.multiply, last, vectors[1], new[:, :-1])

@@ -45,14 +45,7 @@ from .third_order_kernel import (
     combine_blocks,
     scratch_size,
 )
-from .third_order_small import (
-    AREA_FACTORS,
-    AXIS_PAIRS,
-    CONE_DIVISORS,
-    DEGREE,
-    error_bounds,
-    small_moments,
-)
+from .third_order_small import AREA_FACTORS, AXIS_PAIRS, CONE_DIVISORS, DEGREE, error_bounds, small_moments
 
 MAX_TRIANGLES_PER_BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
 SCRATCH_BYTES = 16, 6_000_000  # limit of all threads' scratch together: bytes for each triangle, and a constant
@@ -124,7 +117,7 @@ def integrate(
 
 
 def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:
-    """Return the volume and the area of no faces."""
+    """Return zero moments of the volume and the area, for a surface without faces."""
     zeros, about = np.zeros(monomial_count(order)), np.zeros(3) if about is None else about
     return Moments(zeros, about, Measure.VOLUME), Moments(zeros, about, Measure.AREA)
 

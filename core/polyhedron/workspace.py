@@ -53,7 +53,7 @@ class Workspace(Generic[Block]):
         return self._buffer[start:end].reshape(shape)
 
     def overlay(self, *groups: Sequence[tuple[int, ...]]) -> list[list[NDArray[np.float64]]]:
-        """Return arrays of these shapes, group by group; the groups share memory, as only one is in use."""
+        """Return arrays of the given shapes, by group; the groups share memory: only one is in use at a time."""
         start, end, arrays = self._position, self._position, []
         for group in groups:
             self._position = start

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from ..inertia.mass_properties import combine
 from ..mesh.surface import Surface
-from ..moments.exponents import KNOWN_ORDER
-from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
+from ..moments.moments import Moments
 from ..solid.measure import measure_solid
 from ..verdict import internal_error
 from ..verdict.finding import Finding, MeasureError, Severity, finding
@@ -37,6 +36,7 @@ from .model import Pose, Shape
 from .plausibility import LEAST_MASS, Hull, impossible, spread_directions
 from .read.meshes import read_mesh
 from .read.paths import Roots
+from .shapes import primitive_moments
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
 
 BALL = 2000  # points of a ball
@@ -100,8 +100,9 @@ class Audit:
     links: tuple[LinkAudit, ...]
 
     def repairs(self) -> list[tuple[StatedLink, StatedInertial]]:
-        """Return the links with a corrected inertial."""
-        return [(one.link, one.repaired) for one in self.links if one.repaired is not None]
+        """Return the links with a corrected inertial, if the file itself holds the inertial."""
+        found = [(one.link, one.repaired) for one in self.links if one.link.span is not None]
+        return [(link, repaired) for link, repaired in found if repaired is not None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -322,32 +323,16 @@ def _matrix(pose: Pose) -> NDArray[np.float64]:
 def _primitive(shape: Shape) -> _Piece:
     """Return a primitive in its own frame, with its moments and points that enclose it."""
     if shape.kind == "box":
-        sides = np.array(shape.size)
-        corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * sides
-        volume = float(sides.prod())
-        return _Piece(corners, _moments(volume, volume * sides * sides / 12.0))
-    if shape.kind in ("sphere", "ellipsoid"):
-        axes = np.array(shape.size * 3 if shape.kind == "sphere" else shape.size)
-        volume = 4.0 / 3.0 * pi * float(axes.prod())
-        return _Piece(spread_directions(BALL) * axes * ROUND, _moments(volume, volume * axes * axes / 5.0))
-    radius, length = shape.size
-    turn = np.linspace(0.0, 2.0 * pi, 48, endpoint=False)
-    ring = np.stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)], axis=1) * radius * ROUND
-    end = np.array([0.0, 0.0, length / 2.0])
-    volume, across = pi * radius**2 * length, pi * radius**4 * length / 4.0
-    along = pi * radius**2 * length**3 / 12.0
-    points = np.concatenate([ring + end, ring - end])
-    if shape.kind == "capsule":
-        volume += 4.0 / 3.0 * pi * radius**3
-        across += 4.0 / 15.0 * pi * radius**5
-        along += pi * radius**3 * (4.0 / 15.0 * radius**2 + length * radius / 2.0 + length**2 / 3.0)
-        ball = spread_directions(BALL) * radius * ROUND
-        points = np.concatenate([ball + end, ball - end])
-    return _Piece(points, _moments(volume, np.array([across, across, along])))
-
-
-def _moments(volume: float, second: NDArray) -> Moments:
-    raw = np.zeros(monomial_count(KNOWN_ORDER))
-    raw[0] = volume
-    raw[np.diag(SECOND_MOMENT_INDEX)] = second
-    return Moments(raw, np.zeros(3), Measure.VOLUME)
+        points = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * shape.size
+    elif shape.kind in ("sphere", "ellipsoid"):
+        points = spread_directions(BALL) * shape.size * ROUND
+    else:
+        radius, length = shape.size
+        if shape.kind == "capsule":
+            ring = spread_directions(BALL)
+        else:
+            turn = np.linspace(0.0, 2.0 * pi, 48, endpoint=False)
+            ring = np.stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)], axis=1)
+        end = np.array([0.0, 0.0, length / 2.0])
+        points = np.concatenate([ring * radius * ROUND + end, ring * radius * ROUND - end])
+    return _Piece(points, primitive_moments(shape))

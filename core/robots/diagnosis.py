@@ -37,6 +37,7 @@ from .findings import (
 from .stated import StatedInertial, rotation_of_angles
 
 AGREES, DIFFERS = 5e-3, 1e-2  # Relative differences: below the first equal; above the second not by rounded digits.
+ROUNDING = 1e-9  # Relative differences below are none, and do not choose between changes.
 INCH, POUND = 0.0254, 0.45359237
 LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, INCH, 1.0 / INCH)
 IMPERIAL_INERTIAS = (POUND * INCH**2, POUND * (12.0 * INCH) ** 2, POUND / 16.0 * INCH**2)  # lb·in², lb·ft², oz·in²
@@ -139,7 +140,7 @@ def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Dia
             now = reference.compare(repaired)
             if now < AGREES and now < 0.1 * apart:
                 fits.append(repaired)
-                if best is None or now < 0.1 * best[0]:
+                if best is None or max(now, ROUNDING) < 0.1 * best[0]:
                     best = now, _with_density(Diagnosis(finding(code, **values), repaired), stated, reference)
     if best is None:
         return None

@@ -92,7 +92,16 @@ XML_ENTITIES = error(
     "xml_entities", "The file declares a document type, with which entities could be declared. Remove it."
 )
 DESCRIPTION_INVALID = error("description_invalid", "The file is not {format}: line {line}, {error}.")
-USD_NOT_TEXT = error("usd_not_text", "Only the text form of USD is read. Convert the file to .usda with usdcat.")
+USD_NOT_TEXT = error(
+    "usd_not_text",
+    "{name} is binary USD or refers to other files, which only the Python module usd-core reads. Install it (pip "
+    "install usd-core), or convert the file: usdcat --flatten {name} -o robot.usda.",
+)
+XACRO_NOT_EXPANDED = error(
+    "xacro_not_expanded",
+    "xacro cannot expand the file ({error}). Correct it, or expand it where all packages are: xacro {name} > "
+    "robot.urdf.",
+)
 DESCRIPTION_UNKNOWN = error("description_unknown", "The file is no robot description. Its first element is {tag}.")
 INCLUDE_UNREADABLE = error("include_unreadable", "A file that it includes cannot be read: {name}. {cause}")
 INCLUDE_TWICE = error("include_twice", "It includes a file twice: {name}.")

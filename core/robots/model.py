@@ -95,7 +95,7 @@ class Shape:
     cylinder, the radius of a sphere, the factors along the axes of a mesh.
     file: a mesh's file, with slashes, relative to the file that names it. sheet: True if the mesh bounds no volume.
     surface: the geometry of a mesh that is to be written, in meters along the axes of the shape.
-    collides: False for a shape that is only seen.
+    collides: False for a shape that is only seen. seen: False for a shape that only collides, with its mass in kg.
     """
 
     kind: str
@@ -105,6 +105,8 @@ class Shape:
     sheet: bool = False
     surface: Surface | None = None
     collides: bool = True
+    seen: bool = True
+    mass: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,6 +7,7 @@ A small file can ask for terabytes: by a sparse file, by compression, by its hea
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
@@ -55,3 +56,8 @@ class Limits:
 
 
 DEFAULT_LIMITS = Limits()
+
+
+def scan_limits() -> Limits:
+    """Return the limits that the environment variable sets, or raise QueryError if it is invalid."""
+    return Limits.parse(os.environ.get("BODY_MOMENTS_LIMITS", ""))

@@ -14,13 +14,7 @@ from numpy.typing import NDArray
 
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import FileError
-from .findings import (
-    DAMAGE_CUT_SHORT,
-    FILE_UNRECOGNIZED,
-    HEADER_FIELD,
-    SCAN_IN_SEVERAL_FILES,
-    SCAN_SAMPLE_TYPE,
-)
+from .findings import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED, HEADER_FIELD, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
 from .limits import Limits
 from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samples
 

@@ -84,7 +84,7 @@ def _damage(path: Path, kind: str) -> Iterator[None]:
 
 
 def _unpack(archive: zipfile.ZipFile, path: Path, name: str, limits: Limits) -> NDArray:
-    """Read an array of an archive. It reaches the end of its entry, so that zipfile compares the checksum."""
+    """Read an array of an archive to the end of its entry, where zipfile compares the checksum."""
     limits.check(path, "unpacked_bytes", archive.getinfo(name + ".npy").file_size)
     with archive.open(name + ".npy") as file:
         return np.lib.format.read_array(file, allow_pickle=False)

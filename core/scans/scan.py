@@ -19,14 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, Finding, finding
-from .findings import (
-    DAMAGE_CUT_SHORT,
-    DAMAGE_INCOMPLETE,
-    DAMAGE_SIZE,
-    FILE_DAMAGED,
-    SCAN_SAMPLE_TYPE,
-    SCAN_SIZE,
-)
+from .findings import DAMAGE_CUT_SHORT, DAMAGE_INCOMPLETE, DAMAGE_SIZE, FILE_DAMAGED, SCAN_SAMPLE_TYPE, SCAN_SIZE
 from .limits import Limits
 
 MAX_GZIP_RATIO = 1032  # Most bytes that one byte of a gzip file can unpack to.

@@ -153,7 +153,7 @@ class OwnedLoops:
 
     @classmethod
     def of_sides(cls, points: NDArray, start: NDArray, stop: NDArray, owner: NDArray) -> OwnedLoops:
-        """Find the loops of sides from and to these (r,) points. owner: (r,) of each side."""
+        """Find the loops of r sides, given by the (r,) points that they run from and to. owner: (r,) of each side."""
         begin, end = points[start].astype(np.float64), points[stop].astype(np.float64)
         first, second = owner * len(points) + start, owner * len(points) + stop
         loops = find_loops(begin, end, join_sides(begin, end, first, second, directed=True))

@@ -12,6 +12,7 @@ the reference point, and called open.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -19,15 +20,44 @@ import numpy as np
 from ..mesh.surface import Surface
 from ..verdict.method import Verdict
 from .closedness import CheckedSurface, GivenIntegrals, check_surface, integrate_and_prove
-from .duplicate_faces import copied_faces, without_faces
+from .hole_caps import (
+    cap_holes,
+    close_gaps,
+    find_t_junctions,
+    find_unclosable_components,
+    orient_faces,
+    report_closedness,
+    turn_faces,
+)
 from .orientation import OrientedSolid, orient_components
-from .repair import repair_surface
-from .repaired_mesh import RepairedMesh
+from .repaired_mesh import UNKNOWN, RepairedMesh, copy_with
 from .self_intersection import find_self_intersection
 from .solid_stack import SolidStack
 from .solid_verdict import SolidIntegrals, judge
+from .weld_open_parts import (
+    copied_faces,
+    drop_collapsed_triangles,
+    drop_duplicate_faces,
+    split_into_triangles,
+    weld_equal_positions,
+    weld_near_positions,
+    without_faces,
+)
 
 MAX_WELDED_SHARE = 0.1  # Share of the volume: a weld that may change more closes no gap left by rounding.
+STEPS: tuple[Callable[[RepairedMesh, float], RepairedMesh], ...] = (
+    weld_equal_positions,  # in parts with odd edges: one face, or three
+    weld_near_positions,  # along the edges that are then still odd
+    drop_collapsed_triangles,
+    drop_duplicate_faces,
+    find_t_junctions,
+    orient_faces,
+    find_unclosable_components,
+    close_gaps,
+    cap_holes,
+    turn_faces,
+    report_closedness,
+)
 
 
 def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) -> SolidIntegrals:
@@ -95,7 +125,7 @@ def _measure_repaired(
 
 
 def _judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool) -> SolidIntegrals:
-    """Judge the body. A shell is not searched for self-intersections, and all its copies of faces are reported."""
+    """Return the judged body. A shell is not searched for self-intersections; its copies of faces are reported."""
     if not shell:
         return judge(checked, given, oriented, find_self_intersection(checked, given, oriented))
     solid = judge(checked, given, oriented, None)
@@ -105,3 +135,16 @@ def _judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSol
         return solid
     defects = replace(found, duplicate_faces=copies)
     return replace(solid, health=replace(solid.health, duplicate_faces=len(copies), defective_elements=defects))
+
+
+def repair_surface(surface: Surface, tolerance: float, weld_near: bool = True) -> RepairedMesh:
+    """Repair a surface, whose vertices all belong to faces, on a copy. The steps end if no triangle is left.
+
+    tolerance: positions nearer than this (unit) count as equal at open edges, and loops narrower than this have no
+    area.
+    """
+    mesh = split_into_triangles(surface)
+    for step in STEPS:
+        if len(mesh.triangles) and (weld_near or step is not weld_near_positions):
+            mesh = step(mesh, tolerance)
+    return copy_with(mesh, state=UNKNOWN)

@@ -22,7 +22,7 @@ from ..mesh.surface import Surface
 from ..mesh.surface_stack import SurfaceStack, TriangleStack
 from ..moments.moments import Moments, U, stack_moments
 from ..numerics.arrays import segment_starts
-from ..polyhedron.any_order_small import extend_small_moments
+from ..polyhedron.any_order import extend_small_moments
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
 from ..verdict.finding import Finding
@@ -119,7 +119,7 @@ def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Mome
 
 
 def _extend(volume: Moments, order: int, stack: TriangleStack, error: NDArray[np.float64]) -> Moments:
-    """Return the volume moments of the stack's bodies to an order. error: (n, 3) shifts by storing the points."""
+    """Return the volume moments of the stack's bodies to an order. error: (n, 3) shifts of the points by storing."""
     low, high = stack.box
     reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + error
     return extend_small_moments(volume, order, stack.points, stack.triangles, stack.triangle_counts, reach)

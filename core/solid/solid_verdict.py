@@ -41,6 +41,7 @@ from .repaired_mesh import RepairedMesh, copy_with
 from .self_intersection import SelfIntersection
 
 MIN_REPORTED_AMBIGUITY = 1e-6  # Share of the volume; smaller ambiguities are not reported.
+SMOOTH_FACES, SMOOTH_SHARE = 24, 0.03  # So many bent faces with so small a spread stand for a curved surface.
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,4 +298,5 @@ def shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> lis
     if not planarity.volume_spread > MIN_REPORTED_AMBIGUITY * total > 0.0:
         return []
     share = float(planarity.volume_spread / total)
-    return [finding(NON_PLANAR_FACES, slight=share < NEGLIGIBLE, share=share)]
+    is_smooth = planarity.non_planar_count >= SMOOTH_FACES and share < SMOOTH_SHARE
+    return [finding(NON_PLANAR_FACES, slight=is_smooth or share < NEGLIGIBLE, share=share)]

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Derivatives of the zeroth and first moments by every vertex, in one pass.
+"""Derivatives of the zeroth, first and second moments by every vertex, in one pass.
 
 A vertex that moves by δ carries its surface with it by λ δ, λ its barycentric coordinate, and the flow through the
 surface is the change of the body (Reynolds): with N = (b-a) × (c-a) of each triangle around the vertex v,
 
-    ∂/∂v ∫ f dV = Σ N ∫ f λ_v,   the integral over the unit triangle: f = 1: 1/6;   x: (s + x_v) / 24,   s = Σ x.
+    ∂/∂v ∫ f dV = Σ N ∫ f λ_v,   the integral over the unit triangle: f = 1: 1/6;   x: (s + x_v) / 24,   s = Σ x;
+    xy: (s_x s_y + Σ xy + s_x y_v + x_v s_y + 2 x_v y_v) / 120.
 
 It holds for closed surfaces; of the sum over cones it is the derivative there, and needs no reference point. An area's
 moment is |N| m, m the mean of f over the triangle times 1/2; ∂|N|/∂a = (b - c) × n with n = N / |N|.
@@ -16,19 +17,21 @@ About the body's own center, first moments vanish, so that the derivative of the
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.surface import Surface
+from ..moments.exponents import monomial_count
 from ..numerics.arguments import check_type, float_array
 from ..numerics.vectors import cross
 
 TRIANGLES_PER_BLOCK = 65536  # triangles at a time
 
 
-def volume_gradient(surface: Surface, about: ArrayLike) -> NDArray[np.float64]:
-    """Return the derivatives of the volume and its first moments by every vertex.
+def volume_gradient(surface: Surface, about: ArrayLike, order: int = 1) -> NDArray[np.float64]:
+    """Return the derivatives of the volume and its moments to an order of at most two by every vertex.
 
     Parameters
     ----------
@@ -36,10 +39,11 @@ def volume_gradient(surface: Surface, about: ArrayLike) -> NDArray[np.float64]:
         Closed and outward: of any other the result is the derivative of no volume.
     about : (3,) array_like
         The fixed point that the moments are about.
+    order : int
 
     Returns
     -------
-    (n, 4, 3) array
+    (n, 4, 3) array, or (n, 10, 3) with second moments
         ∂ raw[α] / ∂ vertex, in the order of `monomials`; unit of the moment per length.
 
     Examples
@@ -50,7 +54,7 @@ def volume_gradient(surface: Surface, about: ArrayLike) -> NDArray[np.float64]:
     >>> np.round(volume_gradient(surface, np.zeros(3))[3, 0] * 6, 9).tolist()
     [0.0, 0.0, 1.0]
     """
-    return _gradient(surface, about, _volume_shares)
+    return _gradient(surface, about, partial(_volume_shares, order=order), monomial_count(order))
 
 
 def area_gradient(surface: Surface, about: ArrayLike) -> NDArray[np.float64]:
@@ -76,34 +80,39 @@ def area_gradient(surface: Surface, about: ArrayLike) -> NDArray[np.float64]:
     >>> area_gradient(triangle, np.zeros(3))[2, 0].tolist()
     [0.0, 0.5, 0.0]
     """
-    return _gradient(surface, about, _area_shares)
+    return _gradient(surface, about, _area_shares, monomial_count(1))
 
 
-def _gradient(surface: Surface, about: ArrayLike, shares: Callable) -> NDArray[np.float64]:
+def _gradient(surface: Surface, about: ArrayLike, shares: Callable, count: int) -> NDArray[np.float64]:
     check_type("surface", surface, Surface)
     about = float_array("about", about, 3)
     points = surface.points.astype(np.float64)
     triangles, _ = surface.all_triangles()
-    out = np.zeros((12, len(points)))
+    out = np.zeros((3 * count, len(points)))
     for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
         part = triangles[start : start + TRIANGLES_PER_BLOCK].astype(np.intp)
         low = int(part.min())
-        place, count = part - low, int(part.max()) - low + 1
+        place, length = part - low, int(part.max()) - low + 1
         corners = points[part].transpose(1, 2, 0)  # corner, axis, triangle
         normal = np.stack(cross(corners[1] - corners[0], corners[2] - corners[0]))
         for vertex, values in zip(place.T, shares(corners, corners - about[:, None], normal)):
-            for row, target in zip(values.reshape(12, -1), out):
-                target[low : low + count] += np.bincount(vertex, row, count)
-    return out.reshape(4, 3, -1).transpose(2, 0, 1)
+            for row, target in zip(values.reshape(3 * count, -1), out):
+                target[low : low + length] += np.bincount(vertex, row, length)
+    return out.reshape(count, 3, -1).transpose(2, 0, 1)
 
 
-def _volume_shares(corners: NDArray, local: NDArray, normal: NDArray) -> Iterator[NDArray]:
-    """Yield for each corner the (4, 3, m) shares of m triangles; local: (3, 3, m) corners from the reference point."""
+def _volume_shares(corners: NDArray, local: NDArray, normal: NDArray, order: int) -> Iterator[NDArray]:
+    """Yield for each corner the (k, 3, m) shares of m triangles; local: (3, 3, m) corners from the reference point."""
     total = local[0] + local[1] + local[2]
+    i, j = np.triu_indices(3)
+    products = total[i] * total[j] + (local[:, i] * local[:, j]).sum(axis=0) if order > 1 else None
     for corner in local:
-        weights = np.empty((4, normal.shape[1]))
+        weights = np.empty((monomial_count(order), normal.shape[1]))
         weights[0] = 1.0 / 6.0
         weights[1:4] = (total + corner) / 24.0
+        if products is not None:
+            cross_products = total[i] * corner[j] + corner[i] * (total + 2.0 * corner)[j]
+            weights[4:] = (products + cross_products) / 120.0
         yield weights[:, None] * normal
 
 

@@ -17,7 +17,7 @@ Box = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 def box_of_blocks(blocks: Iterable[NDArray[np.floating]], element: str) -> Box:
-    """Return the least and the largest of (n, 3) or (n, 3, 3) coordinates in blocks, zero if there are none."""
+    """Return the least and the largest coordinates of (n, 3) or (n, 3, 3) blocks, zeros if there are none."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     rows = bad = first = 0
     for block in blocks:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +16,16 @@ from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..polyhedron.integration import polyhedron_moments
 from ..polyhedron.third_order import box_center
+from ..scans.findings import FILE_TYPE
 from ..verdict.finding import FileError
 from .findings import FILE_WITHOUT_OBJECTS
-from .mesh_file import MeshFile
+from .ply import PlyFile
+from .stl import StlFile
 
 MAX_REACH_RATIO = 2.0  # Largest reach of a body, relative to the box of its sampled faces.
+# A mesh whose faces can be read in blocks, any number of times.
+MeshFile = PlyFile | StlFile
+KINDS = {".stl": StlFile, ".ply": PlyFile}
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,3 +102,12 @@ class _Stream:
             self.boundary.add(piece.points.reshape(-1, 3, 3) if self._mesh.is_loose else piece)
             self.face_count += faces
             yield piece
+
+
+def open_mesh_file(path: str | Path) -> MeshFile:
+    """Open an .stl or .ply file, to read it in blocks, but a .ply's vertices at once. Raises FileError and OSError."""
+    path = Path(path)
+    kind = KINDS.get(path.suffix.lower())
+    if kind is None:
+        raise FileError(FILE_TYPE, suffixes=" ".join(KINDS))
+    return kind(path)

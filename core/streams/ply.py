@@ -19,8 +19,7 @@ from .boxes import Box, box_of_blocks
 from .file_mesh import FileMesh, Polygons, name_of_file, polygon_surface, strip_triangles
 from .findings import DAMAGE_INDEX, DAMAGE_PLY_ROWS, FILE_WITHOUT_OBJECTS
 from .misread import map_file
-from .ply_header import MAX_HEADER, Element, parse_header
-from .ply_rows import RowReader, RowsError
+from .ply_rows import MAX_HEADER, Element, RowReader, RowsError, parse_header
 from .ply_text_check import check_ply_text
 
 MAX_SPREAD = 4  # Up to so many vertices per corner between a block's first and last, they are not copied.

@@ -25,7 +25,7 @@ from .misread import (
     refuse_line,
     shorten,
 )
-from .ply_header import INDICES, Element, Header, Property
+from .ply_rows import INDICES, Element, Header, Property
 
 LENGTHS = range(9)  # lists that are checked together; rows with longer ones are checked word by word
 FEW_ROWS, MANY_PROPERTIES = 16, 100  # For fewer rows or more properties an expression does not pay.

@@ -22,8 +22,18 @@ from .boxes import Box, box_of_blocks
 from .decimals import parse_decimals
 from .file_mesh import FileMesh, Polygons, merge_equal, name_of_file
 from .findings import STL_CUT_SHORT
-from .misread import MARK, MAX_FLOAT32, map_file
-from .stl_text import BY_COUNT, BY_WORD, SOLID, check_stl_text
+from .misread import (
+    MARK,
+    MAX_FLOAT32,
+    SHORT,
+    SHORT_OR_NAN,
+    Data,
+    Fault,
+    find_number_fault,
+    map_file,
+    refuse_line,
+    shorten,
+)
 
 HEAD, RECORD = 84, 50  # Bytes before the triangles, and bytes of each triangle.
 CORNERS = np.dtype({"names": ["at"], "formats": ["(3,3)<f4"], "offsets": [12], "itemsize": RECORD})
@@ -37,6 +47,18 @@ FACET_LETTERS = b"factnormaloutrloopvrtxvrtxvrtxndloopndfact"
 WORDS, _SPACE = 21, ord(" ")  # of a facet
 _NUMERIC = b"0123456789.e+- \t\r\n\v\f"
 _NORMAL = re.compile(rb"normal[^v]*?out")
+BY_COUNT, BY_WORD = "where its number of triangles does", "with “endsolid”"  # words for the end of a file
+SOLID = re.compile(rb"(?<!\S)(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+", re.IGNORECASE)
+_FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
+_FACET_NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
+_FACETS = re.compile(
+    rb"(?:\s*+(?:%b(?!\S)|facet\s++normal%b\s++outer\s++loop(?:\s++vertex%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+"
+    % (SOLID.pattern, _FACET_NORMAL, _CORNER),
+    re.IGNORECASE,
+)
+_WORD = re.compile(rb"\S+")
+_CORNER_WORDS = ["vertex", True, True, True]  # True for a number that places a point
+_FACET_WORDS = ["facet", "normal", *3 * [False], "outer", "loop", *3 * _CORNER_WORDS, "endloop", "endfacet"]
 
 
 class StlFile:
@@ -157,3 +179,25 @@ def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:
             done += count
         if done:
             yield corners[:done]
+
+
+def check_stl_text(data: Data) -> None:
+    """Raise FileError if an importer would misread a word."""
+    first = _FIRST_LINE.match(data)
+    at = first.end() if first else 0
+    while (at := _FACETS.match(data, at).end()) < len(data):  # type: ignore[union-attr]
+        words = list(islice(_WORD.finditer(data, at), len(_FACET_WORDS)))
+        is_cut = len(words) < len(_FACET_WORDS)
+        for word, expected in zip(words[:-1] if is_cut else words, _FACET_WORDS):
+            fault = _find_fault(word[0], expected)
+            if fault is not None:
+                refuse_line(data, word.start(), fault)
+        if is_cut:
+            raise FileError(STL_CUT_SHORT, end=BY_WORD)
+        at = words[-1].end()
+
+
+def _find_fault(word: bytes, expected: str | bool) -> Fault | None:
+    if isinstance(expected, bool):
+        return find_number_fault(word, expected)
+    return None if word.lower() == expected.encode() else (shorten(word), "“{}”".format(expected))

@@ -89,6 +89,8 @@ class RobotExport(selection.InObjectMode, ExportHelper):
             return session.robots.object_links(context, name, objects, step)
 
     def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
+        if self.geometry == "MESH" and self.use_collision and not self.inertial_only:
+            made = made.with_colliders()
         robot, bare = made.robot, []
         if self.geometry != "MESH":
             robot = write.shapes.with_primitives(robot, self.geometry.lower())
@@ -129,8 +131,11 @@ class GeometryExport(RobotExport):
 
     def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
         is_own = self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only
-        # Nested prims and nodes cannot move in each other.
-        if is_own or any(joint.free for joint in made.robot.joints):
+        has_colliders = self.use_collision and any(
+            not shape.seen for link in made.with_colliders().robot.links for shape in link.shapes
+        )
+        # Nested prims and nodes cannot move in each other, and Blender's exporters would show colliders.
+        if is_own or has_colliders or any(joint.free for joint in made.robot.joints):
             return super()._export(context, made, path)
         made.findings.extend(write.texts.check(made.robot, self.FORMAT))
         sheared = read.robots.sheared_objects([obj for held in made.members.values() for obj in held])

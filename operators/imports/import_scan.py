@@ -11,7 +11,8 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProp
 from bpy.types import Context, Menu, Operator
 from bpy_extras.io_utils import ImportHelper
 
-from ...blender import read, scene, settings
+from ... import core
+from ...blender import read, scene
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.numerics.float32 import shortest_decimal
@@ -107,7 +108,7 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
 
     def _import(self, context: Context, module: ModuleType, path: Path) -> list[Finding | str]:
         """Make the object, and return findings and texts about the steps and decisions."""
-        limits = replace(settings.limits.scan_limits(), allow_outside=self.allow_outside)
+        limits = replace(core.scans.limits.scan_limits(), allow_outside=self.allow_outside)
         raw = (self.raw_shape, self.raw_type, self.raw_big_endian) if all(self.raw_shape) else None
         files = {"x": self.x_positions, "y": self.y_positions, "z": self.z_positions}
         files = {axis: bpy.path.abspath(file) for axis, file in files.items() if file}

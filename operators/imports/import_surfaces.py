@@ -9,7 +9,8 @@ from bpy.props import CollectionProperty, FloatProperty, StringProperty
 from bpy.types import Context, Menu, Object, Operator, OperatorFileListElement, UILayout
 from bpy_extras.io_utils import ImportHelper
 
-from ...blender import scene, settings
+from ... import core
+from ...blender import scene
 from ...blender.write import reports
 from ...core.verdict.finding import Finding, MeasureError
 from .. import selection
@@ -71,7 +72,7 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
 
     def _import(self, context: Context, path: Path) -> tuple[list[Object], list[Finding | str]]:
         """Return the objects of a file, and findings about the steps and decisions."""
-        found = scene.import_surfaces(path, settings.limits.scan_limits(), self.unit, context)
+        found = scene.import_surfaces(path, core.scans.limits.scan_limits(), self.unit, context)
         texts = (
             "Imported {count} patch of order {order} from {file}.",
             "Imported {count} patches of order {order} at most from {file}.",

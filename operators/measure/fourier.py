@@ -26,7 +26,6 @@ from .. import selection
 from ..modal import ModalSteps
 
 if TYPE_CHECKING:
-    from ...blender.bodies.flat.flat_fourier import FlatTransform
     from ...blender.bodies.fourier import ObjectTransform
     from ...core.fourier.wave_vectors import FrequencyGrid
 
@@ -146,7 +145,7 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         if not self._path.parent.is_dir():
             raise FileError(FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT))
         self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
-        self._work: ObjectTransform | FlatTransform
+        self._work: ObjectTransform
         if self.of == "FLAT":
             self._work = bodies.flat_transform(obj, depsgraph, self._grid, frame=frame)
         else:

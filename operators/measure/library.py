@@ -23,7 +23,7 @@ from ..modal import ModalSteps
 
 if TYPE_CHECKING:
     from ...command.supervisor.journal import Journal
-    from ...command.supervisor.whole_run import WholeRun
+    from ...command.supervisor.processes import WholeRun
 
 RESULT, REPORT = "body_moments.jsonl", "body_moments.html"
 JOURNAL = RESULT + ".journal"

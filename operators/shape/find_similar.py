@@ -186,21 +186,22 @@ class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
 
 
 class OBJECT_OT_body_moments_select_found(Operator):
-    """Make this object active and select it"""
+    """Select these objects and make the first one active"""
 
     bl_idname = "object.body_moments_select_found"
     bl_label = "Select Similar Object"
     bl_options = {"REGISTER", "UNDO"}
 
-    name: StringProperty(name="Name", description="Object to select")
+    name: StringProperty(name="Name", description="Objects to select, one a line")
 
     def execute(self, context: Context) -> set[str]:
-        obj = next((candidate for candidate in context.view_layer.objects if candidate.name_full == self.name), None)
-        if obj is None:
+        names = set(self.name.split("\n"))
+        objects = [candidate for candidate in context.view_layer.objects if candidate.name_full in names]
+        if not objects:
             return selection.refuse(self, "No object {object} in the view layer", object=self.name)
         for candidate in context.view_layer.objects:
-            candidate.select_set(candidate == obj)
-        context.view_layer.objects.active = obj
+            candidate.select_set(candidate in objects)
+        context.view_layer.objects.active = objects[0]
         return {"FINISHED"}
 
 

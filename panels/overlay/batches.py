@@ -13,10 +13,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
+import blf
 import bpy
 import gpu
 import numpy as np
 from bpy.types import Context
+from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 from numpy.typing import NDArray
@@ -51,6 +53,7 @@ class _Drawn:
     segments: NDArray[np.float64]
     lines: tuple[Batch, ...]  # faint, full
     fills: tuple[Batch, ...]
+    texts: tuple[tuple[NDArray[np.float64], str, NDArray], ...]
     discs: tuple[Batch, ...] = ()  # hidden, seen
     view_key: tuple = ()  # view of these discs
 
@@ -95,7 +98,23 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
         colors[:, :3, :3] = _axis_colors()
     parts = [(segments.reshape(-1, 2, 3), colors.reshape(-1, 4)), *(detail.segments for detail in details)]
     fills = _fill_batches([detail.triangles for detail in details])
-    return _Drawn(key, entries, active, bodies, segments, _line_batches(parts), fills)
+    texts = tuple(text for detail in details for text in detail.texts)
+    return _Drawn(key, entries, active, bodies, segments, _line_batches(parts), fills, texts)
+
+
+def draw_texts(context: Context) -> None:
+    """Draw the texts of the details into a region, beside their places."""
+    drawn, scale = _regions.get(context.region.as_pointer()), _scale()
+    for place, text, color in () if drawn is None else drawn.texts:
+        position = location_3d_to_region_2d(context.region, context.space_data.region_3d, place)
+        if position is not None:
+            blf.size(0, look.TEXT * scale)
+            blf.color(0, *color)
+            blf.enable(0, blf.SHADOW)
+            blf.shadow(0, 5, *look.DARK)
+            blf.position(0, position.x + look.FRAME * scale, position.y - look.TEXT * scale, 0.0)
+            blf.draw(0, text)
+            blf.disable(0, blf.SHADOW)
 
 
 def forget_regions() -> None:

@@ -8,15 +8,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from bpy.types import Context, Object
+from bpy.types import Collection, Context, Object
 from numpy.typing import NDArray
 
 from ...blender.session.displayed import ASSEMBLY, Displayed, all_drawn, drawn_bone, total
+from ...blender.session.tracking.staleness import stale_reason
+from ...blender.settings.assembly import active_assembly, settings_of
+from ...blender.write import properties
 from ...core.inertia.plain_body import PlainBody, add_bodies
 from ...core.measurement.trust import Trust
 from . import appearance as look
 
 Entry = Displayed | PlainBody  # one body, or several as one
+MAX_MEMBERS = 250  # of an assembly that is drawn; to know whether it is out of date takes 40 µs a member
 MANY = 20  # from this number of bodies on, their sum is drawn, and only doubtful ones beside it
 
 
@@ -52,8 +56,8 @@ class Bodies:
 def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
     """Return the drawn bodies, and the index of the active one, or -1.
 
-    They are those of the objects, of selected pose bones and, if enabled, the whole selection as one body. Of many
-    objects, only the active one, the doubtful ones and the sum are drawn.
+    They are those of the objects, of selected pose bones, of the active object's collection and, if enabled, the whole
+    selection as one body. Of many objects, only the active one, the doubtful ones and the sum are drawn.
     """
     scene, bones = context.scene, context.selected_pose_bones or ()
     shown = list(zip([*objects, *bones], [*all_drawn(objects, scene), *(drawn_bone(bone, scene) for bone in bones)]))
@@ -71,4 +75,8 @@ def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
         bodies = [(obj, body) for obj, body in bodies if obj in actives or body.trust == Trust.DOUBTFUL]
     entries: list[Entry] = [body for _, body in bodies]
     active = next((row for row, (subject, _) in enumerate(bodies) if subject in actives), -1)
-    return entries + ([] if whole is None else [whole]), active
+    root = active_assembly(context)  # an empty with its children is drawn as an object
+    assembly = properties.stored(root) if isinstance(root, Collection) else None
+    if assembly is not None and (len(settings_of(root).rows) > MAX_MEMBERS or stale_reason(root, scene)):
+        assembly = None
+    return entries + [one for one in (whole, assembly) if one is not None], active

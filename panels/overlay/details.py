@@ -1,18 +1,25 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Details of single objects: faults and support polygons, as colored segments and triangles in the world."""
+"""Details of single objects: faults, support polygons and weights, as colored shapes and texts in the world."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from bpy.types import Context, Object
+from bpy.types import Context, Object, Scene
 from numpy.typing import NDArray
 
+from ...blender.session import live
+from ...blender.session.live.character import Weight
 from ...blender.session.stored import balance_groups, faults, stability
+from ...blender.write import reports
+from ...core.numerics.float32 import shortest_decimal
+from ...core.rig.motion import ballistic_arc, find_flights
 from ...core.statics.support import Support
+from ..rig import standing
 from . import appearance as look
+from .draw import shows_weight
 
 FILL = 0.25  # opacity of faces
 ARROW = 0.12  # length of the tipping arrow's head, relative to the support polygon's extent
@@ -21,10 +28,14 @@ Colored = tuple[NDArray[np.float64], NDArray[np.float32]]
 
 @dataclass(frozen=True, eq=False)
 class Detail:
-    """Drawn shapes. segments: (k, 2, 3) points and (k, 4) colors. triangles: (l, 3, 3) points and (l, 4) colors."""
+    """Drawn shapes. segments: (k, 2, 3) points and (k, 4) colors. triangles: (l, 3, 3) points and (l, 4) colors.
+
+    texts: a (3,) place, a text and its color each.
+    """
 
     segments: Colored
     triangles: Colored
+    texts: tuple[tuple[NDArray[np.float64], str, NDArray], ...] = ()
 
 
 def list_details(context: Context, objects: list[Object]) -> list[Detail]:
@@ -34,11 +45,16 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
         for empty in balance_groups.groups(context.scene):
             if empty.visible_in_viewport_get(context.space_data) and (path := balance_groups.path(empty)) is not None:
                 details.append(_path(path))
+                details += _arcs(context.scene, path)
                 stood = balance_groups.support(empty, context.scene.frame_current) if settings.show_support else None
                 if stood is not None:
                     details.append(support_detail(stood))
     found = map(faults.of_object, objects) if settings.show_faults else ()
     details += [_faults(obj, shown) for obj, shown in zip(objects, found) if shown is not None]
+    for obj in objects:
+        weight = live.character.weight(obj, context.view_layer.depsgraph) if shows_weight(obj) else None
+        if weight is not None:
+            details += _weight(context, weight)
     checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
     supports = [stability.support(obj, context.scene) for obj in checked]
     return details + [support_detail(support) for support in supports if support is not None]
@@ -46,17 +62,33 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
 
 def _path(path: balance_groups.Path) -> Detail:
     """Return a line from frame to frame with a tick at each, orange if the center is outside the support polygon."""
-    starts, ends = path.centers[:-1], path.centers[1:]
-    outside = np.zeros(len(starts), bool) if path.inside is None else ~(path.inside[:-1] & path.inside[1:])
-    colors = np.where(outside[:, None], look.TIPS, look.PATH)
     ticks = np.stack([path.centers, path.centers], axis=1)
     ticks[:, 1, 2] += 0.01 * float(np.ptp(path.centers, axis=0).max())
-    marked = np.zeros(len(ticks), bool) if path.inside is None else ~path.inside
-    tints = np.where(marked[:, None], look.TIPS, look.PATH)
-    segments = np.concatenate([np.stack([starts, ends], axis=1), ticks])
-    return Detail(
-        (segments, np.concatenate([colors, tints]).astype(np.float32)), _tinted(np.zeros((0, 3, 3)), look.PATH)
-    )
+    inside = np.ones(len(ticks), bool) if path.inside is None else path.inside
+    if path.contact is not None:
+        inside = inside | ~path.contact
+    colors = [np.where(one[:, None], look.PATH, look.TIPS) for one in (inside[:-1] & inside[1:], inside)]
+    if path.unexplained is not None:
+        colors[0][path.unexplained[:-1] | path.unexplained[1:]] = look.FAULT
+        colors[1][path.unexplained] = look.FAULT
+    segments = np.concatenate([np.stack([path.centers[:-1], path.centers[1:]], axis=1), ticks])
+    return Detail((segments, np.concatenate(colors).astype(np.float32)), _tinted(np.zeros((0, 3, 3)), look.PATH))
+
+
+def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
+    """Return the arc of free fall beside each flight of a path, with a cross at take-off and at landing."""
+    if path.contact is None or not scene.use_gravity:
+        return []
+    details, size = [], 0.02 * float(np.ptp(path.centers, axis=0).max())
+    for first, last in find_flights(path.contact):
+        if path.contact[first] and path.contact[last]:
+            step = (path.frames[last] - path.frames[first]) / (last - first) * scene.render.fps_base / scene.render.fps
+            ends = path.centers[[first, last]]
+            arc = ballistic_arc(*ends, last - first, step, scene.gravity)
+            crosses = ends[:, None, None] + size * np.stack([-np.eye(3), np.eye(3)], axis=1)
+            lines = np.concatenate([np.stack([arc[:-1], arc[1:]], axis=1), crosses.reshape(-1, 2, 3)])
+            details.append(Detail(_tinted(lines, look.EDGE), _tinted(np.zeros((0, 3, 3)), look.EDGE)))
+    return details
 
 
 def _faults(obj: Object, found: faults.Faults) -> Detail:
@@ -65,9 +97,19 @@ def _faults(obj: Object, found: faults.Faults) -> Detail:
     return Detail(_tinted(edges, look.FAULT), _tinted(triangles, look.FAULT, FILL))
 
 
+def _weight(context: Context, weight: Weight) -> list[Detail]:
+    """Return a character's plumb line with its margin at the foot, and its support polygon."""
+    text, lengths, _ = standing(weight, shortest_decimal(context.scene.unit_settings.scale_length))
+    polygon = None if weight.support is None else support_detail(weight.support)
+    color = look.TIPS if polygon is None else polygon.segments[1][0]
+    plumb = _tinted(np.array([[weight.parts.center, weight.foot]]), color)
+    texts = ((weight.foot, reports.phrase(text, **lengths), color),)
+    return [Detail(plumb, _tinted(np.zeros((0, 3, 3)), color), texts), *([] if polygon is None else [polygon])]
+
+
 def support_detail(support: Support) -> Detail:
     """Return the support polygon, filled if the body stands, and an arrow from the foot to the tipping edge."""
-    color = look.SUPPORT if support.stands else look.TIPS
+    color = look.TIPS if not support.stands else look.EDGE if support.is_near_edge else look.SUPPORT
     corners, foot = support.polygon, support.foot
     outline = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     fan = np.stack([np.broadcast_to(corners[0], corners[2:].shape), corners[1:-1], corners[2:]], axis=1)

@@ -32,7 +32,7 @@ SWITCHES = {
 }
 SETTINGS = BodyMomentsOverlaySettings.__annotations__
 EQUIVALENTS = [item[0] for item in SETTINGS["equivalent"].keywords["items"]]
-_handle: object = None
+_handles: list[object] = []
 _kept: dict[str, dict[str, bool | str]] = {}  # by scene, the settings before an undo
 _has_drawn = False
 
@@ -95,14 +95,29 @@ def draw() -> None:
 def drawn_objects(context: Context, show_all: bool) -> list[Object]:
     """Return the objects with numbers to draw in a view: visible and, if not all, selected.
 
-    In Pose Mode an armature represents its meshes.
+    In Pose Mode an armature represents its meshes. Characters that show their weight are drawn without selection, too.
     """
     layer, space = context.view_layer, context.space_data
+    chosen = dict.fromkeys(layer.objects if show_all else layer.objects.selected)
+    chosen.update(dict.fromkeys(filter(shows_weight, layer.objects)))
     return [
         obj
-        for obj in (layer.objects if show_all else layer.objects.selected)
-        if ("body_mass" in obj or is_live(obj) or stands_for_meshes(obj)) and obj.visible_in_viewport_get(space)
+        for obj in chosen
+        if ("body_mass" in obj or is_live(obj) or stands_for_meshes(obj) or shows_weight(obj))
+        and obj.visible_in_viewport_get(space)
     ]
+
+
+def shows_weight(obj: Object) -> bool:
+    """Return whether an object is a character whose weight is shown."""
+    return obj.type == "ARMATURE" and obj.body_moments_weight.show
+
+
+def draw_texts() -> None:
+    """Draw the overlay's texts into the region that Blender is drawing."""
+    context = bpy.context
+    if _has_drawn and context.space_data.overlay.show_overlays and context.scene.body_moments.overlay.show:
+        overlay.batches.draw_texts(context)
 
 
 def header_switch(layout: UILayout, context: Context) -> None:
@@ -129,28 +144,27 @@ def section(self: Panel | Menu, context: Context) -> None:
 
 def register() -> None:
     """Add the section to Blender's popover, and the draw handler if there are windows."""
-    global _handle
     bpy.utils.register_class(BodyMomentsOverlayMirror)
     WindowManager.body_moments_overlay = PointerProperty(type=BodyMomentsOverlayMirror)
     handlers.before_undo.append(_keep_settings)
     handlers.on_undo.append(_restore_settings)
     bpy.types.VIEW3D_PT_overlay_object.append(section)
     if not bpy.app.background:
-        _handle = SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
+        for function, stage in ((draw, "POST_VIEW"), (draw_texts, "POST_PIXEL")):
+            _handles.append(SpaceView3D.draw_handler_add(function, (), "WINDOW", stage))
         _redraw()
 
 
 def unregister() -> None:
     """Remove the section and the draw handler, and free the batches."""
-    global _handle
     bpy.types.VIEW3D_PT_overlay_object.remove(section)
     handlers.before_undo.remove(_keep_settings)
     handlers.on_undo.remove(_restore_settings)
     del WindowManager.body_moments_overlay
     bpy.utils.unregister_class(BodyMomentsOverlayMirror)
-    if _handle is not None:
-        SpaceView3D.draw_handler_remove(_handle, "WINDOW")
-        _handle = None
+    if _handles:
+        while _handles:
+            SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
         _redraw()
     if _has_drawn:
         overlay.batches.forget_regions()

@@ -163,6 +163,25 @@ def test_folders_are_audited_several_files_at_a_time(tmp_path):
     assert [one["file"] for one in json.loads(text)] == list(map(str, paths)) and code == 0
 
 
+def test_folder_holds_meshes_and_settings_of_other_programs(tmp_path):
+    """A named folder may be read; XML with a doctype is no robot unless it is named itself."""
+    inner = tmp_path / "share" / "robots" / "one" / "urdf"
+    inner.mkdir(parents=True)
+    link = RIGHT.replace('<box size="2 2 2"/>', '<mesh filename="../../../meshes/a.obj"/>')
+    path = description(inner / "r.urdf", link)
+    (tmp_path / "share" / "meshes").mkdir()
+    corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    faces = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
+    rows = ["v {} {} {}\n".format(*one) for one in corners] + ["f {} {} {} {}\n".format(*one) for one in faces]
+    (tmp_path / "share" / "meshes" / "a.obj").write_text("".join(rows), encoding="utf-8")
+    other = tmp_path / "share" / "other.xml"
+    other.write_text('<!DOCTYPE robot PUBLIC "x" "y"><robot name="r"/>', encoding="utf-8")
+    assert json.loads(answer(path)[0])["links"][0]["findings"][0]["code"] == "mesh_outside"
+    text, code = answer(tmp_path / "share")
+    assert code == 0 and json.loads(text)["file"] == str(path) and not json.loads(text)["links"][0]["findings"]
+    assert json.loads(answer(other)[0])["errors"][0]["code"] == "xml_entities"
+
+
 def test_all_faults_of_a_link_are_told_at_once(tmp_path):
     """A tensor that breaks the triangle inequality does not hide a center outside."""
     link = BOX.format("a", 8000, 1, 1, 9).replace("<mass", '<origin xyz="9 0 0"/><mass')

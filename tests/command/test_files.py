@@ -15,7 +15,7 @@ pytest.importorskip("bpy")
 import bpy
 import numpy as np
 from body_moments.command.files import files as opening
-from body_moments.core.streams.stl_text import BY_WORD
+from body_moments.core.streams.stl import BY_WORD
 from body_moments.core.verdict.finding import FileError
 
 from tests.blender import batch_files as files

@@ -13,7 +13,7 @@ import pytest
 pytest.importorskip("bpy")
 import numpy as np
 from body_moments.command.files import finite
-from body_moments.command.files.import_mesh import import_mesh
+from body_moments.command.files.importers import import_mesh
 from body_moments.core.streams.misread import NUMBER
 from body_moments.core.verdict.finding import FileError, finding
 

@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.command.files.own_results import is_result
+from body_moments.command.files.output import is_result
 from body_moments.core.shape.library import read_library
 
 from tests.blender.batch_files import add_box, document

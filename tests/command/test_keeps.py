@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
-from body_moments.command.files import own_results
+from body_moments.command.files import output
 from body_moments.command.measure import measuring
 from body_moments.core.measurement import documents
 from body_moments.operators import batch
@@ -154,6 +154,6 @@ def test_unreadable_file_is_not_replaced(tmp_path, main, no_measuring, monkeypat
     def fail(*_):
         raise OSError(5, "Input/output error")
 
-    monkeypatch.setattr(own_results, "open", fail, raising=False)
+    monkeypatch.setattr(output, "open", fail, raising=False)
     code, said = main(part, "--output", target)
     assert code == 2 and "out: Input/output error" in said and target.read_text() == "mine"

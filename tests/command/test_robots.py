@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 from body_moments.command.files import output
 from body_moments.command.measure.run import Run
-from body_moments.command.options.formats import FORMATS
+from body_moments.command.options.option_types import FORMATS
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.verdict.finding import finding
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.command.measure import bare
 from body_moments.command.supervisor import processes
-from body_moments.core.streams.stl_text import BY_COUNT, BY_WORD
+from body_moments.core.streams.stl import BY_COUNT, BY_WORD
 from body_moments.operators import batch
 
 from tests.blender.batch_files import codes, in_process, sentence

@@ -10,7 +10,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.mesh.tessellation import tessellate
+from body_moments.core.streams.file_mesh import tessellate
 
 from tests.core.bodies import inverted, rotation, soup, torus, without
 from tests.core.mesh_files import ply, stl, stl_text

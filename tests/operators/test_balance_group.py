@@ -170,7 +170,7 @@ def test_shape_keys_are_followed_by_their_polynomials(scene, mass):
         truth = objects.measured(obj).mass_properties
         assert close(total, truth.mass, 1e-6)
         assert np.abs(center - truth.center).max() <= 1e-6 * 10.0
-    assert motion._followed[obj].mixes is not None
+    assert motion._followed[obj.session_uid].mixes is not None
 
 
 def test_scales_that_change_are_followed(scene):

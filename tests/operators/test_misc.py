@@ -310,7 +310,7 @@ def test_default_material_is_density_of_unset_objects():
     bpy.ops.object.body_moments_measure()
     bpy.context.view_layer.update()
     assert obj["body_density"] == 1240.0 and staleness.stale_reason(obj, scene) is None
-    assert "density_default_kept" not in obj["body_findings"]
+    assert "density_defaulted" not in obj["body_findings"]
     assert obj.body_moments.density_kg_m3 == 1240.0 and not obj.body_moments.is_property_set("density")
     scene.body_moments.default_material, scene.body_moments.default_density = "CUSTOM", 1300.5
     assert obj["body_density"] == 1300.5 and staleness.stale_reason(obj, scene) is None

@@ -11,6 +11,7 @@ import pytest
 
 from tests.blender import objects
 from tests.close import close
+from tests.panels.drawing import shown
 
 BLENDER = 1e-6  # of the size, through float32 matrices
 
@@ -59,6 +60,25 @@ def test_a_box_stands_by_its_narrow_side_wherever_it_is(scene, scale):
     assert close(found.tipping_angle, atan2(1.0, 1.5), BLENDER * 4.0)
     assert np.abs(found.polygon[:, 2] - 5.0).max() <= BLENDER * 30.0
     assert obj["body_mass"] > 0.0
+
+
+def test_balance_beside_tips_over_makes_it_stand(scene):
+    corners = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+    points = [(x + 0.275 * layer, y, 0.5 * layer) for layer in range(5) for x, y in corners]  # 0.05 beyond the base
+    sides = [(i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i) for i in range(4)]
+    sides = [tuple(4 * layer + corner for corner in side) for layer in range(4) for side in sides]
+    tower = bpy.data.meshes.new("Tower")
+    tower.from_pydata(points, [], [(3, 2, 1, 0), (16, 17, 18, 19), *sides])
+    obj = objects.add(tower, location=(3.0, -2.0, 1.0), rotation=(0.0, 0.0, 0.4))
+    obj.vertex_groups.new(name="Above").add(list(range(4, 20)), 1.0, "REPLACE")
+    bpy.ops.object.body_moments_stability()
+    assert not support(obj).stands
+    name = "object.body_moments_sculpt_balance"
+    (button,) = [entry[2] for entry in shown() if entry[:2] == ("operator", name)]
+    options = {"target": button.target, "point": list(button.point)}
+    assert bpy.ops.object.body_moments_sculpt_balance(**options) == {"FINISHED"}
+    bpy.ops.object.body_moments_stability()
+    assert support(obj).stands and close(support(obj).margin, 0.25, 1e-4)
 
 
 def test_support_follows_a_turn_without_measuring_again(scene):

@@ -24,6 +24,7 @@ ORDER = {
         ("measurement",),
         ("bodies",),
         ("robots",),
+        ("colliders",),
     ),
     "blender": (
         ("registration", "settings", "write"),

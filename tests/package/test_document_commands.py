@@ -11,6 +11,7 @@ import stat
 import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
@@ -67,6 +68,10 @@ def runnable_of(document: Path) -> list[str]:
     return [text for text in commands_of(document) if USAGE not in text and not text.startswith(tuple(NOT_RUN))]
 
 
+def blocks_of(document: str, language: str = "python") -> list[str]:
+    return re.findall(r"```{}\n(.*?)```".format(language), (ROOT / "docs" / document).read_text(encoding="utf-8"), re.S)
+
+
 def write_script(path: Path, text: str) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -117,6 +122,7 @@ def made(tmp_path_factory):
     save_cube(folder / "demo/bracket.blend", "Bracket")
     header = "NRRD0004\ntype: float\ndimension: 3\nsizes: 4 4 4\nencoding: raw\nendian: little\nspacings: 1 1 1\n\n"
     (folder / "scan.nrrd").write_bytes(header.encode() + np.ones(64, "<f4").tobytes())
+    (folder / "swing.py").write_text(blocks_of("tutorial-arm.md")[0])
     (folder / "arm.urdf").write_text(URDF)
     (folder / "gripper.xml").write_text(MJCF)
     done = run("blender -b -c body_moments measure parts/ --format jsonl --output old.jsonl", folder)
@@ -178,6 +184,26 @@ def test_corner_of_the_hypercube_has_the_printed_moments(made, tmp_path):
     assert moments["1,0,0,0"] == pytest.approx(1 / 120, rel=1e-14)
 
 
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell of POSIX")
+@pytest.mark.parametrize("simulator", ["mujoco", "pybullet", "newton"])
+def test_arm_of_the_tutorial_falls_as_printed(made, tmp_path, simulator):
+    """Pythons with simulators: this one, that of the tests of robots, and those that BODY_MOMENTS_SIMULATORS names."""
+    named = os.environ.get("BODY_MOMENTS_SIMULATORS", "").split(os.pathsep)
+    pythons = [sys.executable, str(ROOT / ".envs" / "robots" / "bin" / "python"), *filter(None, named)]
+    finds = "import importlib.util, sys; sys.exit(importlib.util.find_spec('{}') is None)".format(simulator)
+    able = [one for one in pythons if Path(one).exists() and not subprocess.run([one, "-c", finds]).returncode]
+    if not able:
+        pytest.skip("needs a simulator: " + simulator)
+    folder = tmp_path / "checkout"
+    shutil.copytree(made, folder, symlinks=True)
+    for command in runnable_of(ROOT / "docs" / "tutorial-arm.md"):
+        assert run(command, folder).returncode == 0, command
+    (code,) = [block for block in blocks_of("tutorial-arm.md") if "import {}\n".format(simulator) in block]
+    done = subprocess.run([able[0], "-c", code], cwd=folder, capture_output=True, encoding="utf-8")
+    (printed,) = blocks_of("tutorial-arm.md", "text")
+    assert done.returncode == 0 and done.stdout.splitlines()[-1].endswith(": " + printed.strip()), done
+
+
 def test_python_for_blender_prints_the_cubes_moments(registered, capsys):
     """The example of docs/python.md that needs Blender, under the name that the add-on has in the tests."""
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
@@ -188,6 +214,22 @@ def test_python_for_blender_prints_the_cubes_moments(registered, capsys):
     mass, numbers = capsys.readouterr().out.strip().splitlines()[-2:]
     assert float(mass) == pytest.approx(8000.0)
     assert numbers.startswith("exact") and float(numbers.split()[-2]) == pytest.approx((2 / 5) ** 3)
+
+
+def test_notebook_example_prints_and_draws_a_part(registered, capsys, tmp_path, monkeypatch):
+    """A stand-in for matplotlib takes the lines; the numbers are those of a cube of 40 mm."""
+    write_cube(tmp_path / "part.stl", 40.0)
+    monkeypatch.chdir(tmp_path)
+    plt = MagicMock()
+    for name in ("matplotlib", "matplotlib.pyplot"):
+        monkeypatch.setitem(sys.modules, name, plt)
+    plt.pyplot = plt
+    examples = [block for block in blocks_of("python.md") if "part.stl" in block or "matplotlib" in block]
+    exec(compile("\n".join(examples), "python.md", "exec"), {})
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "exact []" and lines[1].startswith("mass 0.1728 kg, center [0.02 0.02 0.02]")
+    drawn = plt.figure.return_value.add_subplot.return_value.plot.call_args_list
+    assert len(drawn) == 3 and np.ptp(np.transpose(drawn[0].args), axis=0).max() < 0.04
 
 
 def test_agents_get_the_printed_answer(registered, capsys):

@@ -303,6 +303,12 @@ CLICKED = {
         f"{PART}.select_set(True)\nbpy.context.view_layer.objects.active = {PART}",
         f"(bpy.data.objects['Twin'].location - {PART}.location).length < 1e-4",
     ),
+    "object.body_moments_link_copies": (
+        {},
+        "bpy.ops.object.duplicate()\ntwin = bpy.context.object\ntwin.name = 'Twin'\ntwin.location.x += 9.0\n"
+        f"twin.data.transform(__import__('mathutils').Matrix.Translation((0.3, 0, 0)))\n{PART}.select_set(True)",
+        f"bpy.data.objects['Twin'].data == {PART}.data",
+    ),
     "object.body_moments_copy_settings": (
         {},
         f"bpy.ops.object.duplicate()\nbpy.context.object.name = 'Twin'\n{PART}.body_moments.density = 5.0\n"
@@ -356,8 +362,9 @@ def click(window, operator, options, before):
 def test_a_click_does_its_work(prepared, operator):
     options, before, after = CLICKED[operator]
     click(prepared, operator, options, before)
-    if operator.endswith("preset_add"):  # its dialog
+    if operator.endswith(("preset_add", "link_copies")):  # their dialogs
         prepared.redraw()
+        prepared.picture("dialog-" + operator.rpartition("_")[2])
         prepared.key("Return")
     prepared.wait(after, limit=60.0)
     assert "Traceback" not in prepared.output()

@@ -86,7 +86,7 @@ class MemberBody:
 
     @property
     def mass(self) -> Moments | None:
-        """Sum of the mass moments of all powers, None if there are none."""
+        """The sum of the mass moments, None if there are none."""
         return sum_moments(list(self.masses.values())) if self.masses else None
 
     def walk(self) -> Iterator[MemberBody]:
@@ -152,7 +152,8 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
     if isinstance(data, bpy.types.Object):
         at = locate(data, depsgraph)
         rotation, location, place = at.rotation, at.location * unit, matrix_hash(data)
-    measured = [part.measurement for part in whole.walk() if part.measurement is not None]
+    measured = [(part.member.data, part.measurement) for part in whole.walk() if part.measurement is not None]
+    fingerprints = {obj: measurement.fingerprint for obj, measurement in measured}
     given = settings_of(data).mass_from == "MASS"
     return measure_total(
         mass,
@@ -163,12 +164,10 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
         area=whole.area,
         rotation=rotation,
         location=location,
-        fingerprint=fingerprint(
-            members_key(whole.member, _fingerprints(whole)).encode(), place, structure_hash(whole.member)
-        ),
+        fingerprint=fingerprint(members_key(whole.member, fingerprints).encode(), place, structure_hash(whole.member)),
         findings=tuple(findings_of(whole, depsgraph.scene)),
         density_from=DENSITY_FROM_MASS if given else finding(DENSITY_FROM_MEMBERS),
-        health=merge_health((measurement.health, 1, measurement.area) for measurement in measured)
+        health=merge_health((measurement.health, 1, measurement.area) for _, measurement in measured)
         if measured
         else None,
     )
@@ -188,7 +187,11 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
     for code, names in left_out.items():
         yield finding(code, count=len(names), names=names)
     objects = [(part.member, part.measurement) for part in members if part.measurement is not None]
-    hidden = [member.name for member, measured in objects if _has_code(measured.findings, HIDDEN_OBJECT_MEASURED)]
+    hidden = [
+        member.name
+        for member, measured in objects
+        if any(each.code == HIDDEN_OBJECT_MEASURED for each in measured.findings)
+    ]
     if hidden:
         yield finding(MEMBERS_HIDDEN, count=len(hidden), names=hidden)
     unset = [member.name for member, measured in objects if unset_density(member.data, measured, scene) is not None]
@@ -204,14 +207,6 @@ _LEFT_OUT: dict[str, str] = {
     BOOLEAN_OPERAND: MEMBERS_LEFT_OUT,
     NOT_RENDERED: MEMBERS_LEFT_OUT,
 }
-
-
-def _has_code(findings: Iterable[Finding], code: str) -> bool:
-    return any(each.code == code for each in findings)
-
-
-def _fingerprints(whole: MemberBody) -> dict[Object, str]:
-    return {part.member.data: part.measurement.fingerprint for part in whole.walk() if part.measurement is not None}
 
 
 def _object_body(member: Member, result: Measured | Stacked | Finding) -> MemberBody:
@@ -232,7 +227,7 @@ def _object_body(member: Member, result: Measured | Stacked | Finding) -> Member
 
 
 def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody, ...]) -> MemberBody:
-    """Return `like` with `parts` and the summed masses, volumes and areas of the bodies that have a mass."""
+    """Return a copy of `like` with `parts`, and the sums of the masses, volumes and areas of bodies with a mass."""
     bodies = [body for body in bodies if body.masses]
     masses: dict[int, list[Moments]] = {}
     for body in bodies:
@@ -248,7 +243,7 @@ def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody
 
 
 def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
-    """Return the body of a collection, or an empty with children, with the given mass if its settings give one."""
+    """Return the body of a collection or an empty with children, with its given mass if the settings have one."""
     data = whole.member.data
     settings = settings_of(data)
     if settings.mass_from != "MASS":
@@ -269,7 +264,7 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
 
 
 def _is_sheared(member: Member) -> bool:
-    """Return whether an instance stretches its members unevenly, so that no single factor scales their areas."""
+    """Return whether an instance stretches its members unevenly, so that their areas have no common factor."""
     return member.matrix is not None and not are_similarities(np.array([member.matrix])[:, :3, :3])[0]
 
 

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts with a given mass: their given center and inertia, and point masses, which have no geometry.
 
-Given values replace the mass moments of a body: the mass, zero first moments about the given center, and the second
-moments of the given tensor. Volume and area stay as measured.
+Given values replace a body's mass moments: mass, center and second moments. Volume and area stay as measured.
 """
 
 from __future__ import annotations
@@ -63,7 +62,7 @@ def given_moments(
 
 
 def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
-    """Return the (3, 3) second moments that belong to an inertia tensor, or raise ReadError if no body has it."""
+    """Return the (3, 3) second moments of a body with this inertia tensor; ReadError if no body can have it."""
     second = np.trace(inertia) / 2.0 * np.eye(3) - inertia
     values, axes = np.linalg.eigh(second)
     if values[0] < -GIVEN_RTOL * np.trace(inertia) or not np.isfinite(values).all():
@@ -72,7 +71,7 @@ def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
 
 
 def with_given(body: Body, reading: Reading, request: Request) -> Body:
-    """Return the body with the center and inertia that its settings give, or raise ReadError if they are impossible."""
+    """Return the body with the center and inertia of its settings, or raise ReadError if they are impossible."""
     if request.settings.mass is None or request.obj.body_moments.mass_from != "MASS":
         return body
     given = GivenPart.from_settings(request.obj.body_moments, request.settings.unit)

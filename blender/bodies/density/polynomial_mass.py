@@ -1,10 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mass moments of a body whose density is a polynomial, and a check that no density in the body is negative.
-
-The density's coordinates are meters along the world's axes, or along each surface's own: then the density follows the
-object and each instance, including turns and mirroring.
-"""
+"""The mass moments of a body whose density is a polynomial, and a check that no density in the body is negative."""
 
 from __future__ import annotations
 
@@ -19,8 +15,8 @@ from ....core.bodies.instances import group_by_similarity
 from ....core.bodies.mesh_body import MeshBody
 from ....core.bodies.reading import Reading, to_si
 from ....core.density.polynomial import Polynomial
-from ....core.density.polynomial_mass import local_coordinates, polynomial_mass_of_images
-from ....core.density.positivity import find_negative_point
+from ....core.density.polynomial_mass import find_negative_point, local_coordinates, polynomial_mass_of_images
+from ....core.measurement.settings import Settings
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import translation_matrices
 from ....core.moments.moments import Moments
@@ -36,7 +32,7 @@ MAX_CHECKED_INSTANCES = 50  # different places of a surface in which the sign of
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A surface with (k, 4, 4) `matrices` to the world and `fields` to the density's coordinates, in meters.
+    """A surface with (k, 4, 4) `matrices` to the world, and `fields` to the coordinates of the density, in meters.
 
     about: the point that an open surface is closed to.
     """
@@ -48,10 +44,10 @@ class _Piece:
 
 
 def polynomial_mass_result(
-    reading: Reading, body: MeshBody, density: DensityField, *, unit: float, shell: bool, threads: int, order: int
+    reading: Reading, body: MeshBody, density: DensityField, settings: Settings, order: int
 ) -> tuple[list[Moments], list[Finding]]:
     """Return the mass moments of all parts to an order (of a shell per meter of thickness), and the findings."""
-    polynomial, findings = _polynomial(density), []
+    polynomial, findings, unit, shell = _polynomial(density), [], settings.unit, settings.kind == "shell"
     pieces = list(
         _sheet_pieces(reading, density.in_world, unit)
         if shell
@@ -69,7 +65,7 @@ def polynomial_mass_result(
             area_order=order if shell else None,
             about=piece.about,
             exact=True,
-            threads=threads,
+            threads=settings.threads,
             allow_open=True,
         )
         moments = volume if area is None else area
@@ -78,7 +74,7 @@ def polynomial_mass_result(
 
 
 def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float) -> Iterator[_Piece]:
-    """Yield the repaired surfaces that enclose the body."""
+    """Yield the repaired surfaces around the body."""
     if body.method.verdict == Verdict.UNION:
         if reading.instance_count > 1 and not in_world:
             raise ReadError(UNION_LACKS, data="object coordinates")

@@ -18,8 +18,13 @@ from ....core.bodies.findings import GRID_AS_SHELL, MASS_OVERFLOW
 from ....core.bodies.instances import area_of_instances, findings_by_part
 from ....core.bodies.mesh_body import MAX_MASS_MOMENT, MeshBody
 from ....core.bodies.reading import Reading, attribute_to_source, to_si
-from ....core.density.part_densities import PartDensities, part_densities
-from ....core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
+from ....core.density.piecewise_mass import (
+    PartDensities,
+    part_densities,
+    sheet_mass_moments,
+    solid_mass_moments,
+    to_mass_moments,
+)
 from ....core.measurement.builder import find_extent
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, distinct_linear_parts
@@ -101,21 +106,19 @@ def _weigh(reading: Reading, body: MeshBody, request: Request, order: int) -> _W
 
 
 def _field(request: Request) -> DensityField:
-    """Return the varying density of the requested body; a uniform density does not come here."""
+    """Return the density of the requested body, which must not be uniform, as a function of place or face."""
     assert request.density is not None
     return request.density
 
 
 def _thickness(request: Request) -> float:
-    """Return the thickness of a shell, in m, which is the factor of its area moments; 1 for solids."""
+    """Return the factor of a body's area moments: the thickness of a shell, in m; 1 for solids."""
     return request.settings.thickness if request.settings.kind == "shell" else 1.0
 
 
 def _by_polynomial(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
-    density, shell = _field(request), request.settings.kind == "shell"
-    parts, findings = polynomial_mass_result(
-        reading, body, density, unit=request.settings.unit, shell=shell, threads=request.settings.threads, order=order
-    )
+    density = _field(request)
+    parts, findings = polynomial_mass_result(reading, body, density, request.settings, order)
     mass = sum_moments(parts) * _thickness(request)
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError(MASS_OVERFLOW)
@@ -206,7 +209,7 @@ class _FaceDensities:
         return len({value for values in self.values for value in np.unique(values).tolist()}) > 1
 
     def missing_note(self) -> Iterator[Finding]:
-        """Yield a finding about faces that take the object's density."""
+        """Yield a finding about faces without a material density, which have the object's density."""
         if not self.faces_without_density:
             return
         names = [material.name for material in self.materials if material_density(material) is None]

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flat shapes: selected faces, flat meshes, 2-D curves and text as regions of their own plane, seen from the front.
 
-Normals of faces point to the front; the front of curves and text is their own +z. Moments of closed curves and of text
-are exact if Blender gives the curves; all other moments are of the drawn polygons.
+Faces point to the front, curves and text have it at their own +z. Only curves that Blender gives have exact moments.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ from ....core.moments.moments import Measure, Moments
 from ....core.numerics.float32 import shortest_decimal
 from ....core.nurbs.curve import Curve
 from ....core.nurbs.curve_moments import plane_moments
-from ....core.nurbs.planar_regions import planar_region
+from ....core.nurbs.flat_face import planar_region
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.findings import FLAT_OF_TYPE, RENDER_DIFFERS, SECTION_EXTRUDED
@@ -170,7 +169,7 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
 
 
 def area_findings(found: FlatRegion, area: float) -> list[Finding]:
-    """Return findings that need a region's area: about points off the plane, and about a wrong fill by Blender."""
+    """Return findings that need a region's area: points off the plane, and faces that Blender fills wrongly."""
     findings = []
     off = found.plane.out_of_plane
     if off > 4.0 * found.stored:

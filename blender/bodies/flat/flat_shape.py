@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The shape of a flat object, seen from its front: its signature, its symmetry, how it lies on another one.
-
-A flat shape has no volume and no thickness, and cannot be turned over. A shell is no flat shape but a body.
-"""
+"""The shape of a flat object, seen from its front and never turned over: signature, symmetry, fit on another one."""
 
 from __future__ import annotations
 

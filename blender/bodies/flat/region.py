@@ -16,7 +16,7 @@ from ....core.measurement.body import Body
 from ....core.moments.moments import Measure, Moments, monomial_count
 from ....core.nurbs.curve import Curve
 from ....core.nurbs.curve_moments import length_moments, plane_moments
-from ....core.nurbs.planar_regions import planar_region
+from ....core.nurbs.flat_face import planar_region
 from ....core.verdict.finding import MeasureError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Source, Verdict
@@ -60,7 +60,7 @@ class RegionBody(Body):
 
 
 def read(request: Request) -> RegionReading | None:
-    """Return the region that curves bound; None if it is no thin shell of one density, or only Blender can fill it."""
+    """Return the flat region that a curve object bounds as a thin shell of one density, or None for other objects."""
     obj, options = request.obj, request.settings
     if obj.type != "CURVE" or options.wall != "thin":
         return None
@@ -83,7 +83,7 @@ def read(request: Request) -> RegionReading | None:
 
 
 def body(reading: RegionReading, request: Request) -> Body:
-    """Return the flat region, holes left out, as a sheet."""
+    """Return the flat region, without its holes, as a sheet."""
     curves = list(reading.boundary)
     area = plane_moments(curves, reading.normal)
     boundary_length = length_moments(curves, 0).total

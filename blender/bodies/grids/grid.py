@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies.density_grid import density_body
+from ....core.bodies.density_grid import Samples, density_body
 from ....core.bodies.findings import (
     DENSITY_FROM_GRID,
     GRID_AS_SHELL,
@@ -22,12 +22,13 @@ from ....core.bodies.findings import (
     SAMPLES_POSITIONED,
 )
 from ....core.bodies.mesh_body import MeshBody
-from ....core.bodies.reading import Part, Reading, to_si
+from ....core.bodies.reading import Part, to_si
 from ....core.bodies.threshold import MAX_SAMPLES, ThresholdGrid, threshold_grid_body
 from ....core.density.grid_options import GridOptions
 from ....core.density.grid_values import sample_positions
 from ....core.density.spline_grid import Blocks
 from ....core.measurement.body import Body
+from ....core.measurement.settings import Settings
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.scans.positions import AXES, Positions
 from ....core.verdict.finding import ReadError, finding
@@ -60,25 +61,21 @@ def read(request: Request) -> VolumeReading | None:
 
 def body(reading: VolumeReading, request: Request) -> Body:
     """Return the body of one grid, or raise MeasureError if there is none."""
-    obj, density, options = request.obj, request.given.density, request.settings
-    order = KNOWN_ORDER if options.order is None else options.order
-    made = grid_body(
-        reading, GridOptions.from_settings(obj.body_moments, density), request.settings.unit, options.threads, order
-    )
+    obj, density = request.obj, request.given.density
+    made = _grid_body(reading, GridOptions.from_settings(obj.body_moments, density), request.settings)
     key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, (), request.scene)
     source = None if made.mass is None else finding(DENSITY_FROM_GRID, grid=reading.grid)
     return replace(made, density_from=source, density_key=key)
 
 
-def grid_body(
-    reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1, order: int = KNOWN_ORDER
-) -> Body:
+def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings) -> Body:
     """Return the body of one grid, with its mass moments to an order. Raises MeasureError if the grid has no body."""
+    unit, order = settings.unit, KNOWN_ORDER if settings.order is None else settings.order
     if options.threshold is not None:
         options.needs_even_samples(reading.grid)
         return threshold_grid_body(threshold_grid(reading, unit), options, order=order)
     if options.solid:
-        return _solid(reading, unit, threads)
+        return _solid(reading, unit, settings.threads)
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
     positions = sample_positions(options, reading.grid, reading.low, reading.shape)
@@ -89,16 +86,8 @@ def grid_body(
     density = finding(GRID_DENSITY, samples=list(reading.shape), cause=options.meaning().as_record())
     axes = [axis for axis, row in zip(AXES, positions) if row is not None]
     findings = (density, finding(SAMPLES_POSITIONED, axes=axes)) if axes else (density,)
-    return density_body(
-        _whole_axes(reading, positions),
-        shape,
-        matrix,
-        options,
-        reading.background,
-        findings,
-        order=order,
-        positions=positions,
-    )
+    samples = Samples(_whole_axes(reading, positions), shape, matrix, options, reading.background, positions=positions)
+    return density_body(samples, findings, order=order)
 
 
 def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
@@ -113,20 +102,13 @@ def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
 
 
 def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
-    """Return the body that a level set bounds, by its polygons."""
+    """Return the body inside a level set, by its polygons."""
     if reading.level_set is False:
         raise ReadError(GRID_IS_NOT_LEVEL_SET, grid=reading.grid)
     surface = reading.polygons()
     if not len(surface.quads):
         raise ReadError(GRID_EMPTY, grid=reading.grid)
-    shown = Reading(
-        reading.name,
-        reading.type,
-        reading.matrix,
-        reading.rotation,
-        reading.location,
-        [Part(surface, reading.matrix[None])],
-    )
+    shown = replace(reading, parts=[Part(surface, reading.matrix[None])], findings=[])
     bounded = mesh_body(shown, unit, shell=False, union=False, threads=threads)
     measured = finding(LEVEL_SET_MEASURED, grid=reading.grid, polygons=len(surface.quads))
     method = Method(bounded.method.verdict, Source.GRID)

@@ -1,41 +1,29 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The body that polygons bound, with all its instances: each surface is measured once and mapped to its places."""
+"""The body bounded by polygons, with all its instances: each surface is measured once and mapped to its places."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ....core.bodies.instances import (
-    singular_instances_message,
-)
+from ....core.bodies.instances import singular_instances_message
 from ....core.bodies.mesh_body import MeshBody, triangle_count
 from ....core.bodies.polygons import drawn_names, of_drawn, sum_of_instances
 from ....core.bodies.reading import Reading
 from ....core.bodies.wall import find_walls
 from ....core.measurement.body import Body
 from ....core.mesh.surface import join_surfaces
-from ....core.moments.moments import Moments
 from ....core.solid.findings import HOLES_CAPPED, INVERTED_COMPONENTS
-from ....core.solid.measure import SolidIntegrals, measure_solid
-from ....core.verdict.finding import Finding, ReadError, finding
+from ....core.solid.measure import measure_solid
+from ....core.verdict.finding import ReadError, finding
 from ....core.verdict.findings import FLIPPED_FACES
-from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Verdict
 from ...read.union import union_surface
 from ...read.visibility import shows_flat_region
 from ..density.varying_density import weigh
-from ..findings import (
-    DISPLAY_MESH_NEEDED,
-    OPEN_COMPONENTS_UNITED,
-    UNION_BY_BOOLEAN,
-    UNION_FAILED,
-    ZERO_SCALE,
-)
+from ..findings import DISPLAY_MESH_NEEDED, OPEN_COMPONENTS_UNITED, UNION_BY_BOOLEAN, UNION_FAILED, ZERO_SCALE
 from ..request import Request
 
 MEASURED_AS = frozenset({"solid", "shell"})
@@ -44,7 +32,7 @@ REPAIRS = {HOLES_CAPPED, FLIPPED_FACES, INVERTED_COMPONENTS}  # reported of bodi
 
 
 def read(request: Request) -> Reading | None:
-    """Return the polygons that an object shows, or None if it has patches of one density, which are better."""
+    """Return the polygons that an object shows, or None if it has NURBS patches of one density (see `nurbs.py`)."""
     reading, density, obj = request.surfaces, request.density, request.obj
     if reading.has_patches:
         if density is None:
@@ -68,7 +56,7 @@ def body(reading: Reading, request: Request) -> Body:
 
 
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
-    """Return the body that an object's surfaces bound, united first if `union`, or with `shell` their sheets."""
+    """Return the body bounded by an object's surfaces, united first if `union`, or with `shell` their sheets."""
     if shell:
         return sum_of_instances(reading, unit, True, threads)
     flat = reading.singular_instance_count
@@ -78,32 +66,8 @@ def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, thread
     return replace(made, findings=(singular_instances_message(reading), *made.findings)) if flat else made
 
 
-def _single_surface_body(
-    volume: Moments,
-    area: Moments,
-    health: MeshHealth,
-    verdict: Verdict,
-    findings: Iterable[Finding],
-    solid: SolidIntegrals,
-    matrix: NDArray[np.float64],
-    threads: int,
-) -> MeshBody:
-    """Return the body of one surface in one place."""
-    solids = [(solid, matrix[None])]
-    return MeshBody(
-        volume,
-        area,
-        health,
-        Method(verdict),
-        tuple(findings),
-        face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
-        solids=tuple(solids),
-        threads=threads,
-    )
-
-
 def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
-    """Return the body of all parts in their places, united by Blender's exact Boolean if they have a volume."""
+    """Return the body of all parts in their places; parts with a volume are united by Blender's exact Boolean."""
     before = sum_of_instances(reading, unit, False, threads)
     if not before.volume.total > 0.0:
         return before
@@ -121,13 +85,14 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
     if verdict == Verdict.OPEN:
         findings.append(finding(OPEN_COMPONENTS_UNITED))
     findings += [result for result in before.findings if result.code in REPAIRS]
-    return _single_surface_body(
-        solid.volume,
-        solid.area,
-        before.health,
-        Verdict.UNION,
-        (*findings, *of_drawn(solid.findings, reading.parts, drawn_names(reading))),
-        solid,
-        np.eye(4),
-        threads,
+    findings += of_drawn(solid.findings, reading.parts, drawn_names(reading))
+    return replace(
+        before,
+        volume=solid.volume,
+        area=solid.area,
+        method=Method(Verdict.UNION),
+        findings=tuple(findings),
+        face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
+        solids=((solid, np.eye(4)[None]),),
+        _known={},
     )

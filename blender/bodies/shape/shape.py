@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An object's shape, apart from its place: its pose, its symmetry, its signature.
+"""The shape of an object, independent of its place: its pose, its symmetry, its signature.
 
 All three need moments of higher order than a measurement has, of the same body: the solid, or the sheet of a shell.
 """
@@ -67,7 +67,7 @@ SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape o
 
 @dataclass(frozen=True)
 class Shape:
-    """The shape of a measured object, in SI units and world axes, by its moments of higher order."""
+    """The shape of a measured object, in SI units and world axes, described by moments of higher order."""
 
     measurement: Measurement
     body: Body
@@ -111,7 +111,7 @@ class Shape:
         return with_input_error(found, known).about_center()
 
     def piece_moments(self) -> Moments:
-        """Return moments like `moments`, but of the polygons, which stand for a smooth surface in comparisons."""
+        """Return moments like `moments`, but of the polygons, which replace a smooth surface in comparisons."""
         if not is_display_mesh(self.measurement):
             return self.moments
         volume, area = polyhedron_moments(
@@ -176,7 +176,7 @@ class Shape:
         return {"symmetry": group, "symmetry_order": found.order}
 
     def _harmonics(self, frame: NDArray) -> AxialHarmonics:
-        """Return the harmonics about the third axis of a frame; those about the last axis are remembered."""
+        """Return the harmonics about the third axis of a frame, cached for the last axis."""
         if not self._known_harmonics or abs(self._known_harmonics[0].frame[:, 2] @ frame[:, 2]) < 1.0 - EQUAL_AXES_ATOL:
             self._known_harmonics[:] = [axial_harmonics(self.pieces(), self.center, frame, area=self._sheets)]
         return self._known_harmonics[0].in_frame(frame)
@@ -243,7 +243,7 @@ class Shape:
         return replace(result, size=scale * result.size)
 
     def match(self, target: Shape, residual: Residual) -> RigidMatch:
-        """Return the motion that lays this shape onto another one; `residual` is as for `match`."""
+        """Return the motion that lays this shape onto another one; `residual` as for `core.shape.match`."""
         return match(self.moments, target.moments, residual, target.size)
 
     def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
@@ -271,7 +271,7 @@ def is_display_mesh(measurement: Measurement) -> bool:
 
 
 class NoShapeError(ReadError):
-    """Refusal of an object that can be measured, but has no shape of its own."""
+    """The refusal of an object that can be measured, but has no shape of its own."""
 
     def __init__(self, reason: str | Finding, measurement: Measurement):
         super().__init__(reason, subject=measurement.name)
@@ -292,7 +292,7 @@ def surface_shape(measured: Measured) -> Shape:
 
 
 def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None) -> Shape:
-    """Measure an object for its shape, or raise MeasureError: its subclass NoShapeError if there is no shape."""
+    """Measure an object for its shape, or raise MeasureError; NoShapeError if it can be measured but has no shape."""
     options = replace(options or MeasureOptions(), pose=True)
     return _shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
 

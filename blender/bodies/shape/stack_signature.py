@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The signatures of many objects: in batches for objects measured in a stack, one for each shape they share."""
+"""The signatures of many objects: objects of a stack that show the same shape share one signature."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ....core.mesh.surface_stack import TriangleStack
 from ....core.moments.affine_maps import are_similarities
 from ....core.numerics.arrays import segment_starts
-from ....core.polyhedron.any_order_small import extend_small_moments
+from ....core.polyhedron.any_order import extend_small_moments
 from ....core.polyhedron.third_order_small import small_moments
 from ....core.shape.signatures import Signature, signatures
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR
@@ -27,7 +27,7 @@ from .surface_distance import EXACT_DISTANCE
 def signed_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, order: int
 ) -> Callable[[bpy.types.Object], Signature | Shape]:
-    """Return a function from an object to its signature to an order, or to its `Shape` if it was measured alone."""
+    """Return a function from an object to its signature, or to its `Shape` if it was measured outside a stack."""
     measured = measured_in_turn(objects, depsgraph, SURFACE_OPTIONS)
     known: dict[MeasuredStack, list[Signature | None]] = {}
 
@@ -44,7 +44,7 @@ def signed_in_turn(
 
 
 def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]:
-    """Return the signatures of a stack's members, None for repaired, distant or ill-conditioned members."""
+    """Return the signatures of a stack's members; None for repaired, distant and ill-conditioned members."""
     found: list[Signature | None] = [None] * len(stack.members)
     linear = np.array([member.matrix[:3, :3] for member in stack.members])
     is_even, determinant = are_similarities(linear), np.linalg.det(linear)

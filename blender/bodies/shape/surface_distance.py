@@ -59,7 +59,7 @@ class SurfaceDistance:
         self.points = points.astype(np.float64, copy=False)
 
     def build(self) -> Iterator[float]:
-        """Build the tree, in steps of some tenths of a second for a million triangles; yield the share done."""
+        """Build the tree in steps, some tenths of a second for a million triangles; yield the finished share."""
         points = _as_tuples(self._corners)
         yield 0.2
         triangles = _as_tuples(self._triangles)
@@ -68,7 +68,7 @@ class SurfaceDistance:
         yield 1.0
 
     def nearest(self, points: NDArray) -> NDArray[np.float64]:
-        """Return (n, 3) the points of the surface nearest to (n, 3) points, in single precision."""
+        """Return (n, 3) points of the surface that are nearest to (n, 3) points, in single precision."""
         scaled = ((points - self._center) / self._scale).tolist()
         found = np.array([self._tree.find_nearest(row)[0] for row in scaled], np.float64)
         return found * self._scale + self._center
@@ -95,7 +95,7 @@ class SurfaceDistance:
 
 
 def _as_tuples(array: NDArray) -> list[tuple]:
-    """Return a list of the rows as tuples, which the garbage collector does not visit again and again like lists."""
+    """Return the rows as tuples, because the garbage collector visits lists again and again."""
     return list(zip(*array.T.tolist()))
 
 
@@ -106,7 +106,7 @@ def register_surfaces(
     target_skin: SurfaceDistance,
     scale: float = 1.0,
 ) -> RigidMatch:
-    """Return the motion that lays a scaled shape onto another one, by the distances between their surfaces."""
+    """Return the motion that lays a scaled shape onto another one, minimizing the distances of their surfaces."""
 
     def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:
         source_points, target_points = (

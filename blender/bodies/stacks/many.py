@@ -1,11 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many objects at once: solids that show one mesh each are measured as stacks, all others one by one.
+"""Many objects at once: solids that show one mesh each are measured as stacks, all others by `measure_body`.
 
-Both ways give the same numbers.
-
-An object joins no stack if it shows more than one mesh in one place, is no solid, is large, or has a varying density:
-`measure_body` measures it. Objects that a stack refuses go to `measure_body`, too, which finds the reason.
+Both ways give the same numbers. Large solids and varying densities join no stack.
 """
 
 from __future__ import annotations
@@ -19,8 +16,7 @@ from ....core.measurement.builder import MAX_FACES_HIGH_ORDER
 from ....core.measurement.settings import Settings
 from ....core.verdict import internal_error
 from ...read.mesh import mesh_surface, plain_mesh
-from ...settings.options import AS_SET, MeasureOptions
-from ...settings.resolve import object_settings
+from ...settings.options import AS_SET, MeasureOptions, object_settings
 from ..measure_object import Measured, measure_body
 from .stack import MeshShape, Stacked, StackMember, measure_members
 
@@ -48,7 +44,7 @@ def measure_many(
 def measured_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Callable[[bpy.types.Object], Measured | Stacked]:
-    """Return a function that measures in batches and, called with each object in order, returns its measurement."""
+    """Return a function from each object, in the given order, to its measurement; it measures ahead in batches."""
     waiting: dict[bpy.types.Object, Outcome] = {}
     slices = measure_many(objects, depsgraph, options)
 
@@ -66,7 +62,7 @@ def measured_in_turn(
 def _outcomes(
     pending: list[tuple[bpy.types.Object, StackMember | None]], collector: _Collector
 ) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
-    """Yield the outcomes of the collected objects: stacked ones together, others one by one."""
+    """Yield the outcomes of the collected objects: stacked objects together, others one by one."""
     stacked = collector.measure()
     together: list[tuple[bpy.types.Object, Outcome]] = []
     for obj, member in pending:
@@ -152,7 +148,7 @@ class _Collector:
         return self._digests[settings]
 
     def _read(self, mesh: bpy.types.Mesh) -> MeshShape | None:
-        """Return the shape of a mesh; None if it has to be measured by itself."""
+        """Return the shape of a mesh; None if it has to be measured alone."""
         if not len(mesh.polygons) or len(mesh.polygons) > MAX_FACES_HIGH_ORDER:
             return None
         surface = mesh_surface(mesh)
@@ -168,7 +164,7 @@ class _Collector:
         return shape
 
     def measure(self) -> dict[int, Stacked]:
-        """Return stacked measurements by member number; none if the stack fails, so that objects are measured alone."""
+        """Return the stacked measurements by member number; none if the stack fails and all must be measured alone."""
         try:
             stack = measure_members(self.members, self.shapes) if self.members else None
         except Exception as error:

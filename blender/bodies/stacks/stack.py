@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The measurements of many objects, each a solid of one shape in one place, computed together.
 
-A shape is a mesh in its own coordinates, however many objects show it. Small shapes that are closed or can be capped
-are measured together, all others are repaired and measured alone. An object is a shape, a place and a density or mass.
+Small shapes that are closed or can be capped are measured together, all others are repaired and measured alone.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Moments, image, join_moments
 from ....core.numerics.rotations import rotation_matrix
 from ....core.polyhedron import polyhedron_moments
-from ....core.polyhedron.sheared_areas import area_of_images
+from ....core.polyhedron.integration import area_of_images
 from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
 from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, measure_stack, small_moments_to_order
 from ....core.verdict.finding import Finding
@@ -66,7 +65,7 @@ class MeshShape:
 
     @property
     def defects(self) -> DefectiveElements | None:
-        """Elements with faults; None if there are none."""
+        """The elements with faults; None if there are none."""
         spotless = self.alone is None and self.method is METHODS[Verdict.EXACT]
         return None if spotless else self.health.defective_elements
 
@@ -76,7 +75,7 @@ class MeshShape:
         return surface_digest(self.surface, self.face_count)
 
     def sixth_order(self) -> Moments:
-        """Return the volume's moments to the order that axes need, for a mesh that was measured by itself."""
+        """Return the volume's moments to the order that axes need, for a mesh that was measured alone."""
         solid = self.alone
         assert solid is not None
         found = polyhedron_moments(
@@ -149,7 +148,7 @@ class MeasuredStack:
     findings: list[tuple[Finding, ...]]
 
     def some(self, which: list[int]) -> MeasuredStack:
-        """Return a stack of the members with these indices."""
+        """Return the stack of the members with these indices."""
         if len(which) == len(self.members):
             return self
         lists = "members", "fingerprints", "findings"
@@ -165,7 +164,7 @@ class MeasuredStack:
 
     @cached_property
     def error_bounds(self) -> NDArray[np.float64]:
-        """(n, 2, 4) bounds, by rounding and by float32 coordinates, of volume, area, center and inertia."""
+        """(n, 2, 4) bounds by rounding, then by float32 coordinates, of volume, area, center and inertia."""
         volume, area, properties = self.volume, self.area, self.mass_properties
         rounding, moved = properties.rounding_error, properties.input_error
         bounds = (
@@ -175,7 +174,7 @@ class MeasuredStack:
         return np.array(bounds).transpose(2, 0, 1)
 
     def in_object_frames(self) -> MassProperties:
-        """Return the mass properties, each in its object's own frame."""
+        """Return the mass properties, each in the frame of its object."""
         return self.mass_properties.in_frame(self.rotation, self.location)
 
     def measurement(self, i: int) -> Measurement:
@@ -235,7 +234,7 @@ class Stacked:
 
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
-    """Return a stack of the members whose volume and mass are certain, or None; all members have the same unit."""
+    """Return the stack of the members with certain volume and mass, or None; all members have the same unit."""
     unit, axes = members[0].settings.unit, members[0].settings.axes
     own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])
@@ -316,14 +315,14 @@ def _chosen(members: list[StackMember], which: NDArray) -> list[StackMember]:
 
 
 def _placed(moments: Moments, matrices: NDArray) -> Moments:
-    """Return the moments of the images, each about the image of its reference point."""
+    """Return the moments mapped by the members' matrices, each about the image of its reference point."""
     linear, about = matrices[:, :3, :3], moments.about
     center = linear[..., 0] * about[:, :1] + linear[..., 1] * about[:, 1:2] + linear[..., 2] * about[:, 2:]
     return image(moments, matrices, center + matrices[:, :3, 3])
 
 
 def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Moments:
-    """Return the areas of the images; if a matrix is no similarity, the mapped surface is measured."""
+    """Return the areas mapped by the members' matrices; surfaces are measured again if a matrix is no similarity."""
     even = are_similarities(matrices[:, :3, :3])
     if even.all():
         return _placed(area, matrices)

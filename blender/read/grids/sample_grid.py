@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A grid of a volume, read by the node Sample Grid if Blender has no openvdb module.
 
-A mesh has a vertex at the center of each voxel, and a node tree stores the value of the nearest voxel at each vertex:
-the same values to the bit. Mesh, tree and the scene that evaluates them exist for this reading only, so that nothing in
-the user's scene is changed or evaluated anew. The extent is Blender's bounding box; empty space is not known before it
-is sampled.
+A node tree stores the value of the nearest voxel at the vertices of a mesh, in a scene made for this reading only, so
+that nothing in the user's scene is changed or evaluated anew.
 """
 
 from __future__ import annotations
@@ -35,7 +33,7 @@ KINDS = {
 
 
 class SampledGrid:
-    """Grid with the interface of `vdb.VdbGrid`; level sets are not recognized here."""
+    """A grid with the interface of `vdb.VdbGrid`; level sets are not recognized here."""
 
     level_set = None
 
@@ -112,7 +110,7 @@ class SampledGrid:
 
 
 def _layer_at_frame_of(shown, scene):
-    """Set an empty scene to the frame of the displayed scene, and return a new view layer of it.
+    """Set an empty scene to the frame of the displayed scene; return a new view layer of the empty scene.
 
     Setting `frame_current` makes Blender evaluate the animation of every scene, and so revert unkeyed changes;
     `frame_set` evaluates this scene alone, but calls handlers, so they are removed meanwhile. The layer is new because

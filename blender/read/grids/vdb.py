@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A grid of a volume, read by Blender's openvdb module in blocks, without the empty space.
 
-An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side. The depth of a value shows whether its node of 128 exists at
-all, so the empty rest of a sparse grid costs nothing.
+An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side; the depth of a value shows if its node of 128 exists.
 """
 
 from __future__ import annotations
@@ -21,12 +20,7 @@ from numpy.typing import NDArray
 from ....core.bodies.findings import GRID_TOO_LARGE
 from ....core.mesh.surface import Surface
 from ....core.verdict.finding import ReadError
-from ..findings import (
-    GRID_FAR_FROM_ORIGIN,
-    GRID_FRUSTUM,
-    GRID_TYPE,
-    GRID_UNREADABLE,
-)
+from ..findings import GRID_FAR_FROM_ORIGIN, GRID_FRUSTUM, GRID_TYPE, GRID_UNREADABLE
 
 NODE_VOXELS = 128  # voxels along a side of the blocks that are read
 ROOT_VOXELS = 4096  # along a side of the largest nodes

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The grid of voxels that an object shows: a Volume object, or an object that nodes turn into a volume.
 
-Blender gives voxels only as a file or through nodes. With its openvdb module, grids that Blender has read from a .vdb
-file and not changed are read from that file; other grids are written to Blender's temporary folder for as long as the
-reading lasts. Without the module, all grids are sampled by nodes.
+With Blender's openvdb module, unchanged grids are read from their .vdb file and others from a temporary one; without
+it, all grids are sampled by nodes.
 """
 
 from __future__ import annotations
@@ -133,7 +132,7 @@ def _volume(obj, depsgraph):
 
 @dataclass
 class _OwnedVolume:
-    """A volume with the geometry set that may own it."""
+    """A volume, together with the geometry set that may own it."""
 
     geometry: bpy.types.GeometrySet
     data: bpy.types.Volume
@@ -182,7 +181,7 @@ def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Findin
 
 
 def _unchanged_file(obj, volume: _OwnedVolume) -> str | None:
-    """Return the file that the grids are read from, if nothing has changed them since."""
+    """Return the file of the grids, if they were not changed after loading."""
     if any(modifier.show_viewport for modifier in obj.modifiers) or obj.data.packed_file is not None:
         return None
     path = volume.data.grids.frame_filepath

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The splines of a curve object as B-spline curves: Bézier, NURBS, Catmull-Rom and straight splines.
 
-Blender's geometry set has the curves that are shown without a surface, after modifiers and shape keys. For beveled
-curves it has the mesh alone, so that they are read from the splines.
+Blender gives evaluated curves without a surface; of beveled curves it gives the mesh, so that the splines are read.
 """
 
 from __future__ import annotations
@@ -66,7 +65,7 @@ def text_curves(obj, depsgraph) -> list[Curve]:
 
 
 def is_round(obj) -> bool:
-    """Return whether the polygons that Blender draws for a curve or text object stand for a curved shape."""
+    """Return whether the polygons of a curve or text object stand for a curved shape."""
     curve = obj.data
     if obj.type == "FONT" or (curve.bevel_mode != "OBJECT" and curve.bevel_depth and curve.bevel_resolution):
         return True
@@ -109,7 +108,7 @@ def _control_points(spline) -> NDArray[np.float64]:
 
 
 def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
-    """Yield the splines as curves, moved by shape keys and hooks; None for splines that are too short."""
+    """Yield the splines as curves, moved by shape keys and hooks; None for each spline that is too short."""
     name, splines = evaluated.original.name, list(evaluated.data.splines)
     if not splines:
         return
@@ -142,7 +141,7 @@ def _has_known_knots(spline, curve: Curve | None) -> bool:
 
 
 def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
-    """Yield the curves of a geometry set; None for curves that are too short."""
+    """Yield the curves of a geometry set; None for each curve that is too short."""
     count = len(curves.points)
     positions, left, right = (
         _values(curves, attribute, "vector", (count, 3)) for attribute in ("position", "handle_left", "handle_right")

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Control points, moved by shape keys and hooks.
 
-Blender evaluates a spline's shape keys and hooks into a copy that no interface shows: `evaluated.data.splines` has
-animated points, but without the effect of keys and hooks. So both are applied here, by the formulas of key.cc and
-MOD_hook.cc in float64, and the readers of surfaces compare the patches with the display mesh.
+Blender does not show evaluated control points, so both are applied here, by the formulas of key.cc and MOD_hook.cc in
+float64; the readers of surfaces compare the patches with the display mesh.
 """
 
 from __future__ import annotations

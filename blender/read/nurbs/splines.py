@@ -2,13 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The splines of a surface object as patches, checked against the mesh that Blender displays.
 
-The patches that are read may differ from the displayed ones if shape keys and hooks move control points, or if a spline
-has knots that Blender's interface does not show (as from its OBJ importer). So the patches are evaluated at the
-parameters of the display mesh's vertices and compared with them. If they differ, the control points are recovered from
-these vertices, a linear problem in each direction; if a difference remains, the display mesh is measured.
-
-The splines of an object that was read from a file for a measurement are a picture of the faces of the file, which
-`keep_faces` keeps beside it.
+Shape keys, hooks, and knots that Blender's interface does not show can make patches differ from this mesh. Then control
+points are recovered from its vertices, a linear problem in each direction; if a difference remains, the mesh is
+measured. Splines of an object read from a file are a picture of the file's faces, which `keep_faces` keeps.
 """
 
 from __future__ import annotations
@@ -37,13 +33,13 @@ _faces_of_file: dict[int, SplineReading] = {}  # by the identifier of the data i
 
 
 def keep_faces(readings: dict[Curve, SplineReading]) -> None:
-    """Measure objects by readings of their data from a file, instead of the splines that show them; forget others."""
+    """Register the faces of a file, by which objects are measured instead of by their splines; forget other files."""
     _faces_of_file.clear()
     _faces_of_file.update({data.session_uid: reading for data, reading in readings.items()})
 
 
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
-    """Return the patches of a surface object, checked against `mesh` if given; None if its mesh has to be measured."""
+    """Return the patches of a surface object, checked against `mesh` if given; None if the mesh must be measured."""
     original = evaluated.original
     if original.data.session_uid in _faces_of_file:
         return _faces_of_file[original.data.session_uid]
@@ -106,7 +102,7 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
 
 
 def nonpositive_weights(splines) -> int:
-    """Return the number of control points with nonpositive weights, for which the display mesh is measured."""
+    """Return the number of control points with nonpositive weights, which make a patch unusable."""
     return sum(int((~(weighted_points(spline)[:, 3] > 0.0)).sum()) for spline in splines if spline.type == "NURBS")
 
 
@@ -133,7 +129,7 @@ def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
 def _verified(
     patches: list[Patch], samples: list[tuple[NDArray, NDArray]], shown: NDArray, tolerance: float
 ) -> list[Patch] | None:
-    """Return the patches if they agree with the display mesh, else patches recovered from it, or None."""
+    """Return the patches if they agree with the display mesh, else patches computed from the mesh, or None."""
     counts = [len(v) * len(u) for v, u in samples]
     if sum(counts) != len(shown):
         return None
@@ -156,7 +152,7 @@ def _agrees(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray, toler
 
 
 def _interpolating_patch(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray) -> Patch | None:
-    """Return the patch of the same spaces and weights through the samples; None if they do not determine it."""
+    """Return the patch with the same spaces and weights that interpolates the samples; None if singular."""
     inverses = []
     for table in sample:
         acting = table.any(axis=0)

@@ -36,13 +36,11 @@ from ....core.verdict import internal_error
 from ....core.verdict.finding import MeasureError
 from ....core.verdict.method import Method, Source, Verdict
 from ...bodies.measure_object import measure_body
-from ...bodies.measurement import measurement_of
-from ...bodies.request import Request
+from ...bodies.request import Request, measurement_of
 from ...read.fingerprint import has_transform, settings_hash, transform_key
 from ...read.objects import read_patches
-from ...settings.options import MeasureOptions
+from ...settings.options import MeasureOptions, object_settings
 from ...settings.preferences import preferences
-from ...settings.resolve import object_settings
 from ..tracking import handlers, updates
 from .following import Followed, LiveResult, followed
 from .moving_surface import MovingSurface

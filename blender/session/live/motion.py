@@ -27,7 +27,7 @@ from ...bodies.measure_object import measure_body
 from ...bodies.mesh.hull import object_hull
 from ...read.objects import read_object
 from ...scene.findings import OPEN_OBJECT
-from ...settings.resolve import object_settings
+from ...settings.options import object_settings
 from ..tracking import updates
 
 MAX_SAMPLES = 200  # for a shape-key mix: with more keys each frame is measured
@@ -60,42 +60,51 @@ class Motion:
     """
 
     frames: int
-    _followed: dict[Object, _Followed] = field(default_factory=dict)
+    _followed: dict[int, _Followed] = field(default_factory=dict)  # by session uid, as undo replaces objects
 
     def mass_and_center(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]]:
         """Return an object's mass, kg, and (3,) center, Blender's units; MeasureError if there is no certain one."""
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
-        followed = self._followed.setdefault(obj, _Followed())
-        if followed.mixes is not None:
-            mixed = _mixed(obj, followed, depsgraph, matrix, unit)
-            return _measured(obj, followed, depsgraph, matrix, unit) if mixed is None else mixed
-        change = updates.last_change_of_geometry(obj)
+        followed = self._entry(obj)
+        if followed.change == -1 and followed.mixes is None:
+            self._shape_keys(obj, depsgraph, followed)
+        mixed = None if followed.mixes is None else _mixed(obj, followed, depsgraph, matrix, unit)
+        if mixed is not None:
+            return mixed
+        moments = self.mass_moments(obj, depsgraph)
+        return moments.total, moments.center / unit
+
+    def mass_moments(self, obj: Object, depsgraph: Depsgraph) -> Moments:
+        """Return the moments of an object's mass to second order, in the world and SI units, or raise MeasureError."""
+        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
+        followed, change = self._entry(obj), updates.last_change_of_geometry(obj)
         if followed.moments is None or followed.change != change or not _can_map(followed.moments, matrix):
-            if followed.change == -1 and self._shape_keys(obj, depsgraph, followed):
-                return self.mass_and_center(obj, depsgraph)
             followed.change = change
             return _measured(obj, followed, depsgraph, matrix, unit)
         moments = followed.moments.transform(_in_si(matrix, unit))
-        return moments.total if followed.given_mass is None else followed.given_mass, moments.center / unit
+        return moments if followed.given_mass is None else moments * (followed.given_mass / moments.total)
+
+    def _entry(self, obj: Object) -> _Followed:
+        return self._followed.setdefault(obj.session_uid, _Followed())
 
     def hull_points(self, obj: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:
         """Return the corners of an object's convex hull, (k, 3) in Blender's units and the world."""
-        followed = self._followed.setdefault(obj, _Followed())
-        change = updates.last_change_of_geometry(obj)
+        followed, change = self._entry(obj), updates.last_change_of_geometry(obj)
         if followed.hull is None or followed.hull[0] != change:
             followed.hull = change, object_hull(obj, depsgraph)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         return followed.hull[1].points @ matrix[:3, :3].T + matrix[:3, 3]
 
-    def _shape_keys(self, obj: Object, depsgraph: Depsgraph, followed: _Followed) -> bool:
-        """Fit `mixes` to an object that shows nothing but a mix of shape keys; return whether that was possible."""
+    def _shape_keys(self, obj: Object, depsgraph: Depsgraph, followed: _Followed) -> None:
+        """Fit `mixes` to an object that shows nothing but a mix of shape keys, if that is possible."""
         keys = _mixed_keys(obj)
         if not keys or sample_count(len(keys)) > min(self.frames, MAX_SAMPLES):
-            return False
+            return
         measurement = measure_body(obj, depsgraph).measurement
         if measurement.method != Method(Verdict.EXACT) or measurement.health.welded:
-            return False
+            return
         blocks = obj.data.shape_keys.key_blocks
         shapes = {
             name: _coordinates(blocks[name].data) for name in {*keys, *(blocks[k].relative_key.name for k in keys)}
@@ -106,7 +115,6 @@ class Motion:
         followed.mixes, followed.keys = fit_mixes(surface, offsets), keys
         followed.triangles, _ = surface.all_triangles()
         followed.density, followed.given_mass = measurement.density, object_settings(obj, depsgraph.scene).mass
-        return True
 
 
 def _mixed_keys(obj: Object) -> tuple[str, ...]:
@@ -147,18 +155,16 @@ def _mixed(
     return mass, matrix[:3, :3] @ centers[0] + matrix[:3, 3]
 
 
-def _measured(
-    obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
-) -> tuple[float, NDArray[np.float64]]:
+def _measured(obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float) -> Moments:
+    """Measure an object, keep its moments if its matrices can map them, and return them in the world."""
     measurement = measure_body(obj, depsgraph).measurement
     if measurement.method.verdict == Verdict.OPEN:
         raise EditRefusedError(OPEN_OBJECT, subject=obj.name)
     moments, factor = measurement.mass_moments
     followed.given_mass = object_settings(obj, depsgraph.scene).mass
-    followed.moments = None
-    if _can_map(moments, matrix):
-        followed.moments = (moments.truncate(1) * factor).transform(np.linalg.inv(_in_si(matrix, unit)))
-    return measurement.mass_properties.mass, measurement.mass_properties.center / unit
+    mass = moments.truncate(2) * factor
+    followed.moments = mass.transform(np.linalg.inv(_in_si(matrix, unit))) if _can_map(moments, matrix) else None
+    return mass
 
 
 def _can_map(moments: Moments, matrix: NDArray) -> bool:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ....core.bodies.mesh_body import MeshBody
 from ....core.bodies.reading import Reading
 from ....core.mesh.surface import Surface
-from ....core.polyhedron.first_order import volume_and_center
+from ....core.polyhedron.integration import volume_and_center
 from ....core.verdict.finding import ReadError
 from ....core.verdict.method import Source, Verdict
 from ...bodies.measure_object import Measured

@@ -1,10 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stored results of an assembly.
-
-Results are stored on the assembly, on the assemblies in it, and on the measured objects; the rows of its tree are kept
-with its settings.
-"""
+"""The stored results of an assembly: on it, on all assemblies in it, on measured objects; its tree."""
 
 from __future__ import annotations
 
@@ -92,7 +88,7 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
     if member is None:
         depsgraph = context.evaluated_depsgraph_get()
     before = {
-        root: _member_bodies(members_of(root, depsgraph)) for root in stored if not staleness.stale_reason(root, scene)
+        root: _member_bodies(members_of(root, depsgraph)) for root in stored if staleness.was_current(root, scene)
     }
     if member is not None:
         before = {root: bodies for root, bodies in before.items() if member in bodies}
@@ -168,7 +164,7 @@ def _write_rows(assembly: Assembly) -> None:
 
 
 def _tree(part: MemberBody, depth: int, factor: float, counted: bool) -> Iterator[tuple[int, MemberBody, float, bool]]:
-    """Yield each member's depth, the member, the factor of its mass by instances, and whether its mass counts."""
+    """Yield for each member its depth, itself, the factor of its mass by instances, and whether its mass counts."""
     yield depth, part, factor, counted
     below = sum([_own_mass(member) for member in part.parts], 0.0)
     if part.member.kind == MemberKind.INSTANCE and below > 0.0:

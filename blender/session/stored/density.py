@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Density as a multiplication: if it is one number, stored results follow it at once, without being measured again.
 
-The stamp of the stored results shows that nothing but density or mass is different: its digest is that of the current
-settings with the stored density, or the stored mass, in place of the given one. So nothing has to be remembered, undo
-restores settings and results together, and an animated or driven setting, for which Blender calls no update function,
-leaves the results out of date.
+The stamp must be that of the present settings with the stored density or mass. So nothing has to be remembered, undo
+restores both together, and an animated setting leaves the results out of date.
 """
 
 from __future__ import annotations
@@ -24,21 +22,19 @@ from ...read.tracking import tracking_paused
 from ...settings.density import default_density, unset_density
 from ...write import properties
 from .. import stored
-from ..findings import DENSITY_DEFAULT_KEPT
 from ..tracking import staleness, stamps
 
 if TYPE_CHECKING:
     from ....core.measurement.measurement import Measurement
 
 DEFAULTS = {  # notes on an unset density, by the setting
-    "density": finding(DENSITY_DEFAULT_KEPT, density="1000 kg/m³"),
-    "linear_density": finding(DENSITY_DEFAULT_KEPT, density="1 kg/m"),
+    "density": finding(DENSITY_DEFAULTED, slight=True, density="1000 kg/m³"),
+    "linear_density": finding(DENSITY_DEFAULTED, slight=True, density="1 kg/m"),
 }
-OF_DEFAULT_DENSITY = frozenset({DENSITY_DEFAULTED, DENSITY_DEFAULT_KEPT})
 
 
 def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
-    """Return an object's measurement, with a note if nobody has set its density and no finding says so yet."""
+    """Return an object's measurement, with a note if its density is unset and no finding says so yet."""
     unset = unset_density(obj, measurement, scene)
     if unset is None:
         return measurement
@@ -46,8 +42,8 @@ def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
 
 
 def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Finding, ...]:
-    """Return findings with the note on an unset density, if none of them is about that; `unset` is the setting."""
-    if OF_DEFAULT_DENSITY.intersection([found.code for found in findings]):
+    """Return findings with the note on the setting `unset`, unless one of them is about it."""
+    if DENSITY_DEFAULTED in [found.code for found in findings]:
         return findings
     return (*findings, DEFAULTS[unset])
 
@@ -102,9 +98,9 @@ def _can_store(obj: Object) -> bool:
 
 
 def _findings(obj: Object, scene: Scene) -> list[Finding]:
-    """Return the stored findings, with a note if nobody has set the density."""
+    """Return the stored findings, with a note if the density is unset."""
     settings = obj.body_moments
-    kept = [found for found in properties.findings(obj) if found.code not in OF_DEFAULT_DENSITY]
+    kept = [found for found in properties.findings(obj) if found.code != DENSITY_DEFAULTED]
     if settings.mass_from == "MASS":
         return kept
     name = "linear_density" if settings.kind == "WIRE" else "density"
@@ -114,14 +110,14 @@ def _findings(obj: Object, scene: Scene) -> list[Finding]:
 
 
 def on_density(settings: PropertyGroup, context: Context) -> None:
-    """Let stored results follow a density or mass."""
+    """Scale stored results after a change of density or mass."""
     if context.scene is not None and not tracking_paused.depth:
         with stored.assembly.kept_up_to_date(context, settings.id_data):
             follow_density(settings.id_data, context.scene)
 
 
 def on_default_density(settings: PropertyGroup, context: Context) -> None:
-    """Let the results of objects without a density of their own follow their scene's default density."""
+    """Scale the results of objects without their own density after a change of the scene's density."""
     with stored.assembly.kept_up_to_date(context):
         for obj in settings.id_data.objects:
             if not obj.body_moments.is_property_set("density"):

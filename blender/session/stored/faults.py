@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The places of faults in measured meshes, to be drawn: kept until the geometry changes or the file is closed."""
+"""The faults of measured meshes, for the overlay: cached until the geometry changes or the file is closed."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ forget = _faults.forget
 
 
 def remember(obj: Object, measured: Measured) -> None:
-    """Keep the places of the faults of a freshly measured object, or forget them if it has none."""
+    """Cache the faults of a freshly measured object, or drop them if it has none."""
     reading = measured.reading
     if not isinstance(reading, Reading) or len(reading.parts) != 1 or reading.is_singular:
         forget(obj)  # with several surfaces, the faulty one is unknown
@@ -53,7 +53,7 @@ def remember(obj: Object, measured: Measured) -> None:
 
 
 def remember_surface(obj: Object, surface: Surface, elements: DefectiveElements, place: NDArray = OWN_PLACE) -> None:
-    """Keep the places of the faults of an object's surface; `place` maps it into the object's coordinates."""
+    """Cache the faults of an object's surface; `place` maps it into the object's coordinates."""
     forget(obj)
     pairs, faces = (np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES))
     if not len(pairs) and not len(faces):
@@ -67,7 +67,7 @@ def remember_surface(obj: Object, surface: Surface, elements: DefectiveElements,
 
 
 def of_object(obj: Object) -> Faults | None:
-    """Return the faults of an object, None if there are none or its geometry has changed since."""
+    """Return the faults of an object, None if there are none or its geometry has changed."""
     faults = _faults.get(obj)
     if faults is None or faults.change != updates.last_change_of_geometry(obj):
         return None

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The objects in a list and their order: kept until Blender reports a change."""
+"""The objects in a list and their order, cached until Blender reports a change."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, war
 
 
 def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
-    """Return texts of the masses of a view layer's measured objects by session uid, alike in unit and decimals."""
+    """Return texts of the masses of a view layer's measured objects by session uid, with common unit and decimals."""
     units = Units.from_settings(scene.unit_settings)
 
     def list_masses() -> dict[int, str]:

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moments to a chosen order, kept in memory, and their display in a panel and on the clipboard.
 
-Nothing is written to the object: a thousand numbers would burden the file, and no undo step is needed. The last few
-objects' moments are kept while the file is open; their keys show when they are out of date.
+The last few objects' moments are kept while the file is open; their keys show when they are out of date.
 """
 
 from __future__ import annotations
@@ -24,9 +23,8 @@ from ....core.flat.section_properties import Plane
 from ....core.inertia.findings import MOMENTS_OVERFLOW
 from ....core.inertia.reference import Reference
 from ....core.measurement.plain_text import visible
-from ....core.moments.complex_form import Invariant, flusser_invariants, hu_invariants
+from ....core.moments.complex_form import Invariant, flusser_invariants, hu_invariants, normalize
 from ....core.moments.moments import Measure, Moments, monomial_count, monomials
-from ....core.moments.normalized import normalize
 from ....core.polyhedron.n_dimensions import multi_indices
 from ....core.verdict.finding import Finding, MeasureError, ReadError
 from ...bodies.flat.flat import area_findings, clearer_refusal, flat_region
@@ -35,11 +33,7 @@ from ...read.fingerprint import matrix_hash, settings_hash
 from ...read.reference import ReferenceChoice
 from ...settings.options import MeasureOptions
 from ...write.units import number
-from ..findings import (
-    INVARIANTS_ORDER,
-    MASS_MOMENTS_UNKNOWN,
-    MOMENTS_OF_AREA_ONLY,
-)
+from ..findings import INVARIANTS_ORDER, MASS_MOMENTS_UNKNOWN, MOMENTS_OF_AREA_ONLY
 from ..tracking import staleness, stamps, updates
 from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp
@@ -53,7 +47,7 @@ SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True, eq=False)
 class FlatMoments:
-    """A flat shape's moments, SI, along the axes of its plane from its origin."""
+    """The moments of a flat shape, SI, along the axes of its plane about the plane's origin."""
 
     moments: Moments
     plane: Plane
@@ -100,7 +94,7 @@ class ComputedMoments:
 
 @dataclass(frozen=True)
 class Degree:
-    """The moments of one degree as a panel shows them: rows of (label, text, exact value), and their unit."""
+    """The moments of one degree in a panel: rows of (label, text, exact value), and their unit."""
 
     degree: int
     unit: str
@@ -140,7 +134,7 @@ def compute_moments(context: Context, obj: Object, order: int) -> tuple[Computed
 
 
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
-    """Keep an object's freshly computed moments."""
+    """Cache an object's freshly computed moments."""
     _computed[obj] = computed
     settings = settings_hash(obj, depsgraph.scene)
     stamp = stamps.carry(obj, Kind.MOMENTS, updates.count(), matrix_hash(obj), settings)
@@ -158,7 +152,7 @@ def stamp_of(obj: Object) -> Stamp | None:
 
 
 def current_numbers(obj: Object, scene: Scene) -> Display:
-    """Return the moments that a panel shows by the scene's settings, and the reason if there are none."""
+    """Return the moments displayed by the scene's settings, and the reason if there are none."""
     settings, computed = scene.body_moments, computed_moments(obj)
     if computed is None:
         return (), None
@@ -192,7 +186,7 @@ def _displayed_degrees(moments: Moments, of: str, about: str) -> Iterator[Degree
 
 
 def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree]:
-    """Yield the invariants by degree: Hu's as numbers, the higher ones by real and imaginary parts."""
+    """Yield the invariants by degree: Hu's as numbers, higher ones as real and imaginary parts."""
     for degree in range(2, order + 1):
         rows = []
         for one in found:

@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Refusals of the last action, for panels to show until the next selection, undo or successful action.
-
-A status line is cut off and gone with the next click.
-"""
+"""Refusals of the last action, for panels to show until the next selection, undo or successful action."""
 
 from __future__ import annotations
 

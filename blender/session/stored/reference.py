@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inertia about the reference that the scene has chosen, from stored results: shown, and stored on request.
-
-The stored inertia remembers its reference, and follows when its owner is measured again.
-"""
+"""Inertia about the scene's reference, from stored results; a stored one follows when its owner is measured again."""
 
 from __future__ import annotations
 
@@ -65,7 +62,7 @@ def stored_choice(owner: Object | Collection) -> ReferenceChoice | None:
 
 
 def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None) -> None:
-    """Store the inertia about a reference again after new results; skip it if the reference is gone."""
+    """Store the inertia about the stored reference again after new results, unless the reference is gone."""
     if choice is not None:
         with suppress(MeasureError):
             store(owner, scene, choice)

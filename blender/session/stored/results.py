@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Storing of measurements on objects, with the data for their sliders."""
+"""Storing of measurements on objects; also caches what the panel's sliders need."""
 
 from __future__ import annotations
 
@@ -11,15 +11,12 @@ from typing import Any
 
 from bpy.types import Object, Scene
 
-from ....core.bodies.threshold import ThresholdGridBody
-from ....core.bodies.wall import WallBody
-from ....core.numerics.float32 import shortest_decimal
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import MeasuredStack, Stacked
 from ...settings.density import is_density_unset
 from ...write import properties
 from ..tracking import staleness
-from . import density, faults, reference, threshold, walls
+from . import density, faults, reference, sliders
 
 
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
@@ -30,16 +27,13 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
     properties.store(obj, measured.measurement)
     faults.remember(obj, measured)
     reference.follow(obj, scene, about)
-    if isinstance(measured.body, WallBody):
-        walls.cache_walls(obj, measured, shortest_decimal(scene.unit_settings.scale_length))
-    elif isinstance(measured.body, ThresholdGridBody):
-        threshold.cache_grid(obj, measured, shortest_decimal(scene.unit_settings.scale_length))
+    sliders.remember(obj, measured, scene)
 
 
 def store_many(
     measured: Sequence[tuple[Object, Measured | Stacked]], scene: Scene
 ) -> Iterator[tuple[Object, Exception | None]]:
-    """Store the results of many objects like `store`; yield each with None, or the error that it cannot hold them."""
+    """Store the results of many objects like `store`; yield each with None, or the error that prevented it."""
     for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
         items: list[tuple[Object, Any]] = list(run)
         if stack is None:

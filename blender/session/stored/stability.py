@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Stability of objects: their convex hulls are remembered, so that the support polygon follows every move.
 
-A hull is computed when stability is asked for, and holds until the geometry changes. Its support and poses are computed
-again after changes of the hull, of the center of mass, or of the object's place.
+A hull is computed on request, and holds until the geometry changes; support and poses follow its place and center.
 """
 
 from __future__ import annotations
@@ -55,7 +54,7 @@ def down(scene: Scene) -> NDArray[np.float64]:
 
 
 def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
-    """Compute and remember the hull of an object as it is evaluated, or raise MeasureError if it has none."""
+    """Compute and cache the hull of an evaluated object, or raise MeasureError if it has none."""
     hull = object_hull(obj, depsgraph)
     _remembered[obj] = _Remembered(hull)
     staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, updates.count()), depsgraph)
@@ -64,12 +63,12 @@ def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
 
 
 def is_known(obj: Object) -> bool:
-    """Return whether a hull of the object is remembered, because its stability was checked."""
+    """Return whether a hull of the object is cached, because its stability was checked."""
     return obj in _remembered
 
 
 def stamp_of(obj: Object) -> Stamp | None:
-    """Return the stamp of the remembered hull."""
+    """Return the stamp of the cached hull."""
     return stamps.carried(obj, Kind.HULL)
 
 
@@ -92,7 +91,7 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
 
 
 def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
-    """Return the tolerance of contacts, relative to the extent; the body may exceed its simplified hull by the gap."""
+    """Return the height, relative to the extent, up to which points touch the ground; it exceeds the hull's gap."""
     gap = hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
     return max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Symmetries that were found, stored on their objects in the objects' own axes."""
+"""Symmetries of objects, stored on the objects in their own axes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MAX_STORED_ELEMENTS = 32  # limit of stored elements of a symmetry: nobody reads
 def store_symmetry(
     obj: Object, shape: Shape | FlatShape, confirmed: Symmetry, allowed: Symmetry, tolerance: float
 ) -> None:
-    """Store the symmetry that the surface confirms, and the group that the moments allow."""
+    """Store the symmetry that the surface confirms, and the group that the moments allow, on an object."""
     stored = obj.body_moments_symmetry
     stored.group, stored.compatible, stored.tolerance = confirmed.group, allowed.group, tolerance
     stored.of_display_mesh = shape.is_display_mesh

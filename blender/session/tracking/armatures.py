@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Armatures and their meshes: meshes of posed armatures, and edits of measured characters.
 
-In Pose Mode an armature stands for the meshes that it deforms: they are posed, but not selected. A skinned mesh is
-evaluated anew whenever its armature moves, which changes nothing: the rest pose is measured. So an edit is noted if
-Blender reports a new shape of a mesh and nothing new of its armature.
+A skinned mesh is evaluated anew whenever its armature moves, but the rest pose is measured: an edit is a new shape of a
+mesh without an update of its armature.
 """
 
 from __future__ import annotations
@@ -16,6 +15,7 @@ from bpy.types import Object
 
 from ... import read
 from ...read.tracking import tracking_paused
+from ...settings.given import COLLIDER
 from ...write import properties
 from . import handlers, staleness
 from .cache import SessionCache, current_value
@@ -26,7 +26,7 @@ _watched: dict[int, Object] = {}  # by the session uids of skinned meshes, the a
 
 
 def stands_for_meshes(obj: Object) -> bool:
-    """Return whether an original object is an armature that is being posed."""
+    """Return whether an original object is an armature in Pose Mode, whose meshes count in its place."""
     return obj.type == "ARMATURE" and obj.mode == "POSE"
 
 
@@ -42,15 +42,19 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
 
 
 def subjects(objects: Iterable[Object]) -> list[Object]:
-    """Return original objects, each once, with the deformed meshes in place of posed armatures."""
+    """Return original objects, each once, with the deformed meshes in place of posed armatures.
+
+    Colliders are left out, unless nothing else is among the objects.
+    """
     found: dict[Object, None] = {}
-    for obj in objects:
+    chosen = list(objects)
+    for obj in [obj for obj in chosen if COLLIDER not in obj] or chosen:
         found.update(dict.fromkeys(deformed_meshes(obj) if stands_for_meshes(obj) else (obj,)))
     return list(found)
 
 
 def watch(armature: Object, objects: Iterable[Object]) -> None:
-    """Begin to note edits of the meshes among `objects` that an armature deforms."""
+    """Begin to note edits of the meshes among `objects` that an armature deforms, in the name of the armature."""
     for obj in read.rig.skinned_objects(armature, objects):
         _watched[obj.session_uid] = armature
 

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Data about objects while a file is open: in memory only, by session uid, gone with the file.
+"""Data about objects while a file is open: in memory only, by session uid, which survives renaming, undo and redo.
 
-Blender gives every data-block a uid that stays the same through renaming, undo and redo, and that no later data-block
-gets. All caches are emptied together, by `handlers`, when a file is loaded and when the add-on is unregistered.
+`handlers` empties all caches together when a file is loaded and when the add-on is unregistered.
 """
 
 from __future__ import annotations
@@ -56,7 +55,7 @@ class SessionCache(Generic[Value]):
         return len(self._values)
 
     def forget(self, data: ID) -> None:
-        """Forget the value of a data-block, if any."""
+        """Drop the value of a data-block, if any."""
         self._values.pop(data.session_uid, None)
 
     def clear(self) -> None:
@@ -65,7 +64,7 @@ class SessionCache(Generic[Value]):
 
 
 def current_value(cache: SessionCache[tuple[Any, Value]], data: ID, key: object, compute: Callable[[], Value]) -> Value:
-    """Return the value of a data-block that is kept for this key, or compute and keep it."""
+    """Return the cached value of a data-block if it has this key; otherwise compute and cache it."""
     known = cache.get(data)
     if known is None or known[0] != key:
         known = cache[data] = (key, compute())

@@ -1,10 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's reports while a file is open, heard once, and passed on to all of the session.
+"""Blender's reports while a file is open, heard once, and passed on to the functions in the lists below.
 
-These are the add-on's application handlers, except that of `blender/write/translations.py`. A subscriber appends a
-plain function to one of the lists below (`subscriptions`). A subscriber never writes data while Blender evaluates: that
-would be reported as the next change. Only before a file is saved may it write, and the written data are saved.
+A subscriber never writes data while Blender evaluates, which would be the next change; before a file is saved it may.
 """
 
 from __future__ import annotations
@@ -22,7 +20,7 @@ from . import cache
 
 @dataclass(frozen=True, eq=False)
 class Updates:
-    """Data-blocks that the window's dependency graph has evaluated anew, as session uids: a frame may have thousands.
+    """Session uids of data-blocks that the window's dependency graph has evaluated again; there may be thousands.
 
     depsgraph: its `updates` are valid until the handlers return.
     reshaped, moved, others: objects with new geometry, with a new transform only, and with neither.
@@ -51,12 +49,12 @@ _generation = 0
 
 
 def generation() -> int:
-    """Return the number of changes since Blender was started: results of an older generation may be wrong."""
+    """Return the number of changes since Blender's start; results of an older generation may be wrong."""
     return _generation
 
 
 def count_change(data: ID | None = None) -> None:
-    """Count a change that Blender does not report, such as a new note about an object; by default, of any object."""
+    """Count a change that Blender does not report, such as a new note about an object; by default of any object."""
     global _generation
     _generation += 1
     _call(on_note, data)

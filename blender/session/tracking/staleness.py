@@ -1,25 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Staleness of stored numbers.
+"""Staleness of stored numbers: transform and settings are compared by the digests in stamps; edits are noted.
 
-Transform and settings are compared, by the digests in the stamps of stored data (`stamps`).
-
-Edits of the geometry are noted, as a digest of the geometry would need a measurement. A note is a stamp that the object
-carried when Blender evaluated its geometry anew, in memory only. When a file is saved, the notes become part of the
-stamps (`stamps.write_edited`), because opening the file again reports no updates.
+A note is a stamp that the object carried when Blender evaluated its geometry anew. When a file is saved, the notes
+become part of the stamps (`stamps.write_edited`), because opening the file again reports no updates.
 
 Not every update is an edit: Blender also evaluates an object that is copied, shown again or gets a material slot. So
-the surfaces of small meshes are kept as digests when their numbers are stored, and a note is made, or taken back, by
-comparing the current surface. For all other objects every update is an edit, except
+the surfaces of small meshes are kept as digests, which are compared. For all other objects every update is an edit,
+except that of a setting and the one after undo, which restores numbers and shape together (in Edit Mode and Sculpt Mode
+the shape alone). Notes are kept, because undo may restore the numbers before the edit, too.
 
-- the update of a setting, which Blender reports as one of the geometry;
-- the update that follows undo, which restores numbers and shape together. An edit that undo restores was noted when it
-  was made, and notes are kept, because undo may restore the numbers before it, too. In Edit Mode and Sculpt Mode undo
-  restores the shape alone, and its update is an edit.
-
-A handler only writes down the updated objects, because a frame of an animation may have thousands. Their effects are
-noted on request (`note_edits`), and at the latest before results are replaced, before undo, and before the file is
-saved.
+A handler only writes down the updated objects; their effects are noted on request (`note_edits`), and at the latest
+before results are replaced, before undo, and before the file is saved.
 """
 
 from __future__ import annotations
@@ -34,13 +26,9 @@ from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from ....core.measurement.settings import VERSION, digest
 from ....core.numerics.float32 import shortest_decimal
 from ... import read
-from ...read.fingerprint import (
-    has_transform,
-    matrix_hash,
-    scale_hash,
-    settings_hash,
-)
+from ...read.fingerprint import colliders_digest, has_transform, matrix_hash, scale_hash, settings_hash
 from ...read.tracking import tracking_paused
+from ...settings.given import COLLIDERS
 from ...write import properties
 from . import handlers, stamps, updates
 from .cache import SessionCache, current_value
@@ -102,6 +90,10 @@ def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
     return stamp.extra == shortest_decimal(scene.unit_settings.scale_length)
 
 
+def _has_colliders(obj: Object, _stamp: Stamp, _scene: Scene) -> bool:
+    return obj[COLLIDERS].get("digest") == colliders_digest(obj)
+
+
 def _has_structure(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
     parts = _digests_of_parts(root, scene)
     return parts is None or stamp.settings == parts[0]
@@ -117,7 +109,18 @@ def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str
     return current_value(_parts, root, handlers.generation(), lambda: _digest_parts(root, scene))
 
 
-def _digest_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
+def was_current(root: Object | Collection, scene: Scene) -> bool:
+    """Return whether a total was up to date before the settings of members changed, of which Blender tells later."""
+    stamp, parts = stamps.of_results(root), _digest_parts(root, scene, (None, Stale.SETTINGS))
+    if stamp is None or stamp.version != VERSION or not _has_matrix(root, stamp, scene):
+        return False
+    return parts is None or parts == (stamp.settings, stamp.geometry)
+
+
+def _digest_parts(
+    root: Object | Collection, scene: Scene, current: tuple[Stale | None, ...] = (None,)
+) -> tuple[str, str] | None:
+    """Compute `_digests_of_parts`. current: the reasons with which a member counts as up to date."""
     if isinstance(root, Object) and root.type == "ARMATURE":
         return read.rig.rig_hash(root, read.rig.rig_objects(root, scene.objects), scene), ""
     depsgraph = bpy.context.view_layer.depsgraph
@@ -127,7 +130,7 @@ def _digest_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | 
     member = assembly.members_of(root, depsgraph)
     measured = [part.data for part in member.walk() if part.kind == assembly.MemberKind.OBJECT and part.is_measured]
     texts = {obj: properties.fingerprint(obj) for obj in measured}
-    is_stale = any(stale_reason(obj, scene) for obj in measured)
+    is_stale = any(stale_reason(obj, scene) not in current for obj in measured)
     key = assembly.members_key(member, texts)
     return assembly.structure_hash(member), "" if is_stale else digest(key.encode())
 
@@ -145,6 +148,12 @@ CHECKS = {
     Kind.MOMENTS: ((Stale.SETTINGS, _has_settings), (Stale.GEOMETRY, _has_geometry), (Stale.TRANSFORM, _has_matrix)),
     Kind.HULL: ((Stale.GEOMETRY, _has_geometry),),
     Kind.SETTINGS: ((Stale.SETTINGS, _has_settings),),
+    Kind.COLLIDERS: (
+        (Stale.SETTINGS, _has_settings),
+        (Stale.GEOMETRY, _has_geometry),
+        (Stale.TRANSFORM, _has_transform),
+        (Stale.COLLIDERS, _has_colliders),
+    ),
 }
 
 
@@ -160,7 +169,7 @@ def is_edited(obj: Object) -> bool:
 def mark_up_to_date(
     context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
 ) -> None:
-    """Mark freshly stored results of objects as up to date; evaluate the data that Blender tagged at storing.
+    """Mark freshly stored results of objects as up to date, after evaluating what storing has tagged.
 
     objects: objects of the context's view layer with results stored or removed.
     shapes: the `surface_digest` of freshly read objects.
@@ -182,7 +191,7 @@ def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None
 
 
 def mark_stamp(obj: Object, stamp: Stamp, depsgraph: Depsgraph) -> None:
-    """Mark the data with a stamp as up to date with the evaluated state of an original object."""
+    """Mark the data with a stamp as up to date with an evaluated original object."""
     note_edits(obj)
     set_edited(obj, stamp.text, False)
     _remember_shape(obj, stamp, depsgraph)
@@ -212,7 +221,7 @@ def pin(obj: Object) -> None:
 
 
 def mark_axes_changed(objects: Iterable[Object]) -> None:
-    """Note that objects have new axes, in which stored directions no longer hold."""
+    """Note that objects have new axes, so that stored directions are wrong."""
     for obj in objects:
         if (stamp := stamps.of_symmetry(obj)) is not None:
             set_edited(obj, stamp.text, True)
@@ -259,7 +268,7 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
 
 
 def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: bytes | None = None) -> None:
-    """Keep the digest of the surface behind a stamp, if the data have no other inputs but settings and transform."""
+    """Keep the digest of the surface behind a stamp, if the data only depend on it, the settings and the transform."""
     varies = obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
         return
@@ -275,7 +284,7 @@ def note_all_edits() -> None:
 
 
 def forget_file() -> None:
-    """Forget the digests of surfaces and the numbers of noted updates."""
+    """Drop the digests of surfaces and the numbers of noted updates."""
     _resolved.clear()
     _shapes.clear()
 

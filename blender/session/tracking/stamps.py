@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stamps: the inputs of stored data, as digests, to be compared with the present ones by `staleness.stale_reason`.
+"""Stamps: digests of the inputs of stored data, which `staleness.stale_reason` compares with the present inputs.
 
 Results, a section and a symmetry carry theirs as text: version, geometry, transform and settings, joined by colons. In
 a saved file, EDITED stands in place of the geometry's digest if the geometry has changed since. Data in memory, such as
@@ -17,6 +17,7 @@ from bpy.types import Collection, Object
 
 from ....core.measurement.settings import VERSION
 from ....core.verdict.method import Verdict
+from ...settings.given import COLLIDERS
 from ...write import properties, section
 from .cache import SessionCache
 
@@ -35,16 +36,18 @@ class Stale(StrEnum):
     MEMBER = "A member changed, or was measured anew"
     MEMBERS = "Members were added, removed or moved, or given masses changed"
     BONES = "Bones, settings or objects changed"
+    COLLIDERS = "Colliders changed"
 
 
 class Kind(Enum):
-    """Kinds of stored data; they depend on different inputs."""
+    """The kinds of stored data, which depend on different inputs."""
 
     RESULTS = "results"
     SECTION = "section"
     SYMMETRY = "symmetry"
     ASSEMBLY = "assembly"
     BONES = "bones"
+    COLLIDERS = "colliders"
     MOMENTS = "moments"  # in memory, as are the following
     HULL = "hull"
     SETTINGS = "settings"  # live numbers and failed measurements
@@ -65,7 +68,7 @@ class Stamp(NamedTuple):
 
     @classmethod
     def parse(cls, text: str, kind: Kind = Kind.RESULTS, extra: float | None = None) -> Stamp:
-        """Return the stamp of a stored text, with an empty version if the text, such as a script's, is no stamp."""
+        """Return the stamp in a stored text, with an empty version if the text is no stamp."""
         parts = text.split(":")
         return cls(kind, *parts, extra=extra) if len(parts) == 4 else cls(kind, "")
 
@@ -80,7 +83,7 @@ _carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
 
 
 def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
-    """Give an original object a stamp of data in memory, and return it. number: `updates.count` at their making."""
+    """Attach a stamp to an original object's data in memory, and return it. number: `updates.count` at their making."""
     stamp = Stamp(kind, VERSION, "{:s} {:d}".format(kind.value, number), transform, settings)
     _carried[obj] = {**(_carried.get(obj) or {}), kind: stamp}
     return stamp
@@ -117,17 +120,28 @@ def of_symmetry(obj: Object) -> Stamp | None:
     return Stamp.parse(text, Kind.SYMMETRY) if text else None
 
 
+def of_colliders(obj: Object) -> Stamp | None:
+    """Return the stamp of what an object's colliders do, None if there is none."""
+    group = obj.get(COLLIDERS)
+    text = str(group.get("fingerprint", "")) if hasattr(group, "get") else ""
+    return Stamp.parse(text, Kind.COLLIDERS) if text else None
+
+
 def with_geometry(obj: Object) -> dict[str, Kind]:
     """Return the texts and kinds of an original object's stamps, except those of assemblies and bones."""
-    found = [of_results(obj), of_section(obj), of_symmetry(obj), *(_carried.get(obj) or {}).values()]
+    found = [*_stored(obj), *(_carried.get(obj) or {}).values()]
     return {
         stamp.text: stamp.kind for stamp in found if stamp is not None and stamp.kind not in (Kind.ASSEMBLY, Kind.BONES)
     }
 
 
+def _stored(obj: Object) -> tuple[Stamp | None, ...]:
+    return of_results(obj), of_section(obj), of_symmetry(obj), of_colliders(obj)
+
+
 def write_edited(obj: Object, edited: Container[str]) -> None:
     """Put EDITED into the stored stamps of an original, editable object whose texts are in `edited`."""
-    for stamp in (of_results(obj), of_section(obj), of_symmetry(obj)):
+    for stamp in _stored(obj):
         if stamp is None or not stamp.version or stamp.text not in edited:
             continue
         text = stamp._replace(geometry=EDITED).text
@@ -135,5 +149,7 @@ def write_edited(obj: Object, edited: Container[str]) -> None:
             obj.body_moments_symmetry.fingerprint = text
         elif stamp.kind == Kind.SECTION:
             obj[section.KEY]["fingerprint"] = text
+        elif stamp.kind == Kind.COLLIDERS:
+            obj[COLLIDERS]["fingerprint"] = text
         else:
             obj["body_fingerprint"] = text

@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Updates: data-blocks that Blender has evaluated anew, written down with the number of their last update.
 
-A frame of an animation may have thousands of updates, of which a panel shows one, so the handler does nothing but
-write down session uids. An update of an object's geometry may be an edit, but not if it follows a changed setting or
-undo.
+An update of an object's geometry may be an edit, but not if it follows a changed setting or undo.
 """
 
 from __future__ import annotations
@@ -80,7 +78,7 @@ def last_since(obj: Object, since: int) -> tuple[Update, Update]:
 
 
 def last_change_of_geometry(obj: Object) -> int:
-    """Return the number of the last update of an object's geometry or its instances, whether an edit or not."""
+    """Return the number of the last geometry update of an object or its instances, edit or not."""
     return last_since(obj, 0)[1].number
 
 
@@ -94,7 +92,7 @@ def depsgraph_of(stamp: Update) -> Depsgraph | None:
 
 
 def note_updates(updates: handlers.Updates) -> None:
-    """Write down updates as possible edits, no edits, moves and others; none while tracking is paused."""
+    """Record updates as possible edits, non-edits, moves or others; none while tracking is paused."""
     global _count, _undo_pending, _set_since
     if tracking_paused.depth:
         return
@@ -121,7 +119,7 @@ def note_updates(updates: handlers.Updates) -> None:
 
 
 def _edited_by_undo(updates: handlers.Updates) -> set[int]:
-    """Return the session uids of updated objects in Edit or Sculpt Mode, where undo restores the shape alone."""
+    """Return the session uids of updated objects in Edit or Sculpt Mode, where undo only restores the shape."""
     evaluated = [update.id for update in updates.depsgraph.updates]
     objects = [data.original for data in evaluated if isinstance(data, Object)]
     edited = {obj.session_uid for obj in objects if obj.mode == "SCULPT" or getattr(obj.data, "is_editmode", False)}
@@ -129,7 +127,7 @@ def _edited_by_undo(updates: handlers.Updates) -> set[int]:
 
 
 def note_setting(settings: PropertyGroup, _context: Context) -> None:
-    """Write down the object of a changed setting: its next update is no edit."""
+    """Record the object of a changed setting, because its next update is no edit."""
     _set_since.add(settings.id_data.session_uid)
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import codecs
 import re
 import stat
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,16 +20,17 @@ from ..findings import (
     INCLUDE_TWICE,
     INCLUDE_UNREADABLE,
     MESH_ON_NETWORK,
-    USD_NOT_TEXT,
 )
 from ..formats import AUDITED
-from ..stated import Description
+from ..stated import Description, Place
+from .composed import compose_usd, expand_xacro
 from .paths import Roots
 from .xml import Node, parse
 
 _WIDE = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16", b"<\0": "utf-16-le", b"\0<": "utf-16-be"}
 _ENCODING = re.compile(r"""^(<\?xml\b[^>]*?)\s+encoding\s*=\s*["'][\w.-]*["']""")
 _USD = "#usda"
+_LAYERED = re.compile(rb"\b(?:references|payload|subLayers)\s*=\s*(?:\[[^\]@]*)?@")
 MAX_DESCRIPTION = 64 << 20  # bytes
 MAX_LINKS = 100_000
 MAX_INCLUDES = 1000
@@ -36,11 +38,22 @@ MAX_INCLUDES = 1000
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
     """Return a file's robot description. roots: folders of files that an MJCF model includes. FileError if refused."""
-    data = _bytes(path)
-    if data.startswith(_USD.encode()):
+    data, roots = _bytes(path), roots or Roots.for_file(path)
+    is_text = data.startswith(_USD.encode())
+    is_binary = data.startswith((b"PXR-USDC", b"PK"))
+    is_composed = is_binary or is_text and _LAYERED.search(data) is not None
+    if is_text or is_binary:
+        if is_composed:
+            data = compose_usd(path, roots)
         description = AUDITED[_USD].reader_module.read(data)
     else:
-        description = _xml(data, roots or Roots.for_file(path))
+        if path.suffix.lower() == ".xacro":
+            parse(data)  # It refuses entities.
+            data, is_composed = expand_xacro(path, roots), True
+        description = _xml(data, roots)
+    if is_composed:  # The file itself does not hold the inertials.
+        nowhere = {"span": None, "place": Place(), "inertial_place": Place()}
+        description = replace(description, links=tuple(replace(link, **nowhere) for link in description.links))
     if len(description.links) > MAX_LINKS:
         raise FileError(FILE_TOO_LARGE, limit=MAX_LINKS, content="links")
     if not description.links:
@@ -68,8 +81,6 @@ def _check_bytes(count: int) -> None:
 
 
 def _xml(data: bytes, roots: Roots) -> Description:
-    if data.startswith((b"PXR-USDC", b"PK")):
-        raise FileError(USD_NOT_TEXT)
     data = _narrow(data)
     root = parse(data)
     if root.tag not in AUDITED:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...cad.obj_mesh import read_obj_faces
+from ...cad.obj import read_obj_faces
 from ...mesh.surface import Surface
 from ...numerics.rotations import rotation_matrix
 from ...scans.findings import FILE_TYPE

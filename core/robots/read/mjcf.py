@@ -7,8 +7,10 @@ It applies defaults by class, the compiler's angle unit and Euler order, and mes
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from math import inf, radians
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +19,20 @@ from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding
 from ...verdict.number_text import parse_numbers
 from ..model import Pose, Shape
-from ..stated import Angles, Description, StatedInertial, StatedLink, StatedShape, rotation_about
+from ..stated import (
+    LEAST,
+    MOST,
+    Angles,
+    Description,
+    Place,
+    StatedInertial,
+    StatedLink,
+    StatedShape,
+    rotation_about,
+)
 from .xml import NOWHERE, Node, attempt, number, numbers
 
+SQUARE_ATOL = 1e-9  # of the entries of a rotation between axes, which are 0 or 1
 LEAST_LENGTH = 1e-14  # of a direction; shorter ones are rounding errors, also for MuJoCo
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 
@@ -35,18 +48,78 @@ class _Model:
     classes: dict[str, dict[str, dict[str, str]]] = field(default_factory=dict)
 
 
+class _Frame(NamedTuple):
+    """The frame that elements of a body stand in: its pose in the body, what scales it, and the class of its defaults.
+
+    scale: (3,) along the frame's axes. mass: the factor of masses.
+    """
+
+    pose: Pose = Pose()
+    scale: NDArray[np.float64] = np.ones(3)
+    mass: float = 1.0
+    defaults: str = "main"
+
+    @property
+    def is_plain(self) -> bool:
+        """True if it is the frame of the body itself."""
+        pose = self.pose
+        is_in_place = not pose.position.any() and bool((pose.rotation == np.eye(3)).all())
+        return is_in_place and self.mass == 1.0 and bool((self.scale == 1.0).all())
+
+    def enter(self, node: Node, model: _Model) -> _Frame:
+        """Return the frame of an element `frame` in this one."""
+        turn, position = _rotation(node.attributes, model)[0], numbers(node.get("pos"), 3, (0.0, 0.0, 0.0))
+        text = node.get("scale")
+        own = numbers(text, 3) if len(text.split()) > 1 else np.full(3, number(text, 1.0))
+        if not ((own >= LEAST) & (own <= MOST)).all():
+            raise ValueError(text)
+        scale = self.scale_along(turn, text) * own
+        mass = self.mass * number(node.get("massscale"), float(own.prod()))
+        return _Frame(self.place(position, turn), scale, mass, node.get("childclass") or self.defaults)
+
+    def enter_body(self, node: Node, model: _Model) -> _Frame:
+        """Return the frame of an element `body` in this one: its own, scaled as this one."""
+        turn, text = _rotation(node.attributes, model)[0], node.get("name")
+        return _Frame(Pose(), self.scale_along(turn, text), self.mass, node.get("childclass") or self.defaults)
+
+    def place(self, position: NDArray, turn: NDArray) -> Pose:
+        """Return the pose in the body of a pose in this frame."""
+        return self.pose @ Pose(self.scale * position, turn)
+
+    def scale_along(self, turn: NDArray, text: str) -> NDArray[np.float64]:
+        """Return the (3,) scale along turned axes. ValueError, with the text, if it would shear."""
+        along = np.abs(turn.T)
+        if np.ptp(self.scale) and np.abs(along * (1.0 - along)).max() > SQUARE_ATOL:
+            raise ValueError(text)
+        return np.round(along) @ self.scale if np.ptp(self.scale) else self.scale
+
+
 def read(root: Node, data: bytes) -> Description:
     """Return a description from the element `mujoco`."""
     model = _settings(root)
     links: list[StatedLink] = []
     for world in root.all("worldbody"):
-        waiting = [(body, "main", body.get("childclass")) for body in reversed(world.all("body"))]
+        refused: list[Finding] = []  # of frames of the world, which the bodies in them report
+        waiting = [*reversed([part for part in _parts(world, _Frame(), model, refused) if part[0].tag == "body"])]
         while waiting:
-            body, inherited, own = waiting.pop()
-            current = own or inherited
-            links.append(_link(body, model, current, len(links)))
-            waiting += [(child, current, child.get("childclass")) for child in reversed(body.all("body"))]
+            body, above = waiting.pop()
+            outer = attempt(refused, body, above.enter_body, model) or _Frame()
+            parts = [*_parts(body, outer, model, refused)]
+            links.append(_link(body, parts, model, len(links), refused))
+            refused = []
+            waiting += reversed([part for part in parts if part[0].tag == "body"])
     return Description(root.get("model"), "mjcf", tuple(links), data)
+
+
+def _parts(body: Node, frame: _Frame, model: _Model, refused: list[Finding]) -> Iterator[tuple[Node, _Frame]]:
+    """Yield the children of a body and of its frames, with their frames. refused: findings about wrong frames."""
+    for child in body.children:
+        if child.tag != "frame":
+            yield child, frame
+            continue
+        inner = attempt(refused, child, frame.enter, model)
+        if inner is not None:
+            yield from _parts(child, inner, model, refused)
 
 
 def _settings(root: Node) -> _Model:
@@ -77,20 +150,23 @@ def _defaults(node: Node, name: str, above: dict[str, dict[str, str]], model: _M
         _defaults(child, child.get("class"), own, model)
 
 
-def _link(body: Node, model: _Model, current: str, count: int) -> StatedLink:
-    findings: list[Finding] = []
-    node = body.find("inertial")
-    inertial = attempt(findings, node, _inertial, model)
-    read = (attempt(findings, geom, _shape, current, model) for geom in body.all("geom"))
+def _link(
+    body: Node, parts: Sequence[tuple[Node, _Frame]], model: _Model, count: int, refused: Sequence[Finding]
+) -> StatedLink:
+    findings = [*refused]
+    node, frame = next((part for part in parts if part[0].tag == "inertial"), (None, _Frame()))
+    inertial = attempt(findings, node, _inertial, frame, model)
+    read = (attempt(findings, geom, _shape, inner, model) for geom, inner in parts if geom.tag == "geom")
     shapes = tuple(shape for shape in read if shape is not None)
-    span = None if node is None or node.start == NOWHERE else (node.start, node.end)
+    # Numbers in a frame are not those of the body, so that repairs do not fit them.
+    span = None if node is None or node.start == NOWHERE or not frame.is_plain else (node.start, node.end)
     name = body.get("name") or "body {}".format(count + 1)
     places = body.place, (node or body).place
     # Without an inertial MuJoCo takes it from geoms.
     return StatedLink(name, inertial, shapes, span, False, tuple(findings), None, *places)
 
 
-def _inertial(node: Node, model: _Model) -> StatedInertial:
+def _inertial(node: Node, frame: _Frame, model: _Model) -> StatedInertial:
     rotation, angles, quaternion = _rotation(node.attributes, model)
     if node.get("fullinertia"):
         xx, yy, zz, xy, xz, yz = numbers(node.get("fullinertia"), 6, ())
@@ -98,7 +174,15 @@ def _inertial(node: Node, model: _Model) -> StatedInertial:
     else:
         tensor = np.diag(numbers(node.get("diaginertia"), 3, (0.0, 0.0, 0.0)))
     center = numbers(node.get("pos"), 3, (0.0, 0.0, 0.0))
-    return StatedInertial(number(node.get("mass"), 0.0), center, tensor, rotation, angles, quaternion)
+    stated = StatedInertial(number(node.get("mass"), 0.0), center, tensor, rotation, angles, quaternion)
+    if frame.is_plain:
+        return stated
+    # The second moments of the mass about the center scale with its place.
+    second = np.trace(tensor) / 2.0 * np.eye(3) - stated.inertia
+    second = frame.mass * second * np.outer(frame.scale, frame.scale)
+    pose, turn = frame.place(center, np.eye(3)), frame.pose.rotation
+    inertia = turn @ (np.trace(second) * np.eye(3) - second) @ turn.T
+    return StatedInertial(stated.mass * frame.mass, pose.position, inertia)
 
 
 Rotation = tuple[NDArray[np.float64], Angles | None, tuple[float, ...] | None]
@@ -145,7 +229,24 @@ def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
     return vector / length
 
 
-def _shape(geom: Node, current: str, model: _Model) -> StatedShape | None:
+def _shape(geom: Node, frame: _Frame, model: _Model) -> StatedShape | None:
+    """Return the shape of a geom in its body."""
+    stated = _own_shape(geom, frame.defaults, model)
+    if stated is None:
+        return None
+    shape, text = stated.shape, geom.get("name")
+    scale = frame.scale_along(shape.pose.rotation, text)
+    round_axes = {"sphere": 3, "capsule": 2, "cylinder": 2}.get(shape.kind, 0)
+    if round_axes and np.ptp(scale[:round_axes]):
+        raise ValueError(text)  # It is no longer round.
+    factors = scale[[0, 2]] if round_axes == 2 else scale[: len(shape.size)]
+    size = tuple((np.array(shape.size) * factors).tolist())
+    pose = frame.place(shape.pose.position, shape.pose.rotation)
+    angles = stated.angles if frame.is_plain else None
+    return replace(stated, shape=replace(shape, size=size, pose=pose), angles=angles, place=Place(*geom.place[:2]))
+
+
+def _own_shape(geom: Node, current: str, model: _Model) -> StatedShape | None:
     attributes = {**model.classes.get(geom.get("class") or current, {}).get("geom", {}), **geom.attributes}
     kind = attributes.get("type", "mesh" if "mesh" in attributes else "sphere")
     rotation, angles, _ = _rotation(attributes, model)

@@ -20,7 +20,7 @@ from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_number
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
-from ..stated import LEAST, MOST, Description, StatedInertial, StatedLink, StatedShape, rotation_about
+from ..stated import LEAST, MOST, Description, Place, StatedInertial, StatedLink, StatedShape, rotation_about
 from .triangles import fan
 from .xml import check_size
 
@@ -35,12 +35,16 @@ _SPECIFIERS = {"def", "over", "class"}
 
 @dataclass(eq=False)
 class Prim:
-    """One prim. values: attributes as text. start, end: range of the text between its braces, in characters."""
+    """One prim. values: attributes as text. start, end: range of the text between its braces, in characters.
+
+    line: that of its opening brace.
+    """
 
     kind: str
     name: str
     metadata: str
     start: int
+    line: int
     end: int = 0
     values: dict[str, str] = field(default_factory=dict)
     children: list[Prim] = field(default_factory=list)
@@ -83,6 +87,7 @@ class _Parser:
         self.tokens = list(_tokens(text))
         self.index = 0
         self.count = 0
+        self.line, self.counted = 1, 0
 
     def peek(self) -> str:
         return self.tokens[self.index][0] if self.index < len(self.tokens) else ""
@@ -117,7 +122,8 @@ class _Parser:
             metadata = self.text[start:end]
         kind, name = (words[0], words[-1].strip("\"'")) if words else ("", "")
         _, opening = self.take()
-        prim = Prim(kind, name, metadata, opening + 1)
+        self.line, self.counted = self.line + self.text.count("\n", self.counted, opening), opening
+        prim = Prim(kind, name, metadata, opening + 1, self.line)
         while self.peek() != "}":
             if self.peek() in _SPECIFIERS:
                 prim.children.append(self.prim(depth + 1))
@@ -268,7 +274,8 @@ def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], t
     for part, error in _collect(prim, matrix, to_link, scales["length"], shapes):
         findings.append(_unreadable(part, error, text))
     span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
-    return StatedLink(path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix)
+    place = Place(prim.line)
+    return StatedLink(path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix, place, place)
 
 
 def _turn(matrix: NDArray) -> NDArray[np.float64]:

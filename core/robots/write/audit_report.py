@@ -37,6 +37,7 @@ _STYLE = (
 
 def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
     """Return the report document of one file. repaired: name of the repaired copy, None if there is none."""
+    repairs = {id(link): _inertial(inertial) for link, inertial in audit.repairs()}
     links = [
         {
             "name": one.link.name,
@@ -44,7 +45,7 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
             "density": one.density,
             "line": one.link.place.line,
             "findings": [_entry(entry, one, file) for entry in one.entries],
-            "repaired": None if one.repaired is None else _inertial(one.repaired),
+            "repaired": repairs.get(id(one.link)),
         }
         for one in audit.links
     ]

@@ -56,6 +56,7 @@ class _Document:
         self.shapes: list[dict] = []
         self.joints: list[dict] = []
         self.buffer = b""
+        self.unseen: set[int] = set()  # Nodes in no scene, for meshes that only collide.
 
     def add_link(self, link: Link, inertial_only: bool) -> None:
         index = self._node(self.names[link.name], Pose() if inertial_only else link.pose)
@@ -86,9 +87,12 @@ class _Document:
         if shape.kind == "mesh":
             if shape.surface is None:
                 return
-            index = self._node(link.name + " mesh", shape.pose, parent)
-            self.nodes[index]["mesh"] = self._mesh(shape.surface)
-            geometry = {"node": index, "convexHull": True}
+            index = holder = self._node(link.name + (" mesh" if shape.seen else " collider"), shape.pose, parent)
+            if not shape.seen:
+                holder = self._node(link.name + " hull", Pose())
+                self.unseen.add(holder)
+            self.nodes[holder]["mesh"] = self._mesh(shape.surface)
+            geometry = {"node": holder, "convexHull": True}
         else:
             index = self._node("{} {}".format(link.name, shape.kind), shape.pose, parent)
             geometry = {"shape": len(self.shapes)}
@@ -128,7 +132,7 @@ class _Document:
         self.joints.append({"name": joint.name, "limits": _limits(joint, turn), **more})
 
     def text(self, remarks: Sequence[str]) -> str:
-        children = {child for node in self.nodes for child in node.get("children", ())}
+        children = self.unseen.union(*(node.get("children", ()) for node in self.nodes))
         roots = [index for index in range(len(self.nodes)) if index not in children]
         asset: dict[str, Any] = {"generator": MARKER.format("gltf"), "version": "2.0"}
         if remarks:

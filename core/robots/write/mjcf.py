@@ -145,9 +145,10 @@ def inertial_text(inertial: StatedInertial, *_: object) -> str:
 
 def _add_geoms(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:
     """Add a geometry that is seen, and one that collides. A flat mesh has no convex hull to collide with."""
-    _add_geom(body, shape, meshes, {"group": "2", "contype": "0", "conaffinity": "0", "mass": "0"})
+    if shape.seen:
+        _add_geom(body, shape, meshes, {"group": "2", "contype": "0", "conaffinity": "0", "mass": "0"})
     if shape.collides and not shape.sheet:
-        _add_geom(body, shape, meshes, {"group": "3", "mass": "0"})
+        _add_geom(body, shape, meshes, {"group": "3", "mass": number(shape.mass) if shape.mass else "0"})
 
 
 def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str], role: dict[str, str]) -> None:

@@ -111,7 +111,7 @@ def _add_plain_inertial(parent: Element, inertial: Inertial) -> None:
 def _add_shapes(parent: Element, link: Link) -> None:
     for tag in ("visual", "collision"):
         for count, shape in enumerate(link.shapes, start=1):
-            if tag == "collision" and not shape.collides:
+            if not (shape.seen if tag == "visual" else shape.collides):
                 continue
             element = SubElement(parent, tag, name=tag if len(link.shapes) == 1 else "{}_{}".format(tag, count))
             _add_pose(element, shape.pose)

@@ -4,14 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import sqrt
 
 from ...mesh.surface import Surface
 from ...verdict.finding import Finding, finding
 from ..findings import ROBOT_ELLIPSOID_AS_BOX, ROBOT_LINKS_BARE
-from ..model import Robot, Shape
+from ..model import Link, Robot, Shape
 from ..primitives import equal_inertia_shape
 
 BOX_OF_ELLIPSOID = 2.0 * sqrt(3.0 / 5.0)  # sides over semi-axes at equal mass and inertia
@@ -31,12 +31,16 @@ def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
 
 
 def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tuple[Robot, list[Finding]]:
-    """Return a robot with the surface of each link (in m, along its axes), and a finding about links without one."""
+    """Return a robot with the surface of each link (in m, along its axes), and a finding about links without one.
+
+    Colliders have their own surfaces.
+    """
     links, bare = [], []
     for link in robot.links:
         surface = surface_of(link.name) if link.shapes else None
         shown = surface is not None and len(surface.all_triangles()[0])
-        links.append(replace(link, shapes=tuple(replace(shape, surface=surface) for shape in link.shapes if shown)))
+        shapes = [replace(shape, surface=surface) if shape.seen else shape for shape in link.shapes]
+        links.append(replace(link, shapes=tuple(shape for shape in shapes if shown or not shape.seen)))
         bare += [] if shown else [link.name]
     findings = [finding(ROBOT_LINKS_BARE, count=len(bare), links=bare)] if bare else []
     return replace(robot, links=tuple(links)), findings
@@ -45,8 +49,21 @@ def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tu
 def without_collision(robot: Robot) -> Robot:
     """Return a robot whose shapes are only seen."""
     links = [
-        replace(link, shapes=tuple(replace(shape, collides=False) for shape in link.shapes)) for link in robot.links
+        replace(link, shapes=tuple(replace(shape, collides=False) for shape in link.shapes if shape.seen))
+        for link in robot.links
     ]
+    return replace(robot, links=tuple(links))
+
+
+def with_colliders(robot: Robot, colliders_of: Callable[[Link], Sequence[Shape]]) -> Robot:
+    """Return a robot whose links collide as their colliders, shapes in the links' frames, if they have any."""
+    links = []
+    for link in robot.links:
+        colliders = colliders_of(link)
+        if colliders:
+            seen = (replace(shape, collides=False) for shape in link.shapes)
+            link = replace(link, shapes=(*seen, *(replace(shape, seen=False) for shape in colliders)))
+        links.append(link)
     return replace(robot, links=tuple(links))
 
 

@@ -49,12 +49,12 @@ def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bo
     output: the robot's own file; the meshes go to the folder `meshes` beside it. read: a file that is never replaced.
     OSError if a file cannot be written, or exists, is no mesh of ours, and `force` is False; then none is written.
     """
-    shown = [(link.name, shape.surface) for link in robot.links for shape in link.shapes if shape.surface is not None]
-    files = mesh_files([link.name for link in robot.links], output.stem)
-    for name, surface in shown:
-        if len(surface.all_triangles()[0]) > MOST_TRIANGLES:
-            files[name] = files[name].removesuffix("stl") + "obj"
-    surfaces = {files[name]: surface for name, surface in shown}
+    shapes = {(link.name, index): shape for link in robot.links for index, shape in enumerate(link.shapes)}
+    files = mesh_files(shapes, output.stem)
+    for key, shape in shapes.items():
+        if shape.surface is not None and len(shape.surface.all_triangles()[0]) > MOST_TRIANGLES:
+            files[key] = files[key].removesuffix("stl") + "obj"
+    surfaces = {files[key]: shape.surface for key, shape in shapes.items() if shape.surface is not None}
     for file in surfaces:
         _check_replaceable(output.parent / file, read, force)
     for file, surface in surfaces.items():
@@ -65,15 +65,18 @@ def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bo
             stream.write((to_obj if path.suffix == ".obj" else to_stl)(surface))
     links = []
     for link in robot.links:
-        shapes = (shape if shape.surface is None else replace(shape, file=files[link.name]) for shape in link.shapes)
-        links.append(replace(link, shapes=tuple(shapes)))
+        named = [
+            shape if shape.surface is None else replace(shape, file=files[link.name, index])
+            for index, shape in enumerate(link.shapes)
+        ]
+        links.append(replace(link, shapes=tuple(named)))
     return replace(robot, links=tuple(links))
 
 
-def mesh_files(names: Iterable[str], stem: str) -> dict[str, str]:
-    """Return the mesh file of each link name, relative to the folder of the robot's file; unique even without case."""
-    files = unique_names(names, _file_name)
-    return {name: "{}/{}/{}.stl".format(MESH_FOLDER, _file_name(stem), file) for name, file in files.items()}
+def mesh_files(shapes: Iterable[tuple[str, int]], stem: str) -> dict[tuple[str, int], str]:
+    """Return the mesh file of each link's name and shape's index, relative to the robot's; unique even without case."""
+    files = unique_names(shapes, lambda key: _file_name("{}_collider_{}".format(*key) if key[1] else key[0]))
+    return {key: "{}/{}/{}.stl".format(MESH_FOLDER, _file_name(stem), file) for key, file in files.items()}
 
 
 def _file_name(name: str) -> str:

@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 from math import atan2, cos, hypot, sin
+from typing import TypeVar
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
@@ -18,6 +19,7 @@ from .marker import MARKER
 
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _SPACES = re.compile(r"[\t\n\r]")
+Key = TypeVar("Key")
 
 
 def number(value: float) -> str:
@@ -43,7 +45,7 @@ def xml_name(text: str) -> str:
     return "_" * start + inner + "_" * (len(text) - start - len(inner)) if text else "_"
 
 
-def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iterable[str] = ()) -> dict[str, str]:
+def unique_names(names: Iterable[Key], rename: Callable[[Key], str], taken: Iterable[str] = ()) -> dict[Key, str]:
     """Return a dict from each name to its `rename`d name, with a number if that name is used or `taken`."""
     used, result = set(taken), {}
     for name in names:

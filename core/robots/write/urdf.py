@@ -132,7 +132,11 @@ def inertial_text(inertial: StatedInertial, *_: object) -> str:
 
 def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
     for tag in ("visual", "collision"):
-        shown = [shape for shape in shapes if tag == "visual" or shape.collides and not _is_flat(shape.surface)]
+        shown = [
+            shape
+            for shape in shapes
+            if (shape.seen if tag == "visual" else shape.collides and not _is_flat(shape.surface))
+        ]
         for piece in (piece for shape in shown for piece in _pieces(shape)):
             element = SubElement(parent, tag)
             _add_origin(element, piece.pose)

@@ -63,9 +63,11 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if not inertial_only:
             inner += _transform(link.pose)
             for count, shape in enumerate(link.shapes, start=1):
-                visual = _shape(shape, "visual_{}".format(count))
-                collider = visual and shape.collides
-                inner += [*visual, *(_collider(shape, names[link.name], count) if collider else ())]
+                lines_of_shape = _geometry(shape)
+                if lines_of_shape and shape.seen:
+                    inner += _prim("def " + _KINDS[shape.kind], "visual_{}".format(count), lines_of_shape)
+                if lines_of_shape and shape.collides:
+                    inner += _collider(shape, names[link.name], count, () if shape.seen else lines_of_shape)
         is_tree = not is_one and link.name in trees and link.name not in bases
         apis = ARTICULATION * is_tree + (() if inertial is None else APIS)
         lines += _prim("def Xform", names[link.name], inner, apis)
@@ -228,10 +230,10 @@ _KINDS = {
 }
 
 
-def _shape(shape: Shape, name: str) -> list[str]:
-    """Return the lines of a shape that is only seen; none for a mesh without a surface."""
+def _geometry(shape: Shape) -> list[str]:
+    """Return the lines in the prim of a shape; none for a mesh without a surface."""
     if shape.kind == "mesh":
-        return [] if shape.surface is None else _mesh(shape.surface, shape.pose, name)
+        return [] if shape.surface is None else _mesh(shape.surface, shape.pose)
     scale = None
     if shape.kind == "box":
         attributes, scale = ["double size = 1"], shape.size
@@ -242,32 +244,31 @@ def _shape(shape: Shape, name: str) -> list[str]:
     else:
         attributes = ["double radius = {}".format(number(shape.size[0])), 'uniform token axis = "Z"']
         attributes.append("double height = {}".format(number(shape.size[1])))
-    return _prim("def " + _KINDS[shape.kind], name, [*attributes, *_transform(shape.pose, scale)])
+    return [*attributes, *_transform(shape.pose, scale)]
 
 
-def _collider(shape: Shape, link: str, count: int) -> list[str]:
-    """Return the lines of the collider of a shape, which has the geometry of the visible prim; a mesh's convex hull."""
-    inner, apis = ['uniform token purpose = "guide"'], ["PhysicsCollisionAPI"]  # Renderers skip guides.
+def _collider(shape: Shape, link: str, count: int, geometry: Sequence[str]) -> list[str]:
+    """Return the lines of a collider with its own geometry, else the visible prim's; of a mesh its convex hull."""
+    inner, apis = ['uniform token purpose = "guide"', *geometry], ["PhysicsCollisionAPI"]  # Renderers skip guides.
     if shape.kind == "mesh":
         inner.append('uniform token physics:approximation = "convexHull"')
         apis.append("PhysicsMeshCollisionAPI")
-    seen = "/{}/{}/visual_{}".format(ROOT, link, count)
+    seen = "/{}/{}/visual_{}".format(ROOT, link, count) if shape.seen else ""
     return _prim("def " + _KINDS[shape.kind], "collision_{}".format(count), inner, apis, seen)
 
 
-def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
-    """Return the lines of a mesh, embedded: USD knows no files of other formats."""
+def _mesh(surface: Surface, pose: Pose) -> list[str]:
+    """Return the lines in the prim of a mesh, embedded: USD knows no files of other formats."""
     triangles = surface.all_triangles()[0]
     used, corners = np.unique(triangles, return_inverse=True)
     points = surface.points[used].astype(np.float32)
-    inner = [
+    return [
         "point3f[] points = [{}]".format(", ".join(map(singles, points))),
         "int[] faceVertexCounts = [{}]".format(", ".join(["3"] * len(triangles))),
         "int[] faceVertexIndices = [{}]".format(", ".join(map(str, corners.ravel().tolist()))),
         'uniform token subdivisionScheme = "none"',
         *_transform(pose),
     ]
-    return _prim("def Mesh", name, inner)
 
 
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:

@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.flat.flat_fourier import flat_transform
+from body_moments.blender.bodies.fourier import flat_transform
 
 from tests.blender.findings import said
 from tests.close import close

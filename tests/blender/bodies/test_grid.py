@@ -12,8 +12,7 @@ from body_moments.blender.read.grids.volume import volume_reading
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
-from body_moments.core.bodies.density_grid import density_body
-from body_moments.core.density.grid_options import GridOptions
+from body_moments.core.bodies.density_grid import Samples, density_body
 from body_moments.core.verdict.finding import MeasureError, ReadError, finding
 
 from tests.blender.findings import refused, said
@@ -449,9 +448,8 @@ def test_a_packed_volume_is_read_from_the_file_that_it_is_in(tmp_path):
 def test_empty_background_and_positions_hold_for_any_order():
     samples = np.array([5.0, 1.0, 2.0, 5.0, 3.0]).reshape(5, 1, 1)
     places = np.array([0.0, 1.0, 3.0, 4.0, 8.0])
-    body = density_body(
-        samples, samples.shape, np.eye(4), GridOptions(), background=5.0, order=5, positions=(places, None, None)
-    )
+    place = {"background": 5.0, "positions": (places, None, None)}
+    body = density_body(Samples(samples, samples.shape, np.eye(4), **place), order=5)
     ends = np.concatenate([[-0.5], (places[1:] + places[:-1]) / 2.0, [10.0]])
     thick = np.diff(ends)[[1, 2, 4]]
     assert close(body.mass.total, (thick * [1.0, 2.0, 3.0]).sum(), rel=1e-12)
@@ -460,4 +458,4 @@ def test_empty_background_and_positions_hold_for_any_order():
         assert close(moments.total, thick.sum(), rel=1e-12)
     assert [one.code for one in body.findings] == ["background_empty", "grid_without_surface"]
     with refused("grid_empty"):
-        density_body(np.zeros((0, 2, 2)), (0, 2, 2), np.eye(4), GridOptions())
+        density_body(Samples(np.zeros((0, 2, 2)), (0, 2, 2), np.eye(4)))

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
-from body_moments.blender.session.stored import walls as wall_slider
+from body_moments.blender.session.stored import sliders
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.settings.options import MeasureOptions
@@ -214,9 +214,9 @@ def test_too_thick_slider_keeps_results_and_tells_limit():
     obj = box()
     press(obj)
     before = properties.stored(obj)
-    assert wall_slider.max_thickness(obj) == pytest.approx(0.5) and not wall_slider.is_too_thick(obj)
+    assert sliders.max_thickness(obj) == pytest.approx(0.5) and not sliders.is_too_thick(obj)
     obj.body_moments.thickness = 0.75
-    assert properties.stored(obj) == before and wall_slider.is_too_thick(obj)
+    assert properties.stored(obj) == before and sliders.is_too_thick(obj)
     assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
     obj.body_moments.thickness = 0.25
     assert abs(properties.stored(obj).volume - (1 - 0.5**3)) < 1e-13

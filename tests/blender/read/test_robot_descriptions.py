@@ -334,3 +334,30 @@ def test_sdf(tmp_path, seed):
     assert description.source[slice(*description.links[0].span)] == b"<inertial/>"
     check_repair(tmp_path, description)
     assert [found.span is None for found in description.links] == [False, *[True] * 5]
+
+
+def test_mjcf_frames_place_and_scale_what_is_in_them(tmp_path):
+    """The numbers are those of MuJoCo 4.0.0."""
+    own = '<inertial pos="0 0 .5" mass="2" diaginertia=".1 .2 .25"/>'
+    geom = '<geom type="box" size=".1 .2 .3" pos=".5 0 0"/>'
+
+    def link(content):
+        model = '<mujoco><worldbody><body name="b">{}</body></worldbody></mujoco>'.format(content)
+        return read(tmp_path, model).links[-1]
+
+    nested = '<frame pos="1 0 0" scale="2"><frame pos="1 0 0" euler="0 0 90">{}</frame></frame>'
+    (shape,) = link(own + nested.format(geom)).shapes
+    assert near(shape.shape.pose.position, [3, 1, 0], 1e-14) and shape.shape.size == (0.4, 0.8, 1.2)
+    body = '<frame {}><body name="c">' + own + geom + "</body></frame>"
+    for attributes, mass, inertia in (
+        ('scale="2"', 16, [3.2, 6.4, 8.0]),
+        ('scale="2" massscale="3"', 6, [1.2, 2.4, 3.0]),
+        ('scale="1 2 3" scaling="geometry"', 12, [3.15, 2.4, 2.85]),
+    ):
+        found = link(body.format(attributes))
+        assert found.inertial.mass == mass and found.span is None
+        assert near(np.diag(found.inertial.inertia), inertia, 1e-14)
+    assert near(found.shapes[0].shape.size, (0.2, 0.8, 1.8), 1e-15) and found.inertial.center.tolist() == [0, 0, 1.5]
+    for wrong in ("<frame scale='0'>{}</frame>", "<frame scale='1 2 3'><frame euler='0 0 30'>{}</frame></frame>"):
+        found = link(own + wrong.format(geom))
+        assert [one.code for one in found.findings] == ["description_number"] and not found.shapes

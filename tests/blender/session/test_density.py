@@ -79,7 +79,7 @@ def test_density_and_given_mass_update_results_as_measured(kind):
     settings = obj.body_moments
     kind(settings)
     measure(obj)
-    note = "density_default_kept"
+    note = "density_defaulted"
     assert note in obj["body_findings"]
     for name, value in (
         ("linear_density" if kind is wire else "density", 7850.0),

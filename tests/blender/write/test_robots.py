@@ -75,7 +75,8 @@ def test_names_that_become_one_are_numbered():
     names = ["a b", "a-b", "a_b", "a_b_2", "c"]
     assert text.unique_names(names, usd.identifier) == dict(zip(names, ["a_b", "a_b_2", "a_b_3", "a_b_2_2", "c"]))
     assert text.unique_names(["a", "b"], str, ["a", "a_2"]) == {"a": "a_3", "b": "b"}
-    files = {"Arm": "arm.stl", "ARM": "arm_2.stl", "äb": "_b.stl", "": "_.stl"}
+    files = {("Arm", 0): "arm.stl", ("ARM", 0): "arm_2.stl", ("äb", 0): "_b.stl", ("", 0): "_.stl"}
+    files |= {("Arm", 2): "arm_collider_2.stl", ("arm_collider_2", 0): "arm_collider_2_2.stl"}
     assert stl.mesh_files(files, "My Robot") == {name: "meshes/my_robot/" + file for name, file in files.items()}
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core.cad.meshes import read_meshes
+from body_moments.core.cad.surface_file import read_meshes
 from body_moments.core.streams.decimals import parse_decimals
 from body_moments.core.streams.file_mesh import merge_equal
 

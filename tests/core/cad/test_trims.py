@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.cad.trims import Piece, trims_nothing
+from body_moments.core.cad.trimmed import Piece, trims_nothing
 
 DOMAIN = (1.0, 3.0), (-2.0, 6.0)
 SIZE = np.array([2.0, 8.0])

@@ -6,8 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.density.spline_grid import density_moments, grid_moments
-from body_moments.core.density.spline_tables import SplineAxis
+from body_moments.core.density.spline_grid import SplineAxis, density_moments, grid_moments
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.moments.moments import monomials
 from body_moments.tests.core.trivariate import exact_moments

@@ -6,8 +6,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.density.part_densities import part_densities
-from body_moments.core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
+from body_moments.core.density.piecewise_mass import (
+    part_densities,
+    sheet_mass_moments,
+    solid_mass_moments,
+    to_mass_moments,
+)
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import Moments

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.density import grid_moments
-from body_moments.core.density.spline_tables import SplineAxis
+from body_moments.core.density.spline_grid import SplineAxis
 from body_moments.core.moments.moments import monomials
 from body_moments.core.scans.positions import place_samples, read_all_positions, read_positions
 from body_moments.core.verdict.finding import FileError, finding

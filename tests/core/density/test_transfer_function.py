@@ -4,8 +4,8 @@
 
 import numpy as np
 import pytest
+from body_moments.core.density.grid_values import parse_table
 from body_moments.core.density.materials import CT_DENSITIES, DENSITY_UNITS, density_unit
-from body_moments.core.density.transfer_function import parse_table
 
 from tests.close import close
 from tests.core.findings import refused

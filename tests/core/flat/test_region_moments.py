@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
 from body_moments.core.flat.regions import plane_positions
-from body_moments.core.moments.complex_form import complex_moments, flusser_invariants, hu_invariants
+from body_moments.core.moments.complex_form import complex_moments, flusser_invariants, hu_invariants, normalize
 from body_moments.core.moments.exponents import monomials
-from body_moments.core.moments.normalized import normalize
 from body_moments.core.polyhedron.n_dimensions import multi_indices
 
 from tests.core import rational

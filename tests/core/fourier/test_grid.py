@@ -7,8 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 from body_moments.core.fourier import grid as fourier_grid
-from body_moments.core.fourier.grid import GridTransform
-from body_moments.core.fourier.nufft import Spreading, aliasing
+from body_moments.core.fourier.grid import GridTransform, Spreading, aliasing
 from body_moments.core.fourier.transform import run_to_completion, solid_transform, surface_transform
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.numerics.quadrature import triangle_rule

@@ -3,7 +3,7 @@
 """Spectra add, scale and take phases together with their bounds."""
 
 import numpy as np
-from body_moments.core.fourier.spectrum import Spectrum
+from body_moments.core.fourier.wave_vectors import Spectrum
 
 RNG = np.random.default_rng(1)
 Q = RNG.normal(size=(12, 3))

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from body_moments.core.inertia import MassProperties, pose_matrix
 from body_moments.core.moments.affine_maps import are_similarities
+from body_moments.core.moments.complex_form import normalize
 from body_moments.core.moments.images import sum_of_images
 from body_moments.core.moments.moments import (
     Measure,
@@ -21,7 +22,6 @@ from body_moments.core.moments.moments import (
     monomials,
     sum_moments,
 )
-from body_moments.core.moments.normalized import normalize
 
 from tests.close import close
 from tests.core.findings import refused

@@ -7,10 +7,9 @@ import pytest
 from body_moments.core.moments.moments import monomials
 from body_moments.core.numerics.bspline import clamped_space
 from body_moments.core.nurbs.curve import Curve
-from body_moments.core.nurbs.flat_face import FlatFace
+from body_moments.core.nurbs.flat_face import FlatFace, planar_region
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.nurbs.patch_moments import area_moments, sheet_moments, volume_moments
-from body_moments.core.nurbs.planar_regions import planar_region
 from body_moments.core.nurbs.solid import measure_patches
 
 from tests.close import close

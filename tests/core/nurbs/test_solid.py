@@ -10,10 +10,10 @@ from body_moments.core.moments.moments import monomials
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.creases import sharpest_crease
 from body_moments.core.nurbs.curve import Curve
+from body_moments.core.nurbs.flat_face import planar_region
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.nurbs.patch_moments import volume_moments
 from body_moments.core.nurbs.patch_topology import find_topology
-from body_moments.core.nurbs.planar_regions import planar_region
 from body_moments.core.nurbs.solid import measure_patches, measure_sheet
 from body_moments.core.verdict.finding import Finding
 from hypothesis import given

@@ -4,7 +4,7 @@
 
 import numpy as np
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.polyhedron.first_order import volume_and_center
+from body_moments.core.polyhedron.integration import volume_and_center
 
 from tests.close import close
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.polyhedron.sheared_areas import area_of_images
+from body_moments.core.polyhedron.integration import area_of_images
 
 from tests.close import close
 from tests.core import exact

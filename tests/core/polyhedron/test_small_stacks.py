@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.polyhedron.any_order_small import extend_small_moments
+from body_moments.core.polyhedron.any_order import extend_small_moments
 from body_moments.core.polyhedron.third_order_small import small_moments
 
 from tests.close import close

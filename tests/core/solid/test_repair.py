@@ -6,25 +6,11 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.closedness import check_surface, integrate_and_prove, prove_closed
-from body_moments.core.solid.measure import measure_solid
+from body_moments.core.solid.measure import measure_solid, repair_surface
 from body_moments.core.solid.orientation import orient_components
-from body_moments.core.solid.repair import repair_surface
 
 from tests.close import close
-from tests.core.bodies import (
-    SIDES,
-    TOP,
-    box,
-    grid,
-    inverted,
-    joined,
-    mesh,
-    moebius,
-    moved,
-    surface,
-    welded,
-    without,
-)
+from tests.core.bodies import SIDES, TOP, box, grid, inverted, joined, mesh, moebius, moved, surface, welded, without
 from tests.core.findings import codes
 
 CUBE = box()

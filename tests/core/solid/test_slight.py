@@ -69,3 +69,17 @@ def test_spread_of_diagonals_is_a_share_of_the_volume(size, height, level):
     (found,) = solid.findings
     assert found.code == "non_planar_faces" and severity(found) == level
     assert close(found.values["share"], height / 6.0 * size**3 / solid.volume.total, rel=1e-9)
+
+
+@pytest.mark.parametrize("count, level", [(4, Severity.WARNING), (24, Severity.NOTE)])
+def test_spread_over_many_faces_of_a_smooth_body_is_a_note(count, level):
+    """A torus of twisted quads; a few that are bent as much, or many that are bent more, are a warning."""
+    u, v = np.meshgrid(*2 * [np.arange(count) * 2.0 * np.pi / count], indexing="ij")
+    radius = 2.0 + np.cos(u + v)
+    points = np.stack([radius * np.cos(u), radius * np.sin(u), np.sin(u + v)], axis=-1).reshape(-1, 3)
+    i, j = np.indices((count, count)).reshape(2, -1)
+    along, around = (i + 1) % count, (j + 1) % count
+    faces = np.stack([i * count + j, along * count + j, along * count + around, i * count + around], axis=1)
+    (found,) = measure_solid(mesh(points, faces.tolist())).findings
+    assert found.code == "non_planar_faces" and severity(found) == level
+    assert (found.values["share"] < 0.03) == (level == Severity.NOTE) and found.values["share"] > 1e-3

@@ -145,3 +145,44 @@ def test_axes_of_the_ground_are_a_rotation_with_up(down):
     assert np.abs(axes.T @ axes - np.eye(3)).max() < EXACT
     assert close(np.linalg.det(axes), 1.0, EXACT)
     assert np.abs(axes[:, 2] + np.array(down) / hypot(*down)).max() < EXACT
+
+
+def test_middle_of_a_triangle_is_its_centroid():
+    corners = np.array([(0.0, 0.0, 1.0), (3.0, 0.0, 1.0), (0.0, 6.0, 1.0)])
+    assert close(support_of_contacts(corners, (9.0, 9.0, 5.0)).target(None), (1.0, 2.0, 1.0), EXACT)
+    assert close(support_of_contacts(corners[:2], (9.0, 9.0, 5.0)).target(None), (1.5, 0.0, 1.0), EXACT)
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("margin", [0.0, 0.1, 0.25])
+def test_nearest_target_has_the_margin_and_no_nearer_point_has(seed, margin):
+    """The oracle tries a fine grid of points."""
+    rng = np.random.default_rng(seed)
+    contacts = np.concatenate([rng.uniform(-1.0, 1.0, (12, 2)), np.zeros((12, 1))], axis=1)
+    center = np.array([*rng.uniform(-2.0, 2.0, 2), 1.5])
+    support = support_of_contacts(contacts, center)
+    target = support.target(margin)
+    assert support_of_contacts(contacts, target).margin >= min(margin, support.margin) - 1e-9
+    line = np.linspace(-1.0, 1.0, 41)
+    grid = [np.array([x, y, 0.0]) for x in line for y in line]
+    good = [point for point in grid if support_of_contacts(contacts, point).margin >= margin]
+    nearest = min(np.linalg.norm(point - support.foot) for point in good)
+    assert np.linalg.norm(target - support.foot) <= nearest + 1e-9
+
+
+def test_too_large_margin_leads_to_the_middle():
+    square = np.array([(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (2.0, 2.0, 0.0), (0.0, 2.0, 0.0)])
+    assert close(support_of_contacts(square, (5.0, 0.5, 1.0)).target(1.5), (1.0, 1.0, 0.0), EXACT)
+
+
+@pytest.mark.parametrize("x, near", [(0.05, True), (0.5, False), (-1.0, True)])
+def test_foot_near_an_edge_is_known(x, near):
+    square = [(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (2.0, 2.0, 0.0), (0.0, 2.0, 0.0)]
+    assert support_of_contacts(square, (x, 1.0, 1.0)).is_near_edge == near
+
+
+def test_tolerance_leaves_out_corners_of_no_weight():
+    angles = 2.0 * pi / 2000 * np.arange(2000)
+    rim = np.stack([np.cos(angles), np.sin(angles), np.zeros(2000)], axis=1)
+    coarse, exact = support_of_contacts(rim, (0, 0, 1), tolerance=1e-4), support_of_contacts(rim, (0, 0, 1))
+    assert len(coarse.polygon) < 300 and 0.0 <= exact.margin - coarse.margin < 3e-4

@@ -5,11 +5,11 @@
 import time
 
 import pytest
-from body_moments.core.streams.mesh_file import open_mesh_file
+from body_moments.core.streams.measure import open_mesh_file
 from body_moments.core.streams.misread import COUNT, NUMBER, VERTEX, WHOLE
-from body_moments.core.streams.ply_header import parse_header
+from body_moments.core.streams.ply_rows import parse_header
 from body_moments.core.streams.ply_text_check import check_ply_text
-from body_moments.core.streams.stl_text import check_stl_text
+from body_moments.core.streams.stl import check_stl_text
 from body_moments.core.verdict.number_text import parse_number, parse_numbers, parse_whole
 
 from tests.core.findings import refused

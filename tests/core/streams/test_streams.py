@@ -10,9 +10,8 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.streams import ply_rows
 from body_moments.core.streams import stl as stl_module
-from body_moments.core.streams.measure import measure_stream
-from body_moments.core.streams.mesh_file import open_mesh_file
-from body_moments.core.streams.ply_header import Element, Property
+from body_moments.core.streams.measure import measure_stream, open_mesh_file
+from body_moments.core.streams.ply_rows import Element, Property
 
 from tests.close import close
 from tests.core.bodies import box, inverted, joined, ring, rotation, soup, sphere, torus, with_flipped, without

@@ -11,6 +11,7 @@ from body_moments.blender.session import displayed
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
+from body_moments.panels import overlay
 from mathutils import Matrix
 
 from tests.blender.bodies.test_assembly import box, boxes_inertia, collection, empty
@@ -99,16 +100,43 @@ def test_an_assembly_is_out_of_date_when_a_member_is(change, reason):
 
 
 @pytest.mark.parametrize(
-    "operator, options, kept",
+    "settings, density",
     [
-        ("rigid_bodies", {}, True),
-        ("rigid_bodies", {"frame": "ORIGIN"}, True),
-        ("rigid_bodies", {"use_density": True, "density": 5.0}, False),
-        ("origin_to_center", {}, True),
-        ("axes_to_principal", {}, True),
+        ({"density": 2000.0}, 2000.0),
+        ({"density_g_cm3": 1.24}, 1240.0),
+        ({"mass_from": "MASS", "mass": 4.0}, 0.5),
     ],
 )
-def test_new_member_frames_keep_assembly_current(operator, options, kept):
+def test_total_and_drawn_center_follow_a_density(settings, density):
+    root, obj = assembly_of_boxes(), bpy.data.objects["b1"]
+    bpy.ops.object.body_moments_measure_assembly()
+    for name, value in settings.items():
+        setattr(obj.body_moments, name, value)
+    bpy.context.view_layer.update()
+    mass, center, tensor = boxes_inertia([BOXES[0], (density, *BOXES[1][1:])])
+    assert staleness.stale_reason(root, bpy.context.scene) is None
+    assert close(root["body_mass"], mass, 1e-12) and close(root["body_center_of_mass"].to_list(), center, 1e-12)
+    entries = tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    assert np.abs(np.array(root["body_inertia"].to_list()) - entries).max() <= 1e-12 * entries.max()
+    only(bpy.data.objects["b0"])
+    drawn, active = overlay.bodies.collect(bpy.context, [bpy.context.object])
+    assert active == 0 and close(drawn[1].center, center, 1e-12)
+    obj.location.x += 1.0
+    bpy.context.view_layer.update()
+    assert len(overlay.bodies.collect(bpy.context, [bpy.context.object])[0]) == 1  # the total is out of date
+
+
+@pytest.mark.parametrize(
+    "operator, options",
+    [
+        ("rigid_bodies", {}),
+        ("rigid_bodies", {"frame": "ORIGIN"}),
+        ("rigid_bodies", {"use_density": True, "density": 5.0}),
+        ("origin_to_center", {}),
+        ("axes_to_principal", {}),
+    ],
+)
+def test_new_member_frames_keep_assembly_current(operator, options):
     root = assembly_of_boxes()
     for obj in root.all_objects:
         obj.data.transform(Matrix.Translation((0.5, 0.25, 1.0)))
@@ -120,8 +148,9 @@ def test_new_member_frames_keep_assembly_current(operator, options, kept):
         obj.select_set(True)
     assert getattr(bpy.ops.object, "body_moments_" + operator)(**options) == {"FINISHED"}
     assert all(obj.matrix_world != was for obj, was in zip(root.all_objects, before))
-    assert staleness.stale_reason(root, bpy.context.scene) == (None if kept else Stale.MEMBER)
-    assert staleness.stale_reason(bpy.data.collections["Arm"], bpy.context.scene) == (None if kept else Stale.MEMBER)
+    arm, members = bpy.data.collections["Arm"], [obj["body_mass"] for obj in root.all_objects]
+    assert [staleness.stale_reason(one, bpy.context.scene) for one in (root, arm)] == [None, None]
+    assert close(root["body_mass"], sum(members), 1e-6) and (sum(members) < 80.1) == ("density" in options)
     bpy.data.objects["b1"].location.x += 1.0
     bpy.context.view_layer.update()
     assert staleness.stale_reason(root, bpy.context.scene) == Stale.MEMBER

@@ -15,7 +15,7 @@ from body_moments.blender.session.robots import bone_links
 from body_moments.blender.session.tracking import handlers, staleness
 from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
-from body_moments.core.polyhedron.first_order import volume_and_center
+from body_moments.core.polyhedron.integration import volume_and_center
 
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.characters import PARENTS, armature_of, pose, skin_of

@@ -160,7 +160,7 @@ def test_body_of_local_modifier_stays_and_next_is_made(reported):
     assert np.abs(measured(good).in_object_frame().center).max() < 1e-5
     assert (place(held) == before).all() and held.rigid_body is None and held.rigid_body_constraint.type == "HINGE"
     assert len(bpy.data.objects) == 2
-    assert reported.values("failure")["object"] == "held" and reported.codes[-1] == "render_only_modifier"
+    assert reported.values("failure")["object"] == "held" and reported.codes[-1] == "own_axes_used"
 
 
 def test_refused_rigid_body_keeps_its_mass():

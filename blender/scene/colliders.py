@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Colliders as objects: children of their body, in a collection of their own, displayed as wire and not rendered.
+
+A hull has its vertices in the body's own coordinates and no transform of its own, so that it is exact wherever the body
+lies, and follows its scale. A primitive has its pose in the body's frame, whose scale its parent inverse takes back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+import bmesh
+import bpy
+import numpy as np
+from bpy.types import Context, Mesh, Object
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from ...core.bodies.reading import float64_matrix
+from ...core.mesh.surface import Surface
+from ...core.numerics.rotations import polar_rotation, quaternion
+from ...core.robots.model import Pose, Shape
+from ..read.mesh import mesh_surface
+from ..settings.given import COLLIDER
+from .made_collections import made_collection
+
+SEGMENTS, RINGS = 32, 17  # odd, so that no ring lies on the equator
+COLLECTION = "body_moments_colliders"  # ID property of the collection
+HULL, CYLINDER = "mesh", "cylinder"
+PREFIXES = {"box": "UBX", "sphere": "USP", "capsule": "UCP"}  # Unreal knows no other primitives.
+NAMES = {
+    "NONE": "{name} Collider {number:02d}",
+    "UNREAL": "{prefix}_{name}_{number:02d}",
+    "GODOT": "{name}_{number:02d}-convcolonly",
+    "GODOT_MESH": "{name}_{number:02d}-colonly",
+    "UNITY": "{name}_Collider_{number:02d}",
+}
+
+
+def collider_names(engine: str, name: str, kinds: Sequence[str]) -> list[str]:
+    """Return the names by which an engine knows the colliders of the object with a name."""
+    return [
+        NAMES[engine].format(name=name, number=number, prefix=PREFIXES.get(kind, "UCX"))
+        for number, kind in enumerate(kinds, 1)
+    ]
+
+
+def colliders_by_body(objects: Iterable[Object]) -> dict[Object, list[Object]]:
+    """Return the colliders of each body that has any, by name."""
+    found: dict[Object, list[Object]] = {}
+    for obj in sorted((obj for obj in objects if COLLIDER in obj and obj.parent is not None), key=lambda obj: obj.name):
+        found.setdefault(obj.parent, []).append(obj)
+    return found
+
+
+def stretch_of(obj: Object, rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the (3, 3) map from an object's own coordinates to its frame: scale and shear."""
+    return rotation.T @ float64_matrix(obj.matrix_world)[:3, :3]
+
+
+def as_stored(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Shape:
+    """Return a shape with the vertices of its hull as a mesh of the object stores them, in the object's frame in m."""
+    if shape.surface is None:
+        return shape
+    local = _local_points(shape, stretch, unit)
+    return replace(shape, surface=Surface.from_triangles(local @ stretch.T * unit, shape.surface.all_triangles()[0]))
+
+
+def _local_points(shape: Shape, stretch: NDArray[np.float64], unit: float) -> NDArray[np.float64]:
+    assert shape.surface is not None
+    points = shape.surface.points @ shape.pose.rotation.T + shape.pose.position
+    return (np.linalg.solve(stretch, points.T).T / unit).astype(np.float32).astype(np.float64)
+
+
+def collider_meshes(name: str, shapes: Sequence[Shape], stretch: NDArray[np.float64], unit: float) -> list[Mesh]:
+    """Return a mesh for each shape in the frame of an object, in Blender units."""
+    return [
+        _shape_mesh(name, shape, unit) if shape.surface is None else _hull_mesh(name, shape, stretch, unit)
+        for shape in shapes
+    ]
+
+
+def place_colliders(
+    context: Context, obj: Object, old: Sequence[Object], shapes: Sequence[Shape], meshes: Sequence[Mesh],
+    stretch: NDArray[np.float64], unit: float, engine: str,
+) -> list[Object]:  # fmt: skip
+    """Give an object these colliders in place of its `old` ones, which are used again, and return them."""
+    collection = made_collection(context, COLLECTION, True, "Colliders")
+    kept, unneeded = list(old[: len(shapes)]), list(old[len(shapes) :])
+    for collider in kept:
+        collider.name = "Collider"  # no name stands in the way of another
+    replaced = {collider.data for collider in old}
+    bpy.data.batch_remove(unneeded)
+    undo_scale = Matrix(np.linalg.inv(stretch).tolist()).to_4x4()
+    for index, (shape, mesh) in enumerate(zip(shapes, meshes)):
+        if index == len(kept):
+            kept.append(bpy.data.objects.new("Collider", mesh))
+            collection.objects.link(kept[index])
+        collider = kept[index]
+        collider.data = mesh
+        collider.display_type, collider.hide_render = "WIRE", True
+        collider.parent, collider.matrix_parent_inverse = obj, undo_scale if shape.surface is None else Matrix()
+        pose = shape.pose if shape.surface is None else Pose()
+        collider.matrix_basis = Matrix()
+        collider.rotation_mode = "QUATERNION"
+        collider.location, collider.rotation_quaternion = pose.position / unit, quaternion(pose.rotation)
+        collider[COLLIDER] = {"kind": shape.kind, "size": [float(size) for size in shape.size], "mass": shape.mass}
+        collider.body_moments.mass_from, collider.body_moments.mass = "MASS", shape.mass
+    for collider, name in zip(kept, collider_names(engine, obj.name, [shape.kind for shape in shapes])):
+        collider.name = collider.data.name = name
+    bpy.data.batch_remove([mesh for mesh in replaced if not mesh.users])
+    return kept
+
+
+def remove_colliders(colliders: Sequence[Object]) -> None:
+    """Remove colliders with their meshes, and their collection if nothing is left in it."""
+    meshes, collections = {obj.data for obj in colliders}, {one for obj in colliders for one in obj.users_collection}
+    bpy.data.batch_remove(colliders)
+    bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])
+    for collection in collections:
+        if collection.get(COLLECTION) and not collection.all_objects and not collection.children:
+            bpy.data.collections.remove(collection)
+
+
+def read_colliders(colliders: Iterable[Object], rotation: NDArray[np.float64], unit: float) -> list[Shape]:
+    """Return colliders as shapes in the frame of their body, in m; `rotation` is that of the frame."""
+    shapes = []
+    for collider in colliders:
+        stored, relative = collider[COLLIDER], float64_matrix(collider.matrix_parent_inverse)
+        relative = relative @ float64_matrix(collider.matrix_basis)
+        to_frame = unit * stretch_of(collider.parent, rotation) @ relative[:3, :3]
+        place = unit * stretch_of(collider.parent, rotation) @ relative[:3, 3]
+        kind, size, mass = str(stored["kind"]), np.array(stored["size"]), float(stored["mass"])
+        if kind == HULL:
+            surface = mesh_surface(collider.data, edges=False).transform(to_frame, place)
+            shapes.append(Shape(kind, surface=surface, mass=mass))
+            continue
+        turn = polar_rotation(to_frame[None])[0][0]
+        scale = np.linalg.norm(to_frame, axis=0) / unit
+        if len(size) < 3:  # radius across, and length along z
+            scale = np.array([(scale[0] * scale[1]) ** 0.5, scale[2]])[: len(size)]
+        pose = Pose(place, turn * np.sign(np.linalg.det(turn)))
+        shapes.append(
+            Shape(kind, tuple((size * np.where(np.abs(scale - 1.0) < 1e-6, 1.0, scale)).tolist()), pose, mass=mass)
+        )
+    return shapes
+
+
+def _hull_mesh(name: str, shape: Shape, stretch: NDArray[np.float64], unit: float) -> Mesh:
+    """Return the mesh of a hull in the own coordinates of its body."""
+    assert shape.surface is not None
+    corners = shape.surface.all_triangles()[0][:, :: -1 if np.linalg.det(stretch) < 0.0 else 1]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(_local_points(shape, stretch, unit), [], corners)
+    return mesh
+
+
+def _shape_mesh(name: str, shape: Shape, unit: float) -> Mesh:
+    """Return a mesh of a primitive in Blender units, in the shape's own frame."""
+    made = bmesh.new()
+    if shape.kind == "box":
+        bmesh.ops.create_cube(made, size=1.0)
+    elif shape.kind == CYLINDER:
+        bmesh.ops.create_cone(made, cap_ends=True, segments=SEGMENTS, radius1=1.0, radius2=1.0, depth=1.0)
+    else:
+        bmesh.ops.create_uvsphere(made, u_segments=SEGMENTS, v_segments=RINGS, radius=1.0)
+    size = shape.size * 3 if shape.kind == "sphere" else shape.size
+    if shape.kind in ("capsule", CYLINDER):
+        size = size[0], size[0], size[0] if shape.kind == "capsule" else size[1]
+    half = shape.size[1] / 2.0 if shape.kind == "capsule" else 0.0
+    for vertex in made.verts:
+        x, y, z = (value * length / unit for value, length in zip(vertex.co, size))
+        vertex.co = x, y, z + (half if z > 0.0 else -half) / unit
+    mesh = bpy.data.meshes.new(name)
+    made.to_mesh(mesh)
+    made.free()
+    return mesh

@@ -1,0 +1,167 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Colliders of measured objects, and what they do to the physics of each object, stored on it."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from bpy.types import Context, Depsgraph, Object
+from numpy.typing import NDArray
+
+from ...core.colliders.corners import correct_vertices
+from ...core.colliders.distance import distances
+from ...core.colliders.effects import correct_masses, effect, uniform_masses
+from ...core.colliders.fits import Wanted, make_colliders
+from ...core.measurement.documents import plain
+from ...core.measurement.measurement import Measurement
+from ...core.measurement.settings import digest
+from ...core.mesh.surface import Surface, join_surfaces
+from ...core.numerics.float32 import shortest_decimal
+from ...core.robots.model import Pose, Shape
+from ...core.verdict.finding import ReadError
+from ..bodies.measure_object import Measured, measure_body
+from ..read.findings import OBJECT_WITHOUT_GEOMETRY
+from ..read.fingerprint import colliders_digest
+from ..scene import colliders as scene
+from ..scene.changes import require_storable_data
+from ..settings.given import COLLIDERS
+from ..settings.options import MeasureOptions
+from .tracking import staleness, stamps
+
+SAME = 1e-5  # relative: float32 matrices of turned copies differ by less
+WITHOUT_AXES = MeasureOptions(axes=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """The colliders of an object, in its frame, with their effect. key: equal for objects that share their meshes."""
+
+    obj: Object
+    shapes: tuple[Shape, ...]
+    stretch: NDArray[np.float64]
+    record: dict[str, Any]
+    fingerprint: str
+    key: str
+
+
+def plan_colliders(
+    obj: Object, depsgraph: Depsgraph, wanted: Wanted, is_share: bool, correct: str, known: dict[str, Plan]
+) -> Generator[float, None, Plan]:
+    """Plan the colliders of an object, in steps that yield the completed share; MeasureError if it cannot have any.
+
+    is_share: the tolerances are parts of the size. correct: "NONE", "MASSES" or "VERTICES". known: plans of this run by
+    their keys, to which this one is added.
+    """
+    require_storable_data(obj)
+    measured = measure_body(obj, depsgraph, WITHOUT_AXES)
+    measurement, unit = measured.measurement, shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    surface = _surface(obj, measured)
+    stretch = scene.stretch_of(obj, measurement.rotation)
+    body = measurement.in_object_frame()
+    key = _mesh_key(obj, measured)
+    if key in known:
+        return replace(known[key], obj=obj, fingerprint=measurement.fingerprint)
+    if is_share:
+        size = float(np.ptp(surface.points, axis=0).max())
+        wanted = replace(wanted, outward=size * wanted.outward, inward=size * wanted.inward)
+    shapes = yield from make_colliders(surface, body, wanted)
+    shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
+    if correct == "VERTICES":
+        shapes = correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
+        shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
+    if wanted.shape.startswith("equal_"):
+        masses = [body.mass]
+    elif correct == "MASSES":
+        masses = correct_masses(body, shapes)
+    else:
+        masses = uniform_masses(measurement.density, shapes)
+    shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
+    outward, inward, bound = distances(surface, shapes)
+    record = {
+        "shape": wanted.shape,
+        "correct": correct.lower(),
+        "count": len(shapes),
+        "outward": outward,
+        "inward": inward,
+        "distance_bound": bound,
+        **effect(body, shapes, measurement.volume).as_record(),
+    }
+    known[key] = Plan(obj, tuple(shapes), stretch, plain(record), measurement.fingerprint, key)
+    return known[key]
+
+
+def _mesh_key(obj: Object, measured: Measured) -> str:
+    """Return a key that is equal for objects with the same meshes in the same places of their frames."""
+    measurement, parts = measured.measurement, []
+    to_frame = Pose(measurement.location, measurement.rotation).inverse()
+    for solid, matrices in getattr(measured.body, "solids", ()):
+        linear = to_frame.rotation @ matrices[:, :3, :3]
+        places = matrices[:, :3, 3] @ to_frame.rotation.T + to_frame.position
+        reach = np.abs(linear).max() * np.abs(solid.given_surface.points).max()
+        steps = [np.round(one) + 0.0 for one in (linear / (SAME * np.abs(linear).max()), places / (SAME * reach))]
+        parts += [solid.given_surface.points, solid.given_surface.all_triangles()[0], *steps]
+    if not parts:
+        return str(obj.session_uid)
+    return digest(b"".join(np.ascontiguousarray(part).tobytes() for part in (*parts, np.float64(measurement.density))))
+
+
+def _surface(obj: Object, measured: Measured) -> Surface:
+    """Return the measured surface, repaired if it is a solid's, in the object's frame in m."""
+    measurement = measured.measurement
+    pieces = [*measured.body.surfaces(measurement.kind == "shell")]
+    if not pieces:
+        kind = obj.bl_rna.properties["type"].enum_items[obj.type].name
+        raise ReadError(OBJECT_WITHOUT_GEOMETRY, subject=obj.name, type=kind)
+    to_frame = Pose(measurement.location, measurement.rotation).inverse()
+    return join_surfaces(pieces).transform(to_frame.rotation, to_frame.position)
+
+
+def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> list[Object]:
+    """Make the planned colliders in place of earlier ones, store their effects, and return them."""
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    earlier = scene.colliders_by_body(context.scene.objects)
+    meshes: dict[str, list] = {}
+    made = []
+    for plan in plans:
+        if plan.key not in meshes:
+            meshes[plan.key] = scene.collider_meshes(plan.obj.name, plan.shapes, plan.stretch, unit)
+        made += scene.place_colliders(
+            *(context, plan.obj, earlier.get(plan.obj, ()), plan.shapes, meshes[plan.key], plan.stretch, unit, engine)
+        )
+    context.view_layer.update()
+    for plan in plans:
+        staleness.note_edits(plan.obj)
+        marks = {"fingerprint": plan.fingerprint, "digest": colliders_digest(plan.obj), "engine": engine}
+        known = {key: one for key, one in plan.record.items() if None not in (one if isinstance(one, list) else [one])}
+        plan.obj[COLLIDERS] = {**known, **marks}
+    fresh = [(plan.obj, stamp) for plan in plans if (stamp := stamps.of_colliders(plan.obj)) is not None]
+    staleness.mark_stamps(context, fresh)
+    return made
+
+
+def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
+    """Remove the colliders of objects with what is stored about them; return the number of bodies that had any."""
+    by_body = scene.colliders_by_body(context.scene.objects)
+    chosen = [obj for obj in objects if obj in by_body or COLLIDERS in obj]
+    scene.remove_colliders([collider for obj in chosen for collider in by_body.get(obj, ())])
+    for obj in chosen:
+        if COLLIDERS in obj:
+            del obj[COLLIDERS]
+    return len(chosen)
+
+
+def collider_record(obj: Object, measurement: Measurement, context: Context) -> dict[str, Any] | None:
+    """Return what the colliders of an object do, for its record, with the reason if that is out of date; else None."""
+    stamp = stamps.of_colliders(obj)
+    if stamp is None:
+        return None
+    stored = {key: value.to_list() if hasattr(value, "to_list") else value for key, value in obj[COLLIDERS].items()}
+    reason = staleness.stale_reason(obj, context.scene, stamps.of_colliders)
+    if reason is None and stamps.Stamp.parse(measurement.fingerprint).geometry != stamp.geometry:
+        reason = stamps.Stale.GEOMETRY
+    inner = {"fingerprint", "digest"}
+    return {**{key: value for key, value in stored.items() if key not in inner}, "out_of_date": reason and str(reason)}

@@ -1,0 +1,329 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Posed characters: mass, center and inertia of every part, and what touches the ground, as evaluated.
+
+The parts are those of Measure Bones. Each keeps its mass, and its moments follow the matrix of its bone. Objects that a
+constraint holds to a bone are parts, too, at their own place. All lengths are in Blender's units, in the world.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+
+import numpy as np
+from bpy.types import Context, Depsgraph, Object, Scene
+from numpy.typing import NDArray
+
+from ....core.bodies.reading import float64_matrix
+from ....core.inertia.plain_body import COLUMNS, ROWS, PlainBody, principal_axes, tensor_rows
+from ....core.numerics.float32 import shortest_decimal
+from ....core.statics.support import Support, support_of_contacts
+from ....core.verdict.finding import EditRefusedError, MeasureError, ReadError
+from ...bodies.findings import RIG_WITHOUT_PARTS, UNWEIGHTED_VERTICES
+from ...bodies.rig import Rig, measure_rig
+from ...read.bones import RestBones
+from ...read.mesh import vertex_points
+from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
+from ...write import properties
+from ...write.reports import Refused
+from .. import stored
+from ..tracking import handlers
+from ..tracking.armatures import deformed_meshes
+from ..tracking.cache import SessionCache, current_value
+from ..tracking.staleness import stale_reason
+from .motion import Motion
+
+REACH = 0.01  # contact with the ground within this height, relative to the character's size
+OUTLINE = 1e-4  # corners of the support polygon, relative to its extent, that count
+UNKNOWN, NO_BONE = -2, -1  # bones of vertices: not looked up yet, and without a weight
+NO_GRAVITY = "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > Gravity."
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """The p parts of one or several characters.
+
+    names: of bones and held objects. masses: (p,) kg, 0 if they cannot be measured. centers: (p, 3). spreads: (p, 3, 3)
+    integrals of r rᵀ dm about each part's center. matrices: (p, 4, 4) of bones and objects in the world.
+    """
+
+    names: tuple[str, ...]
+    masses: NDArray[np.float64]
+    centers: NDArray[np.float64]
+    spreads: NDArray[np.float64]
+    matrices: NDArray[np.float64]
+
+    @property
+    def mass(self) -> float:
+        """The total mass, kg."""
+        return float(self.masses.sum())
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """(3,) center of the total."""
+        return self.centers[0] + (self.masses / self.mass) @ (self.centers - self.centers[0])
+
+    @property
+    def inertia(self) -> NDArray[np.float64]:
+        """(3, 3) inertia tensor of the total about its center, in kg and Blender's units."""
+        arms = self.centers - self.center
+        spread = self.spreads.sum(axis=0) + np.einsum("p,pi,pj->ij", self.masses, arms, arms)
+        return np.trace(spread) * np.eye(3) - spread
+
+    @classmethod
+    def join(cls, several: Sequence[Parts]) -> Parts:
+        """Return the parts of several as one."""
+        arrays = ("masses", "centers", "spreads", "matrices")
+        names = tuple(name for parts in several for name in parts.names)
+        return cls(names, *(np.concatenate([getattr(parts, name) for parts in several]) for name in arrays))
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """What touches the ground.
+
+    points: (k, 3). bones: (k,) indices of pose bones, -1 for points without one. names: of the bones that carry.
+    lifted: of those that should and do not. height: of the lowest point above the ground; None if there is no point.
+    """
+
+    points: NDArray[np.float64]
+    bones: NDArray[np.intp]
+    names: tuple[str, ...]
+    lifted: tuple[str, ...]
+    height: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class Weight:
+    """A character as it is posed: its parts and contacts.
+
+    support: the support below its center, None if nothing touches. foot: (3,) point of the ground below the center.
+    body: the total as plain numbers, SI in the world, with the volume and bounds of the rest pose.
+    """
+
+    parts: Parts
+    contacts: Contacts
+    support: Support | None
+    foot: NDArray[np.float64]
+    body: PlainBody
+
+
+@dataclass(frozen=True, eq=False)
+class Character:
+    """A measured character, whose parts follow its pose.
+
+    names: (p) of the bones with parts. masses: (p,) kg. centers: (p, 3), spreads: (p, 3, 3) in the bones' own spaces.
+    size: largest extent of these bones at rest.
+    """
+
+    names: tuple[str, ...]
+    masses: NDArray[np.float64]
+    centers: NDArray[np.float64]
+    spreads: NDArray[np.float64]
+    size: float
+    _motion: Motion = field(default_factory=lambda: Motion(1))  # of held objects
+    _vertex_bones: dict[int, NDArray[np.intp]] = field(default_factory=dict)  # by session uid of a mesh object
+
+    @classmethod
+    def from_bodies(cls, armature: Object, bodies: Mapping[str, PlainBody | None], unit: float) -> Character | None:
+        """Return the character with these bodies of bones, each in its rest frame and SI; None if there is no mass."""
+        bodies = {name: body for name, body in bodies.items() if body is not None and body.mass > 0.0}
+        if not bodies:
+            return None
+        place, frames = float64_matrix(armature.matrix_world), RestBones.read(armature).frames
+        centers, spreads, ends = [], [], []
+        for name, body in bodies.items():
+            bone, (turn, head) = armature.data.bones[name], frames[name]
+            to_bone = np.linalg.inv(place @ float64_matrix(bone.matrix_local))
+            tensor = np.array(tensor_rows(body.inertia))
+            spread = np.trace(tensor) / 2.0 * np.eye(3) - tensor
+            linear = to_bone[:3, :3] @ turn / unit
+            centers.append(linear @ body.center + to_bone[:3, :3] @ head + to_bone[:3, 3])
+            spreads.append(linear @ spread @ linear.T)
+            ends += [bone.head_local, bone.tail_local]
+        masses = np.array([body.mass for body in bodies.values()])
+        size = float(np.ptp(np.array(ends) @ place[:3, :3].T, axis=0).max())
+        return cls(tuple(bodies), masses, np.array(centers), np.array(spreads), size)
+
+    def pose(self, armature: Object, depsgraph: Depsgraph) -> Parts:
+        """Return the parts as evaluated, held objects included."""
+        row = {bone.name: index for index, bone in enumerate(armature.pose.bones)}
+        matrices = bone_matrices(armature, depsgraph)[[row[name] for name in self.names]]
+        linear, factors = matrices[:, :3, :3], self._factors(armature)
+        centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
+        spreads = factors[:, None, None] * (linear @ self.spreads @ linear.transpose(0, 2, 1))
+        parts = Parts(self.names, factors * self.masses, centers, spreads, matrices)
+        return Parts.join([parts, *(self._held_part(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph))])
+
+    def _factors(self, armature: Object) -> NDArray[np.float64]:
+        """Return (p,) factors to the total mass, 1 for bones with their own mass as long as the others keep any."""
+        total, bones = shortest_decimal(armature.body_moments_weight.mass), armature.pose.bones
+        shares = np.array([bones[name].body_moments.mass_from != "MASS" for name in self.names])
+        rest = total - self.masses[~shares].sum()
+        if total and rest > 0.0 and shares.any():
+            return np.where(shares, rest / self.masses[shares].sum(), 1.0)
+        return np.full(len(shares), total / self.masses.sum() if total else 1.0)
+
+    def _held_part(self, obj: Object, depsgraph: Depsgraph) -> Parts:
+        """Return a held object as a part at its own place, without mass if it cannot be measured."""
+        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
+        mass, center, spread = np.zeros(1), matrix[:3, 3], np.zeros((3, 3))
+        with suppress(MeasureError):
+            moments = self._motion.mass_moments(obj, depsgraph)
+            mass, center = np.array([moments.total]), moments.center / unit
+            spread = moments.about_center().second() / unit**2
+        return Parts((obj.name,), mass, center[None], spread[None], matrix[None])
+
+    def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float, down: NDArray) -> Contacts:
+        """Return the lowest points as evaluated; ground: its height against gravity from the world's origin."""
+        names = [bone.name for bone in armature.pose.bones]
+        named = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
+        may_touch = np.array([not named or name in named for name in names] + [not named])  # last: without a weight
+        reach, lowest, places, bones = REACH * self.size, np.inf, [np.zeros((0, 3))], [np.zeros(0, np.intp)]
+        for obj, bone in contact_objects(armature, depsgraph):
+            evaluated = obj.evaluated_get(depsgraph)
+            points, matrix = vertex_points(evaluated.data), float64_matrix(evaluated.matrix_world)
+            heights = points @ (-down @ matrix[:3, :3]).astype(np.float32) - (down @ matrix[:3, 3] + ground)
+            if named:
+                heights = np.where(may_touch[self._bones_of(obj, bone, names, depsgraph)], heights, np.inf)
+            lowest = min(lowest, float(heights.min(initial=np.inf)))
+            near = np.flatnonzero(heights <= reach)
+            if len(near):
+                places.append(points[near] @ matrix[:3, :3].T + matrix[:3, 3])
+                bones.append(self._bones_of(obj, bone, names, depsgraph, near))
+        touching = np.concatenate(bones)
+        carrying = sorted(names[bone] for bone in np.unique(touching).tolist() if bone != NO_BONE)
+        height, lifted = (lowest if np.isfinite(lowest) else None), sorted(named.difference(carrying))
+        return Contacts(np.concatenate(places), touching, tuple(carrying), tuple(lifted), height)
+
+    def _bones_of(
+        self, obj: Object, bone: str | None, names: Sequence[str], depsgraph: Depsgraph, rows: NDArray | None = None
+    ) -> NDArray[np.intp]:
+        """Return the indices of the bones of an object's vertices, of all without `rows`; those of most weight."""
+        mesh = obj.evaluated_get(depsgraph).data
+        count = len(mesh.vertices)
+        rows = np.arange(count) if rows is None else rows
+        index = {name: number for number, name in enumerate(names)}
+        if bone is not None:
+            return np.full(len(rows), index.get(bone, NO_BONE))
+        known = self._vertex_bones.get(obj.session_uid)
+        if known is None or len(known) != count:
+            known = self._vertex_bones[obj.session_uid] = np.full(count, UNKNOWN)
+        group_bones = [index.get(group.name, NO_BONE) for group in obj.vertex_groups]
+        for row in rows[known[rows] == UNKNOWN].tolist():
+            weights = [(entry.weight, group_bones[entry.group]) for entry in mesh.vertices[row].groups]
+            known[row] = max([pair for pair in weights if pair[1] != NO_BONE], default=(0.0, NO_BONE))[1]
+        return known[rows]
+
+
+_characters: SessionCache[tuple[str, Character | None]] = SessionCache()  # with the stamp of the results
+_weights: SessionCache[tuple[tuple, Weight | None]] = SessionCache()
+
+
+def measure(context: Context, armature: Object) -> Rig:
+    """Measure the bones of a character, and keep or, on a linked one, only remember the results.
+
+    Raise MeasureError, and keep nothing, if there are no parts, or no vertex of the meshes has a weight.
+    """
+    rig, unit = measure_rig(context, armature), shortest_decimal(context.scene.unit_settings.scale_length)
+    bare = [found for found in rig.measurement.findings if found.code == UNWEIGHTED_VERTICES]
+    meshes = skinned_objects(armature, rig.objects)
+    if meshes and len(bare) == len(meshes) and all(found.values["count"] == found.values["total"] for found in bare):
+        raise ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
+    try:
+        stored.rig.store(rig)
+    except EditRefusedError:
+        bodies = {
+            part.name: PlainBody.of_body(part.measurement.in_object_frame(), 0.0, 0.0, 0.0, {})
+            for part in rig.parts
+            if part.measurement is not None
+        }
+        _characters[armature] = properties.fingerprint(armature), Character.from_bodies(armature, bodies, unit)
+        handlers.count_change(armature)
+    return rig
+
+
+def character(armature: Object, unit: float) -> Character | None:
+    """Return a measured character, None if its bones have not been measured."""
+
+    def read() -> Character | None:
+        return Character.from_bodies(armature, {bone.name: properties.stored(bone) for bone in bones}, unit)
+
+    bones = armature.pose.bones
+    return current_value(_characters, armature, properties.fingerprint(armature), read)
+
+
+def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
+    """Return a character as the dependency graph shows it, None if its bones have not been measured."""
+
+    def stand() -> Weight | None:
+        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        known = character(armature, unit)
+        if known is None or any(name not in armature.pose.bones for name in known.names):  # removed in Edit Mode
+            return None
+        down, ground = stored.stability.down(depsgraph.scene), armature.body_moments_weight.ground
+        parts = known.pose(armature, depsgraph)
+        contacts = known.contacts(armature, depsgraph, ground, down)
+        points = contacts.points
+        support = support_of_contacts(points, parts.center, down, OUTLINE) if len(points) else None
+        foot = parts.center - (parts.center @ down + ground) * down if support is None else support.foot
+        inertia = tuple((parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
+        moments, axes, _ = principal_axes(inertia)
+        rest = properties.stored(armature) or PlainBody(0.0, 0.0, 0.0, 0.0, (), (), (), (), {})
+        center = tuple((parts.center * unit).tolist())
+        body = rest._replace(mass=parts.mass, center=center, inertia=inertia, moments=moments, axes=axes)
+        return Weight(parts, contacts, support, foot, body)
+
+    return current_value(_weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand)
+
+
+def require_gravity(scene: Scene) -> None:
+    """Raise Refused if nothing weighs anything in a scene."""
+    if not (scene.use_gravity and any(scene.gravity)):
+        raise Refused(NO_GRAVITY)
+
+
+def prepare(context: Context, armature: Object) -> Rig | None:
+    """Measure a character unless its results are up to date; find its ground unless it is shown. Return a new Rig."""
+    if not armature.body_moments_weight.show:
+        require_gravity(context.scene)
+    is_known = weight(armature, context.evaluated_depsgraph_get()) is not None
+    rig = None if is_known and stale_reason(armature, context.scene) is None else measure(context, armature)
+    if not armature.body_moments_weight.show:
+        find_ground(context, armature)
+    return rig
+
+
+def find_ground(context: Context, armature: Object) -> None:
+    """Set the height of a measured character's ground: the world's origin, or its lowest point at rest or as posed.
+
+    A character that stands on one of them stands there; one in the air is above the higher of the first two.
+    """
+    known = character(armature, shortest_decimal(context.scene.unit_settings.scale_length))
+    assert known is not None
+    down = stored.stability.down(context.scene)
+    with rest_pose(context, armature) as depsgraph:
+        rest = known.contacts(armature, depsgraph, 0.0, down).height
+    posed = known.contacts(armature, context.evaluated_depsgraph_get(), 0.0, down).height
+    if rest is not None and posed is not None:
+        below = [height for height in (0.0, rest) if height <= posed + REACH * known.size]
+        armature.body_moments_weight.ground = max(below, default=posed)
+
+
+def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str | None]]:
+    """Return (object, bone) of the meshes that may touch the ground, outside Edit Mode; None for skinned ones."""
+    skinned = deformed_meshes(armature)
+    hanging = [*hanging_objects(armature, skinned), *held_objects(armature, depsgraph)]
+    several = [*((obj, None) for obj in skinned), *((obj, bone) for obj, bone in hanging if obj.type == "MESH")]
+    return [(obj, bone) for obj, bone in several if not obj.hide_render and obj.visible_get() and obj.mode != "EDIT"]
+
+
+def bone_matrices(armature: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:
+    """Return the (b, 4, 4) matrices of all pose bones in the world, as evaluated."""
+    evaluated = armature.evaluated_get(depsgraph)
+    posed = np.empty((len(evaluated.pose.bones), 4, 4), np.float32)
+    evaluated.pose.bones.foreach_get("matrix", posed.ravel())  # column by column
+    return float64_matrix(evaluated.matrix_world) @ posed.transpose(0, 2, 1)

@@ -1,0 +1,193 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Balance Pose: the least move of a bone that brings the center of mass over the support.
+
+The armature is evaluated at every trial, so that constraints, drivers and inverse kinematics count as they are. A trial
+is good if the contacts stay; legs that would be stretched get a lower hip, by the least height.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from bpy.types import Context, Object, PoseBone
+from mathutils import Quaternion, Vector
+from numpy.typing import NDArray
+
+from ...core.numerics.float32 import shortest_decimal
+from ...core.statics.support import ground_axes
+from ...core.verdict.finding import EditRefusedError
+from ..read.tracking import tracking_paused
+from ..write.reports import Refused
+from .findings import NO_SUCH_NAME
+from .live import character
+from .live.character import Character, Weight, bone_matrices
+
+# Relative to the character's size.
+NUDGE = 1e-3
+REACHED = 1e-5  # distance from the target
+STAYED = 5e-5  # move of a contact
+SLIP = 0.05  # contacts that move this far with a bone, relative to its or the center's move, hang on it
+LEAST_SHIFT, LEAST_TURN = 0.05, 0.02  # moves of the center that are smaller, by a bone's move or turn, are no use
+FARTHEST = 1.0  # moves and, in radians, turns of a bone
+TORN = 0.05  # share of the mass above a bone that its location may leave behind
+MAX_TRIALS = 60
+
+UNMOVABLE = (
+    "No bone that may move leaves the contacts in place. Unlock the hips, remove drivers, give the legs inverse "
+    "kinematics, or choose another bone."
+)
+TOO_FAR = "“{bone}” cannot bring the center nearer than {gap:length} to its target. Choose another bone."
+STRETCHED = "Balancing with “{bone}” would move the contacts by {slip:length}. Lower the hips, or choose another bone."
+IN_AIR = "Nothing touches the ground: the lowest point is {height:length} above it. Lower the pose, or set Ground."
+NO_CONTACT = "No mesh of “{armature}” can touch the ground. Show its meshes, or turn off Contact of bones without any."
+
+
+class _Handle:
+    """Three channels of a bone, changes of which are tried: its location, or its rotation about its own axes."""
+
+    def __init__(self, bone: PoseBone, turns: bool):
+        self.bone, self.turns = bone, turns
+        mode = bone.rotation_mode.lower()
+        self.channel = "rotation_{:s}".format(mode if mode == "quaternion" else "euler") if turns else "location"
+        self.start = getattr(bone, self.channel).copy()
+        locks = bone.lock_rotation if turns else bone.lock_location
+        self.free = [axis for axis in range(3) if not locks[axis]]
+        if turns and (mode == "axis_angle" or mode == "quaternion" and any(locks)):
+            self.free = []  # their channels are none about an axis
+
+    def put(self, change: NDArray) -> None:
+        """Set the channels to their first values, changed by (3,) lengths or angles."""
+        if self.channel == "rotation_quaternion":
+            turn = Vector(change)
+            self.bone.rotation_quaternion = self.start @ Quaternion(turn, turn.length)
+        else:
+            setattr(self.bone, self.channel, [value + float(add) for value, add in zip(self.start, change)])
+
+
+class _Search:
+    """The search for one character.
+
+    noise: float32 rounding of places in the world, which inverse kinematics see. failure: of the first bone of any use.
+    """
+
+    def __init__(self, context: Context, armature: Object, known: Character, weight: Weight, margin: float | None):
+        assert weight.support is not None
+        self.context, self.armature, self.known = context, armature, known
+        self.unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        self.failure = Refused(UNMOVABLE)
+        self.axes = ground_axes(-weight.support.up)
+        self.target = weight.support.target(margin)
+        is_carried = weight.contacts.bones >= 0
+        self.bones, self.points = weight.contacts.bones[is_carried], weight.contacts.points[is_carried]
+        matrices = bone_matrices(armature, context.evaluated_depsgraph_get())[self.bones]
+        self.noise = float(np.finfo(np.float32).eps * np.abs(weight.contacts.points).max())
+        self.local = np.linalg.solve(matrices[:, :3, :3], (self.points - matrices[:, :3, 3])[:, :, None])
+
+    def gap(self, center: NDArray) -> NDArray[np.float64]:
+        """Return how far the target is from a center, (2,) along the ground."""
+        return (self.target - center) @ self.axes[:, :2]
+
+    def look(self, handle: _Handle, change: NDArray) -> tuple[NDArray, NDArray, float]:
+        """Evaluate a change: return the (3,) center, the bone's head, and the farthest move of a contact's bone."""
+        handle.put(change)
+        self.context.view_layer.update()
+        depsgraph = self.context.evaluated_depsgraph_get()
+        matrices = bone_matrices(self.armature, depsgraph)
+        head = matrices[self.armature.pose.bones.find(handle.bone.name), :3, 3]
+        matrices = matrices[self.bones]
+        moves = (matrices[:, :3, :3] @ self.local)[:, :, 0] + matrices[:, :3, 3] - self.points
+        slip = float(np.linalg.norm(moves, axis=1).max(initial=0.0))
+        return self.known.pose(self.armature, depsgraph).center, head, slip
+
+    def balance(self, handle: _Handle) -> bool:
+        """Move the bone and return True, or if that is impossible, leave it and return False."""
+        center, head, _ = self.look(handle, np.zeros(3))
+        size, up = self.known.size, self.axes[:, 2]
+        nudge, reached = max(NUDGE * size, 10.0 * self.noise), REACHED * size + self.noise
+        scale = size if handle.turns else max(map(abs, self.armature.matrix_world.to_scale()))
+        units, shifts, moves = [], [], []  # of usable channels, and how they move the center and the bone
+        for axis, sign in ((axis, sign) for axis in handle.free for sign in (1.0, -1.0)):
+            unit = sign * np.eye(3)[axis]
+            shown, moved, slip = self.look(handle, nudge / scale * unit)
+            move = nudge * unit if handle.turns else moved - head
+            reach = float(np.linalg.norm(shown - center if handle.turns else move))
+            lifts = not handle.turns and move @ up > 1e-2 * nudge  # stretches the legs
+            if (
+                reach > 1e-2 * nudge
+                and slip <= SLIP * reach + self.noise
+                and not lifts
+                and not any(unit @ u for u in units)
+            ):
+                units.append(unit)
+                shifts.append((shown - center) / nudge)
+                moves.append(move / nudge)
+        least, tolerance = LEAST_TURN if handle.turns else LEAST_SHIFT, STAYED * size + self.noise
+        if len(units) > 1 and np.linalg.svd(np.array(shifts) @ self.axes[:, :2])[1][-1] >= least:
+            inverse = np.linalg.inv(np.linalg.qr(np.transpose(moves))[1])  # from moves of the bone to changes
+            rows = [*self.axes[:, :2].T @ np.transpose(shifts), *([] if handle.turns else [up @ np.transpose(moves)])]
+            solve, change, gap, slip = inverse @ np.linalg.pinv(rows @ inverse), np.zeros(len(units)), np.inf, np.inf
+            for _ in range(MAX_TRIALS):
+                center, moved, slip = self.look(handle, change @ units / scale)
+                missing = [*self.gap(center), *([] if handle.turns else [up @ (head - moved)])]
+                gap = float(np.linalg.norm(missing))
+                if gap <= reached and slip <= tolerance:
+                    return True
+                if gap <= reached:  # the least lower hip that keeps the contacts
+                    head = head - (1.05 * slip + tolerance / 2.0) * up
+                change = solve @ (np.array(rows) @ change + missing)
+                change *= min(1.0, FARTHEST * size / max(np.linalg.norm(change), size))
+            if self.failure.text == UNMOVABLE:
+                values = {"bone": handle.bone.name, "gap": gap * self.unit, "slip": slip * self.unit}
+                self.failure = Refused(TOO_FAR if slip <= tolerance else STRETCHED, **values)
+        setattr(handle.bone, handle.channel, handle.start)
+        return False
+
+
+def balance_pose(context: Context, armature: Object, name: str, margin: float | None) -> dict[str, str | float]:
+    """Move a bone of a posed character so that it is balanced, or leave it and raise Refused or MeasureError.
+
+    name: of the bone, "" for the active one or another that is fit. margin: in Blender's units, None for the middle.
+    Return the bone, the gap that is left and the margin, m; nothing if the character is balanced already.
+    """
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    character.require_gravity(context.scene)
+    if name and name not in armature.pose.bones:
+        raise EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
+    character.prepare(context, armature)
+    weight, known = character.weight(armature, context.evaluated_depsgraph_get()), character.character(armature, unit)
+    assert weight is not None and known is not None
+    if weight.contacts.height is None:
+        raise Refused(NO_CONTACT, armature=armature.name)
+    if weight.support is None:
+        raise Refused(IN_AIR, height=weight.contacts.height * unit)
+    search = _Search(context, armature, known, weight, margin)
+    if np.linalg.norm(search.gap(weight.parts.center)) <= REACHED * known.size:
+        return {}
+    with tracking_paused():
+        moved = next(filter(search.balance, _handles(context, armature, known, name)), None)
+        context.view_layer.update()
+    if moved is None:
+        raise search.failure
+    if context.scene.tool_settings.use_keyframe_insert_auto:
+        moved.bone.keyframe_insert(moved.channel)
+    armature.update_tag()
+    context.view_layer.update()
+    after = character.weight(armature, context.evaluated_depsgraph_get())
+    assert after is not None and after.support is not None
+    gap = float(np.linalg.norm(search.gap(after.parts.center)))
+    return {"bone": moved.bone.name, "gap": gap * unit, "margin": after.support.margin * unit}
+
+
+def _handles(context: Context, armature: Object, known: Character, name: str) -> Iterator[_Handle]:
+    """Yield the channels to try from the root on: locations of bones that no heavy part is above, then rotations."""
+    chosen, masses = context.active_pose_bone, dict(zip(known.names, known.masses))
+    bones = [bone for bone in context.visible_pose_bones or () if bone.id_data == armature]
+    bones.sort(key=lambda bone: (bone != chosen, len(bone.parent_recursive)))
+    bones = [armature.pose.bones[name]] if name else bones
+    for bone in bones:
+        if sum(masses.get(above.name, 0.0) for above in bone.parent_recursive) <= TORN * known.masses.sum():
+            yield _Handle(bone, turns=False)
+    for bone in bones:
+        yield _Handle(bone, turns=True)

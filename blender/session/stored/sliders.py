@@ -1,0 +1,182 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The thickness of a measured wall and the threshold of a measured grid as sliders.
+
+Walls are kept in memory as polynomials in the thickness, grids with their values; a change of the setting stores the
+numbers of the new body. This needs the geometry and transform of the stored numbers, else they stay and are out of
+date. While a threshold moves, its numbers come from every second or third value of a large grid and are out of date; a
+moment later the exact ones follow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Generic, TypeVar
+
+import bpy
+from bpy.types import Context, Object, PropertyGroup, Scene
+
+from ....core.bodies.reading import Reading
+from ....core.bodies.threshold import ThresholdGrid, ThresholdGridBody, threshold_grid_body
+from ....core.bodies.wall import WallBody, Walls
+from ....core.density.grid_options import GridOptions
+from ....core.measurement.body import Body
+from ....core.numerics.float32 import shortest_decimal
+from ....core.verdict.finding import MeasureError
+from ...bodies.measure_object import Measured
+from ...bodies.request import Request, measurement_of
+from ...settings import hooks
+from ...settings.density import grid_key
+from ...write import properties
+from ..tracking import staleness, stamps
+from ..tracking.cache import SessionCache
+from . import density
+
+MAX_WALLS, MAX_GRIDS = 64, 2  # objects: a grid may have gigabytes
+DELAY = 0.3  # s after the last change of a threshold
+COARSE = "coarse"  # equals no key of settings, so that results with it are out of date
+
+Source = TypeVar("Source", Walls, ThresholdGrid)
+
+
+@dataclass(frozen=True, eq=False)
+class _Kept(Generic[Source]):
+    """The walls or the grid that an object was measured with, and the parts of the stamps stored with it since.
+
+    geometries: the digests at every stored threshold: undo may go back to any of them. unit: meters per Blender unit.
+    """
+
+    reading: Reading
+    source: Source
+    geometries: set[str]
+    transform: str
+    unit: float
+
+
+_walls: SessionCache[_Kept[Walls]] = SessionCache(MAX_WALLS)
+_grids: SessionCache[_Kept[ThresholdGrid]] = SessionCache(MAX_GRIDS)
+_pending: list[tuple[Object, Scene]] = []  # objects whose exact numbers are due
+
+
+def remember(obj: Object, measured: Measured, scene: Scene) -> None:
+    """Remember the wall or the grid that an object was measured with, if any."""
+    stamp, reading, body = stamps.Stamp.parse(measured.measurement.fingerprint), measured.reading, measured.body
+    of_stamp = {stamp.geometry}, stamp.transform, shortest_decimal(scene.unit_settings.scale_length)
+    if isinstance(body, WallBody) and body.walls is not None:
+        _walls[obj] = _Kept(replace(reading, parts=[]), body.walls.drop_arrays(), *of_stamp)
+        if on_wall_setting not in hooks.on_wall_change:
+            hooks.on_wall_change.append(on_wall_setting)
+    elif isinstance(body, ThresholdGridBody):
+        _grids[obj] = _Kept(reading, body.grid, *of_stamp)
+        if on_threshold not in hooks.on_threshold_change:
+            hooks.on_threshold_change.append(on_threshold)
+
+
+def max_thickness(obj: Object) -> float | None:
+    """Return the thickness in m from which the object's wall folds over, or None if it is unknown or unlimited."""
+    kept = _current(_walls, obj)
+    if kept is None or obj.body_moments.wall == "THIN":
+        return None
+    limit = _walls_on_side(kept, obj).max_thickness
+    return limit if limit < float("inf") else None
+
+
+def is_too_thick(obj: Object) -> bool:
+    """Return whether the current thickness is known to be too large."""
+    limit, kept = max_thickness(obj), _walls.get(obj)
+    if limit is None or kept is None:
+        return False
+    return not shortest_decimal(obj.body_moments.thickness) * kept.unit < limit
+
+
+def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
+    """Store the numbers of a changed wall or thickness."""
+    obj, scene = settings.id_data, context.scene
+    kept = _current(_walls, obj, scene)
+    is_walled = settings.kind == "SHELL" and settings.wall != "THIN"
+    varies = settings.mass_from == "DENSITY" and settings.density_from != "VALUE"
+    if kept is None or not is_walled or varies:
+        return
+
+    def body(request: Request) -> Body:
+        return _walls_on_side(kept, obj).body(request.settings.thickness, check_overlap=False)
+
+    if _store(obj, scene, kept, body):
+        staleness.mark_object(obj)
+
+
+def on_threshold(settings: PropertyGroup, context: Context) -> None:
+    """Store the numbers of a changed threshold."""
+    obj, scene = settings.id_data, context.scene
+    kept = _current_grid(obj, scene)
+    if kept is None:
+        return
+    coarse = kept.source.coarse()
+    if _store_threshold(obj, scene, kept, coarse, preview=True) and coarse is kept.source:
+        staleness.mark_object(obj)
+    if (obj, scene) not in _pending:
+        _pending.append((obj, scene))
+    if bpy.app.background:
+        _finish()
+        return
+    if bpy.app.timers.is_registered(_finish):
+        bpy.app.timers.unregister(_finish)
+    bpy.app.timers.register(_finish, first_interval=DELAY)
+
+
+def _current(cache: SessionCache[_Kept[Source]], obj: Object, scene: Scene | None = None) -> _Kept[Source] | None:
+    """Return what is kept of an object, if its stored numbers are of the same geometry and transform.
+
+    scene: it must also have the same unit scale, and the object no edits since.
+    """
+    kept, stamp = cache.get(obj), stamps.of_results(obj)
+    if kept is None or stamp is None or stamp.geometry not in kept.geometries or stamp.transform != kept.transform:
+        return None
+    if scene is not None and shortest_decimal(scene.unit_settings.scale_length) != kept.unit:
+        return None
+    return None if scene is not None and staleness.is_edited(obj) else kept
+
+
+def _current_grid(obj: Object, scene: Scene | None) -> _Kept[ThresholdGrid] | None:
+    kept = None if scene is None else _current(_grids, obj, scene)
+    return kept if kept is not None and obj.body_moments.grid_as == "THRESHOLD" else None
+
+
+def _walls_on_side(kept: _Kept[Walls], obj: Object) -> Walls:
+    return replace(kept.source, side=obj.body_moments.wall.lower())
+
+
+def _store(obj: Object, scene: Scene, kept: _Kept, body: Callable[[Request], Body]) -> bool:
+    """Write the numbers of a body to the object; return False if there are none: the panel and Measure say why."""
+    request = Request.resolve(obj, unit=kept.unit)
+    try:
+        measurement = measurement_of(kept.reading, body(request), request)
+    except MeasureError:
+        return False
+    properties.store(obj, density.noted(obj, measurement, scene))
+    kept.geometries.add(stamps.Stamp.parse(measurement.fingerprint).geometry)
+    return True
+
+
+def _store_threshold(obj: Object, scene: Scene, kept: _Kept[ThresholdGrid], grid: ThresholdGrid, preview: bool) -> bool:
+    """Write the numbers of the current threshold to the object; return False if there are none."""
+    options = GridOptions.from_settings(obj.body_moments)
+
+    def body(_request: Request) -> Body:
+        key = grid_key(obj) if grid is kept.source else COARSE
+        return replace(threshold_grid_body(grid, options, preview), density_key=key)
+
+    return _store(obj, scene, kept, body)
+
+
+def _finish() -> None:
+    """Store the exact numbers of the pending objects; as a timer's function, return None to be called only once."""
+    while _pending:
+        obj, scene = _pending.pop()
+        try:
+            kept = _current_grid(obj, scene)
+        except ReferenceError:  # removed meanwhile
+            continue
+        if kept is not None and _store_threshold(obj, scene, kept, kept.source, preview=False):
+            staleness.mark_object(obj)

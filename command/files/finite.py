@@ -1,0 +1,224 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Check for finite coordinates in a file, before Blender imports it.
+
+Blender's importers silently replace a coordinate that is no finite float32 by 0 or the vertex before: a wrong body
+would be measured as exact. Numbers that place no point may be NaN. Other damage is left to Blender, which reports it.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import re
+import struct
+import zlib
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.cad.obj_text import check_obj_text
+from ...core.scans.findings import DAMAGE_SIZE, FILE_DAMAGED
+from ...core.streams.findings import AT_ROW, NON_FINITE_COORDINATES
+from ...core.streams.misread import MAX_FLOAT32, SHORT, Data, find_number_fault, map_file, refuse_line
+from ...core.verdict.finding import FileError, Finding, finding
+from ..findings import MISSING_REFERENCES
+
+BLOCK = 1 << 18  # bytes at a time
+MALFORMED = (ValueError, KeyError, IndexError, TypeError, AttributeError, RecursionError, struct.error, zlib.error)
+_FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
+_FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
+# The end of a node's head: its name behind its length, and the type of its first property, an array.
+_FBX_VERTICES = re.compile(rb"\x08Vertices(?=[df])")
+_FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?")
+_FBX_NUMBERS = re.compile(rb"(?:[\s,]*+%b(?=[\s,}]|\Z))*+[\s,]*+" % SHORT)
+_FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
+_GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+_GLTF_FLOAT = 5126
+_OF_NODES = ("matrix", "translation", "rotation", "scale")
+
+
+def check_numbers(path: str, kind: str) -> None:
+    """Raise FileError if a coordinate in the file is not a finite number. kind: the file's suffix. Raises OSError."""
+    check = _CHECKS.get(kind)
+    if check is not None:
+        check(map_file(path), path)
+
+
+def check_fbx(data: Data, _path: str) -> None:
+    """Raise FileError if a vertex of a mesh or of its shape keys is not finite."""
+    if data[:23] != _FBX_MAGIC:
+        _check_ascii_fbx(data)
+        return
+    for vertices in _FBX_VERTICES.finditer(data):
+        with suppress(*MALFORMED):
+            count, first = 0, 0
+            for begin, numbers in _fbx_array(data, vertices.end()):
+                more, row = bad_in_table(numbers[:, None])
+                first = first if count else (begin + row) // 3
+                count += more
+            refuse(count, finding(AT_ROW, element="vertex", row=first))
+
+
+def _check_ascii_fbx(data: Data) -> None:
+    for array in _FBX_ARRAY.finditer(data):
+        is_named = data[max(0, array.start() - 100) : array.start()].rpartition(b"\n")[2].strip()
+        numbers = None if is_named else _FBX_NUMBERS.match(data, array.end())
+        while numbers is not None:
+            word = _FBX_WORD.match(data, numbers.end())
+            fault = None if word is None else find_number_fault(word[0], True)
+            if fault is not None:
+                refuse_line(data, numbers.end(), fault)
+            numbers = None if word is None else _FBX_NUMBERS.match(data, word.end())
+
+
+def _fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:
+    """Yield the numbers of an array in blocks, each after the count of numbers before it."""
+    kind = _FBX_TYPES[data[at : at + 1]]
+    count, packed, size = struct.unpack_from("<3I", data, at + 1)
+    at += 13
+    if not packed:
+        yield 0, np.frombuffer(data, kind, count, at)
+        return
+    unpacker, rest, done = zlib.decompressobj(), b"", 0
+    for begin in range(at, at + size, BLOCK):
+        piece = data[begin : min(begin + BLOCK, at + size)]
+        while piece and done < count:
+            block = rest + unpacker.decompress(piece, BLOCK)
+            piece = unpacker.unconsumed_tail
+            whole = len(block) // kind.itemsize
+            yield done, np.frombuffer(block, kind, whole)
+            rest, done = block[whole * kind.itemsize :], done + whole
+
+
+def check_gltf(data: Data, path: str) -> None:
+    with suppress(*MALFORMED):
+        buffers = Buffers(data, path)
+        document = buffers.document
+        nodes = document.get("nodes", [])
+        for number, node in enumerate(nodes):
+            count = _bad_numbers(one for key in _OF_NODES for one in node.get(key, ()))
+            refuse(count, finding(AT_ROW, element="node", row=node.get("name") or number))
+        for number, mesh in _placing_accessors(document).items():
+            accessor = document["accessors"][number]
+            count, first = _bad_in_accessor(buffers, accessor)
+            where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
+            count += _bad_numbers([*accessor.get("min", ()), *accessor.get("max", ())])
+            refuse(count, finding(AT_ROW, element=where + ", row", row=first))
+
+
+def _bad_numbers(numbers: Iterable[float]) -> int:
+    return sum(not abs(number) < MAX_FLOAT32 for number in numbers)
+
+
+def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
+    """Return the accessors that place points, each with its mesh's name: None for skins, animations and instances."""
+    found: dict[int, str | None] = {}
+    for number, mesh in enumerate(document.get("meshes", [])):
+        for primitive in mesh["primitives"]:
+            for attributes in (primitive["attributes"], *primitive.get("targets", ())):
+                if "POSITION" in attributes:
+                    found[attributes["POSITION"]] = mesh.get("name") or str(number)
+    others = [skin.get("inverseBindMatrices") for skin in document.get("skins", [])]
+    for animation in document.get("animations", []):
+        others += [sampler[key] for sampler in animation["samplers"] for key in ("input", "output")]
+    for node in document.get("nodes", []):
+        others += node.get("extensions", {}).get("EXT_mesh_gpu_instancing", {}).get("attributes", {}).values()
+    return found | {number: None for number in others if number is not None and number not in found}
+
+
+def _bad_in_accessor(buffers: Buffers, accessor: dict[str, Any]) -> tuple[int, int]:
+    if accessor["componentType"] != _GLTF_FLOAT:
+        return 0, 0
+    sparse = accessor.get("sparse")
+    found = (
+        [(accessor["bufferView"], accessor.get("byteOffset", 0), accessor["count"])] if "bufferView" in accessor else []
+    )
+    if sparse:
+        found.append((sparse["values"]["bufferView"], sparse["values"].get("byteOffset", 0), sparse["count"]))
+    width = _GLTF_WIDTHS[accessor["type"]]
+    bad = [bad_in_table(table) for table in (buffers.table(*one, width) for one in found) if table is not None]
+    return sum(count for count, _ in bad), min((first for count, first in bad if count), default=0)
+
+
+def unquote(uri: str) -> str:
+    """Return a glTF's reference with escapes such as %20 replaced by their characters."""
+    data = re.sub(rb"%([0-9a-fA-F]{2})", lambda match: bytes.fromhex(match[1].decode()), uri.encode())
+    return data.decode("utf-8", "surrogateescape")
+
+
+class Buffers:
+    """The document of a glTF file, and its buffers, including external files."""
+
+    def __init__(self, data: Data, path: str) -> None:
+        self.folder = os.path.dirname(path)
+        self.binary: tuple[Data, int] | None = None
+        self.opened: dict[int, tuple[Data, int]] = {}
+        text = data
+        if data[:4] == b"glTF":  # chunks of the text and of the first buffer, each behind its length and type
+            end = 20 + struct.unpack_from("<I", data, 12)[0]
+            text = data[20:end]
+            self.binary = (data, end + 8)
+        self.document = json.loads(text[:])
+
+    def table(self, view_number: int, offset: int, count: int, width: int) -> NDArray[np.float32] | None:
+        """Return a (count, width) table of a buffer view, None if an extension has compressed it."""
+        view = self.document["bufferViews"][view_number]
+        if "EXT_meshopt_compression" in view.get("extensions", {}):
+            return None
+        data, start = self._buffer(view["buffer"])
+        start += view.get("byteOffset", 0) + offset
+        return np.ndarray((count, width), "<f4", data, start, (view.get("byteStride", 4 * width), 4))
+
+    def _buffer(self, number: int) -> tuple[Data, int]:
+        """Return the bytes that contain a buffer, and its start in them. FileError if it is missing or too short."""
+        if number not in self.opened:
+            buffer = self.document["buffers"][number]
+            self.opened[number] = self._open(buffer, buffer["byteLength"])
+        return self.opened[number]
+
+    def _open(self, buffer: dict[str, Any], size: int) -> tuple[Data, int]:
+        uri = buffer.get("uri")
+        if uri is None:
+            name = "BIN"
+            if self.binary is None:
+                raise FileError(MISSING_REFERENCES, names=[name])
+            data, start = self.binary
+        elif uri.startswith("data:"):
+            name, data, start = "data:", base64.b64decode(uri.partition(",")[2]), 0
+        else:
+            name = unquote(uri)
+            try:
+                data, start = map_file(os.path.join(self.folder, name)), 0
+            except (OSError, ValueError) as error:  # ValueError: it is empty
+                raise FileError(MISSING_REFERENCES, names=[name]) from error
+        if len(data) - start < size:
+            cause = finding(DAMAGE_SIZE, bytes=len(data) - start, total=size)
+            raise FileError(FILE_DAMAGED, file=name, cause=cause.as_record())
+        return data, start
+
+
+def refuse(count: int, place: Finding) -> None:
+    if count:
+        raise FileError(NON_FINITE_COORDINATES, count=count, place=place.as_record())
+
+
+def bad_in_table(rows: NDArray) -> tuple[int, int]:
+    """Return the count of numbers in (n, k) that are not finite in float32, and the first row with such a number."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        # The smallest and the largest are NaN if one of the numbers is.
+        if rows.dtype.kind != "f" or not rows.size or rows.max() < MAX_FLOAT32 and rows.min() > -MAX_FLOAT32:
+            return 0, 0
+        bad = ~(np.abs(rows) < MAX_FLOAT32)
+    return int(np.count_nonzero(bad)), int(np.argmax(bad.any(axis=1)))
+
+
+_CHECKS: dict[str, Callable[[Data, str], None]] = {
+    ".obj": lambda data, _path: check_obj_text(data),
+    **dict.fromkeys((".glb", ".gltf"), check_gltf),
+    ".fbx": check_fbx,
+}

@@ -1,0 +1,169 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Importers of files that Blender's importers do not read, or not as they are.
+
+Blender has none for .3mf and IGES; that of .obj leaves out ``surf``, that of glTF ignores KHR_node_visibility.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import addon_utils
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ...blender.scene.surface_objects import show_bodies
+from ...core.cad.findings import FACES_NOT_READ
+from ...core.cad.obj import has_surfaces
+from ...core.cad.surface_file import read_surfaces
+from ...core.cad.surfaces import SurfaceFile
+from ...core.scans.limits import scan_limits
+from ...core.streams.boxes import box_of_blocks
+from ...core.streams.file_mesh import FileMesh
+from ...core.streams.measure import KINDS
+from ...core.streams.threemf import Placed, read_3mf
+from ...core.verdict.finding import FileError, Finding, finding
+from ..findings import FILE_HIDES
+from .references import Opened
+
+# Numbers of vertices with a meaning of their own; Blender makes attributes of all others.
+_KNOWN = {*("x", "y", "z", "nx", "ny", "nz", "s", "t"), *("red", "green", "blue", "alpha")}
+_SHEAR = 1e-6  # relative to the largest entry of a matrix; larger than the rounding of float32
+_OBJ_MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # the elements that Blender's importer reads
+GLTF_ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
+
+
+def import_mesh(path: str) -> None:
+    """Add the mesh of an .stl or .ply file to the scene. Raises FileError."""
+    mesh = KINDS[Path(path).suffix.lower()](Path(path)).mesh()
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new(mesh.name, blender_mesh(mesh)))
+    bpy.context.view_layer.update()
+
+
+def blender_mesh(found: FileMesh) -> bpy.types.Mesh:
+    """Return a file's mesh as data of Blender. FileError if a coordinate is too large for it."""
+    with np.errstate(over="ignore"):
+        points = found.points.astype(np.float32)
+    box_of_blocks([points], "vertex")
+    mesh = bpy.data.meshes.new(found.name)
+    mesh.vertices.add(len(points))
+    if len(points):  # Attributes are set several times faster than properties.
+        mesh.attributes["position"].data.foreach_set("vector", points.ravel())
+    mesh.edges.add(len(found.edges))
+    mesh.edges.foreach_set("vertices", found.edges.astype(np.int32).ravel())
+    mesh.loops.add(len(found.corners))
+    if len(found.corners):
+        mesh.attributes[".corner_vert"].data.foreach_set("value", found.corners.astype(np.int32))
+    mesh.polygons.add(len(found.sides))
+    mesh.polygons.foreach_set("loop_start", (np.cumsum(found.sides) - found.sides).astype(np.int32))
+    for name, values in found.values.items():
+        if name not in _KNOWN:
+            mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
+    mesh.update(calc_edges=True)
+    return mesh
+
+
+def import_3mf(path: str) -> Opened:
+    """Add the file's objects to the scene, and set its unit to the file's. Raises FileError."""
+    placed, unit = read_3mf(path, scan_limits())
+    hidden: dict[str, Finding] = {}
+    bpy.context.scene.unit_settings.scale_length = unit
+    meshes: dict[tuple[str, str], bpy.types.Mesh] = {}
+    for one in placed:
+        if one.key not in meshes:
+            meshes[one.key] = _mesh(one)
+        obj = bpy.data.objects.new(one.name, meshes[one.key])
+        bpy.context.scene.collection.objects.link(obj)
+        if one.hidden:
+            obj.hide_render = True
+            hidden[obj.name] = finding(FILE_HIDES, cause=one.hidden)
+        obj.matrix_basis = Matrix(one.matrix)
+        if np.abs(np.array(obj.matrix_basis) - one.matrix).max() > _SHEAR * np.abs(one.matrix).max():
+            obj.matrix_basis = Matrix()  # an object's own channels hold no shear
+            obj.data = _mesh(replace(one, points=one.points @ one.matrix[:3, :3].T + one.matrix[:3, 3]))
+    bpy.context.view_layer.update()
+    return Opened(hidden=hidden)
+
+
+def _mesh(one: Placed) -> bpy.types.Mesh:
+    """Return the mesh as stored in the file, without repair."""
+    return blender_mesh(FileMesh(one.name, one.points, one.triangles.ravel(), np.full(len(one.triangles), 3)))
+
+
+def import_iges(path: str) -> Opened:
+    """Add the surfaces of a file to the scene, in meters. Raises FileError and OSError."""
+    return _added(read_surfaces(path, scan_limits(), for_blender=False))
+
+
+def import_obj(path: str) -> Opened:
+    """Add the objects of a file to the scene: faces by Blender's importer, surfaces by ours.
+
+    Raises FileError and OSError.
+    """
+    if not has_surfaces(path):
+        bpy.ops.wm.obj_import(filepath=path)
+        return Opened()
+    with open(path, "rb") as file:
+        has_faces = any(_OBJ_MESH.match(line) for line in file)
+    try:
+        opened = _added(read_surfaces(path, scan_limits(), for_blender=False))
+    except FileError as error:
+        if not has_faces:
+            raise
+        opened = Opened((error.finding,))
+    if has_faces:
+        bpy.ops.wm.obj_import(filepath=path)
+    return opened
+
+
+def _added(file: SurfaceFile) -> Opened:
+    unit = 1.0 if file.unit is None else file.unit
+    made = show_bodies(file.bodies, bpy.context.scene.collection, unit)
+    bpy.context.view_layer.update()
+    unread = (finding(FACES_NOT_READ, count=file.unread),) if file.unread else ()
+    by_object: dict[str, tuple[Finding, ...]] = {obj.name: unread for obj in made}
+    return Opened(file.refused, file.notes, by_object)
+
+
+def import_gltf(path: str) -> Opened:
+    """Import a .gltf or .glb file. Raise RuntimeError, and AttributeError without an importer."""
+    hidden: list[str] = []
+
+    class NodeVisibility:
+        """An extension of the importer, which ignores whether nodes are visible."""
+
+        def gather_import_node_after_hook(self, vnode: Any, _node: Any, obj: bpy.types.Object, gltf: Any) -> None:
+            if any(_is_invisible(gltf.data.nodes[number]) for number in _line_of(vnode, gltf)):
+                hidden.append(obj.name)
+
+    # The importer looks for extensions in add-ons of the preferences, of which it is one itself.
+    is_known = GLTF_ADD_ON in bpy.context.preferences.addons
+    module = addon_utils.enable(GLTF_ADD_ON, default_set=not is_known)
+    module.glTF2ImportUserExtension = NodeVisibility
+    try:
+        # Without disable_bone_shape, it adds objects that would be measured.
+        bpy.ops.import_scene.gltf(filepath=path, disable_bone_shape=True)
+    finally:
+        del module.glTF2ImportUserExtension
+    for name in hidden:
+        bpy.data.objects[name].hide_render = True
+    return Opened(hidden=dict.fromkeys(hidden, finding(FILE_HIDES, cause="it is invisible")))
+
+
+def _line_of(vnode: Any, gltf: Any) -> list[int]:
+    """Return the numbers of a node and of those above it. vnode: the importer's node; its own ones have no number."""
+    line = [number for number, one in gltf.vnodes.items() if one is vnode]
+    while vnode.parent is not None:
+        line.append(vnode.parent)
+        vnode = gltf.vnodes[vnode.parent]
+    return [number for number in line if isinstance(number, int)]
+
+
+def _is_invisible(node: Any) -> bool:
+    extension = (node.extensions or {}).get("KHR_node_visibility", {})
+    return isinstance(extension, dict) and extension.get("visible", True) is False

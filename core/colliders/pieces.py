@@ -1,0 +1,461 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Division of a body into nearly convex pieces, by planes that reduce the volume of the pieces' hulls most.
+
+Each step divides the piece whose best plane gains most. Candidates for planes contain a concave edge, or divide the
+piece evenly; all of them are compared at once on a coarse copy of the piece. More pieces than wanted are made; those
+whose common hull costs least are merged afterwards.
+
+A piece is a closed set of planar faces, each a cycle of directed edges, so that a cut needs no triangulation: in each
+face, the chords between the places where its edges cross the plane close the cycle again, and all chords together
+bound the new face in the plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.hulls import ConvexHull, convex_hull, hull_volumes
+from ..mesh.point_triangle import triangle_distances
+from ..mesh.surface import Surface, normals
+from ..numerics.graph import connected_components
+from ..robots.plausibility import spread_directions
+
+ON_PLANE_RTOL = 1e-9  # relative to the size: points nearer to a plane are on it
+HULL_RTOL = 1e-6  # of exact hulls
+SEARCH_RTOL = 1e-4  # of hulls that are only compared
+COARSE_POINTS = 96  # of the copy that planes are compared on
+MAX_PLANES = 24  # through concave edges
+DIRECTIONS, LIKELY_PLANES = 120, 6  # that choose the planes that are compared exactly
+SHARES = np.array([1, 2, 3]) / 4.0  # of the extent, where planes divide a piece evenly
+LEAST_GAIN = 1e-3  # relative to the body's volume: a smaller reduction is none
+LEAST_EXCESS = 0.01  # of the hull over the volume of a piece that is worth two cuts
+HOPE = 0.02  # The gain of a cut that gains nothing yet, relative to the excess.
+SPARE = 2  # pieces made for each wanted piece, before they are merged
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """Closed planar faces: each edge (start, end) of points belongs to a face, counter-clockwise from outside.
+
+    face, start, end: (e,). normals: (f, 3) of faces. hull: of the points.
+    """
+
+    points: NDArray[np.float64]
+    face: NDArray[np.intp]
+    start: NDArray[np.intp]
+    end: NDArray[np.intp]
+    normals: NDArray[np.float64]
+
+    def volume(self) -> float:
+        """Return the signed volume: the sum of the cones of each face's fan."""
+        origin = self.points[self.start[0]]
+        a, b, c = (self.points[ids] - origin for ids in (self.first()[self.face], self.start, self.end))
+        return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
+
+    def first(self) -> NDArray[np.intp]:
+        """Return (f,) a point of each face."""
+        first = np.zeros(len(self.normals), np.intp)
+        first[self.face[::-1]] = self.start[::-1]
+        return first
+
+    def take(self, chosen: NDArray[np.bool_]) -> _Piece:
+        """Return the piece of some of the edges, with only the points and faces that they use."""
+        ids, ends = np.unique(np.stack([self.start[chosen], self.end[chosen]]), return_inverse=True)
+        faces, face = np.unique(self.face[chosen], return_inverse=True)
+        start, end = ends.reshape(2, -1)
+        return _Piece(self.points[ids], face, start, end, self.normals[faces])
+
+    def edges(self) -> NDArray[np.intp]:
+        """Return the (k, 2) different edges without a direction."""
+        return np.unique(np.sort(np.stack([self.start, self.end], axis=1), axis=1), axis=0)
+
+
+def cut_into_pieces(
+    surface: Surface, outward: float, pieces: int, corners: int
+) -> Generator[float, None, list[ConvexHull]]:
+    """Divide a closed body into convex hulls, in steps that yield the completed share.
+
+    surface: closed and outward. outward: m; a piece none of whose points is deeper in its hull is not divided.
+    pieces: at most so many. corners: of each hull, at most.
+    """
+    body = [*_connected(_from_surface(surface))]
+    volume = sum(piece.volume() for piece in body)
+    open_pieces = [(piece, *_best_plane(piece, outward, volume)) for piece in body]
+    done: list[_Piece] = []
+    while open_pieces and len(done) + len(open_pieces) < SPARE * pieces:
+        best = max(range(len(open_pieces)), key=lambda i: open_pieces[i][1])
+        piece, gain, plane = open_pieces.pop(best)
+        parts = [*_cut(piece, plane)] if gain > LEAST_GAIN * volume else []
+        if len(parts) < 2:
+            done.append(piece)
+            continue
+        open_pieces += [(part, *_best_plane(part, outward, volume)) for part in parts]
+        yield 0.9 * (len(done) + len(open_pieces)) / (SPARE * pieces)
+    groups = _merge([piece.points for piece in (*done, *(piece for piece, *_ in open_pieces))], pieces, volume)
+    yield 0.95
+    return [convex_hull(points, HULL_RTOL, corners) for points in groups]
+
+
+def _from_surface(surface: Surface) -> _Piece:
+    triangles = surface.all_triangles()[0].astype(np.intp)
+    points = np.asarray(surface.points, np.float64)
+    normal = normals(points, triangles)
+    real = np.linalg.norm(normal, axis=1) > 0.0
+    triangles, normal = triangles[real], normal[real]
+    face = np.arange(len(triangles)).repeat(3)
+    start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
+    return _Piece(points, face, start, end, normal / np.linalg.norm(normal, axis=1)[:, None])
+
+
+def _cut(piece: _Piece, plane: NDArray[np.float64]) -> Iterator[_Piece]:
+    """Yield the connected parts on both sides of a plane, (4,) its normal and offset."""
+    normal = plane[:3]
+    height = piece.points @ normal - plane[3]
+    height[np.abs(height) <= ON_PLANE_RTOL * np.ptp(piece.points, axis=0).max()] = 0.0
+    low, high = np.minimum(piece.start, piece.end), np.maximum(piece.start, piece.end)
+    crosses = np.flatnonzero(height[low] * height[high] < 0.0)
+    keys, which = np.unique(low[crosses] * len(height) + high[crosses], return_inverse=True)
+    low, high = np.divmod(keys, len(height))
+    share = (height[low] / (height[low] - height[high]))[:, None]
+    points = np.concatenate([piece.points, (1.0 - share) * piece.points[low] + share * piece.points[high]])
+    crossing = np.full(len(piece.start), -1)
+    crossing[crosses] = len(height) + which
+    for sign in (1.0, -1.0):
+        half = _half(replace(piece, points=points), sign * height, crossing, sign * normal)
+        if half is not None:
+            yield from _connected(half)
+
+
+def _half(piece: _Piece, height: NDArray, crossing: NDArray, normal: NDArray) -> _Piece | None:
+    """Return the part of a piece above a plane, closed in the plane; crossing: the point on each edge, or -1."""
+    from_above, to_above = height[piece.start] > 0.0, height[piece.end] > 0.0
+    crosses = crossing >= 0
+    from_below, to_below = height[piece.start] < 0.0, height[piece.end] < 0.0
+    kept = (from_above | to_above) & ~from_below & ~to_below | crosses
+    if not kept.any():
+        return None
+    start = np.where(crosses & from_below, crossing, piece.start)
+    end = np.where(crosses & to_below, crossing, piece.end)
+    leaves, enters = kept & from_above & ~to_above, kept & to_above & ~from_above
+    where = np.concatenate([end[leaves], start[enters]])
+    face = np.concatenate([piece.face[leaves], piece.face[enters]])
+    step = np.ones(len(where), np.intp)
+    step[int(np.count_nonzero(leaves)) :] = -1
+    along = np.einsum("ij,ij->i", piece.points[where], np.cross(piece.normals[face], normal))
+    order = np.lexsort((along, face))
+    where, face, count = where[order], face[order], np.cumsum(step[order])
+    chords = np.flatnonzero((count[:-1] != 0) & (where[:-1] != where[1:])).repeat(
+        np.abs(count[:-1][(count[:-1] != 0) & (where[:-1] != where[1:])])
+    )
+    forward = count[chords] > 0
+    begin = np.where(forward, where[chords], where[chords + 1])
+    stop = np.where(forward, where[chords + 1], where[chords])
+    lid = np.full(len(chords), len(piece.normals))
+    whole = _Piece(
+        piece.points,
+        np.concatenate([piece.face[kept], face[chords], lid]),
+        np.concatenate([start[kept], begin, stop]),
+        np.concatenate([end[kept], stop, begin]),
+        np.concatenate([piece.normals, -normal[None]]),
+    )
+    return whole.take(np.ones(len(whole.start), bool))
+
+
+def _connected(piece: _Piece) -> Iterator[_Piece]:
+    """Yield the connected parts of a piece; a cavity, and a hole of a face, belong to the part around them."""
+    label, number = connected_components(len(piece.points), piece.start, piece.end)
+    if number == 1:
+        yield piece
+        return
+    first, second = _joined_by_faces(piece, label)
+    group, _ = connected_components(number, first, second)
+    label = group[label]
+    parts = [piece.take(label[piece.start] == one) for one in np.unique(label[piece.start])]
+    volumes = [part.volume() for part in parts]
+    boxes = [(part.points.min(axis=0), part.points.max(axis=0)) for part in parts]
+    owner = list(range(len(parts)))
+    for i in np.flatnonzero(np.array(volumes) < 0.0).tolist():
+        around = [
+            j for j in owner
+            if volumes[j] > 0.0 and (boxes[j][0] <= boxes[i][0]).all() and (boxes[j][1] >= boxes[i][1]).all()
+        ]  # fmt: skip
+        owner[i] = min(around, key=volumes.__getitem__, default=i)
+    for i in sorted({*owner}):
+        members = [part for part, whose in zip(parts, owner) if whose == i]
+        yield members[0] if len(members) == 1 else _join(members)
+
+
+def _join(parts: Sequence[_Piece]) -> _Piece:
+    points = np.cumsum([0, *(len(part.points) for part in parts)])
+    faces = np.cumsum([0, *(len(part.normals) for part in parts)])
+    return _Piece(
+        np.concatenate([part.points for part in parts]),
+        np.concatenate([part.face + shift for part, shift in zip(parts, faces)]),
+        np.concatenate([part.start + shift for part, shift in zip(parts, points)]),
+        np.concatenate([part.end + shift for part, shift in zip(parts, points)]),
+        np.concatenate([part.normals for part in parts]),
+    )
+
+
+def _joined_by_faces(piece: _Piece, label: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return pairs of labels: of the holes in faces, and of the cycles around these."""
+    pairs = []
+    of_edge = label[piece.start]
+    low, high = np.full(len(piece.normals), len(label)), np.zeros(len(piece.normals), np.intp)
+    np.minimum.at(low, piece.face, of_edge)
+    np.maximum.at(high, piece.face, of_edge)
+    for face in np.flatnonzero(low < high).tolist():
+        edges = np.flatnonzero(piece.face == face)
+        a, b = piece.points[piece.start[edges]], piece.points[piece.end[edges]]
+        middle = a.mean(axis=0)
+        twice = np.einsum("ij,j->i", np.cross(a - middle, b - middle), piece.normals[face])
+        cycles, which = np.unique(of_edge[edges], return_inverse=True)
+        area = np.bincount(which, twice)
+        box = np.array([[a[which == i].min(axis=0), a[which == i].max(axis=0)] for i in range(len(cycles))])
+        for hole in np.flatnonzero(area <= 0.0).tolist():
+            around = (area > 0.0) & (box[:, 0] <= box[hole, 0]).all(axis=1) & (box[:, 1] >= box[hole, 1]).all(axis=1)
+            if around.any():
+                outer = np.flatnonzero(around)[area[around].argmin()]
+                pairs.append((cycles[hole], cycles[outer]))
+    first, second = np.array(pairs, np.intp).reshape(-1, 2).T
+    return first, second
+
+
+def _hull_volume(piece: _Piece) -> float:
+    return float(hull_volumes(piece.points, np.zeros(1, np.intp), HULL_RTOL)[0])
+
+
+def _best_plane(piece: _Piece, outward: float, volume: float) -> tuple[float, NDArray[np.float64]]:
+    """Return the largest reduction of hulls by a plane, on a coarse copy of the piece, and the (4,) plane.
+
+    No single plane reduces the hulls of a ring or a cup: then planes through the middle are followed by another one.
+    """
+    coarse = _coarse(piece)
+    if outward > 0.0 and _gap(coarse) <= outward:
+        return 0.0, np.zeros(4)
+    gain, best = _best_of(coarse, piece)
+    excess = _hull_volume(piece) - piece.volume()
+    if gain > LEAST_GAIN * volume or excess < LEAST_EXCESS * piece.volume():
+        return gain, best
+    middle = _even_planes(coarse.points, np.array([0.5]))
+    gains = [sum(_best_of(part, part)[0] for part in _cut(coarse, plane)) for plane in middle]
+    # The hulls of a spiral's halves overlap: nothing gains until it is cut often, and most is merged again.
+    return max(*gains, HOPE * excess), middle[int(np.argmax(gains))]
+
+
+def _best_of(coarse: _Piece, piece: _Piece) -> tuple[float, NDArray[np.float64]]:
+    """Return the largest reduction of the hulls by one plane, and the plane."""
+    size = float(np.ptp(piece.points, axis=0).max())
+    planes = np.concatenate([_concave_planes(piece, size), _even_planes(piece.points, SHARES)])
+    planes = planes[np.argsort(-_gains(coarse, planes, _rough_volumes), kind="stable")[:LIKELY_PLANES]]
+    gains = _gains(coarse, planes)
+    best = planes[gains.argmax()]
+    if coarse is piece:
+        return float(gains.max()), best
+    shifts = size * np.array([-0.06, -0.03, -0.015, 0.015, 0.03, 0.06])
+    near = np.concatenate([best[None], best + shifts[:, None] * (0.0, 0.0, 0.0, 1.0)])
+    gains = _gains(coarse, near)
+    return float(gains.max()), near[gains.argmax()]
+
+
+def _gap(piece: _Piece) -> float:
+    """Return about the largest distance of the hull's faces from the piece."""
+    hull = convex_hull(piece.points, SEARCH_RTOL, 64)
+    corners = hull.points[hull.triangles]
+    samples = np.concatenate([corners.mean(axis=1), (corners[:, 0] + corners[:, 1]) / 2.0])
+    fans = piece.points[np.stack([piece.first()[piece.face], piece.start, piece.end], axis=1)]
+    return max(float(triangle_distances(sample, fans).min()) for sample in samples)
+
+
+def _coarse(piece: _Piece) -> _Piece:
+    """Return a copy of a piece with at most some points: one for each cell of a grid, the farthest from the middle."""
+    points, cells = piece.points, 16
+    if len(points) <= COARSE_POINTS:
+        return piece
+    low, extent = points.min(axis=0), np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
+    far = np.argsort(-((points - points.mean(axis=0)) ** 2).sum(axis=1), kind="stable")
+    while True:
+        number = np.maximum(np.ceil(cells * extent / extent.max()), 2.0)  # a thin body keeps both of its sides
+        cell = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp) @ (cells * cells, cells, 1)
+        _, first, which = np.unique(cell[far], return_index=True, return_inverse=True)
+        if len(first) <= COARSE_POINTS or cells == 2:
+            break
+        cells -= 1
+    chosen = np.empty(len(points), np.intp)
+    chosen[far] = far[first][which]
+    moved = replace(piece, start=chosen[piece.start], end=chosen[piece.end])
+    return moved.take(moved.start != moved.end)
+
+
+def _concave_planes(piece: _Piece, size: float) -> NDArray[np.float64]:
+    """Return (k, 4) planes through concave edges: in either face, and halfway between; the most important ones."""
+    count = len(piece.points)
+    key = np.minimum(piece.start, piece.end) * count + np.maximum(piece.start, piece.end)
+    order = np.lexsort((piece.start > piece.end, key))
+    same = key[order][1:] == key[order][:-1]
+    alone = ~np.append(False, same[:-1]) & ~np.append(same[1:], False)
+    first, second = order[:-1][same & alone], order[1:][same & alone]
+    a, b = piece.points[piece.start[first]], piece.points[piece.end[first]]
+    one, other = piece.normals[piece.face[first]], piece.normals[piece.face[second]]
+    turn = np.einsum("ij,ij->i", np.cross(one, other), b - a)
+    concave = turn < -1e-6 * size
+    a, b, one, other, weight = a[concave], b[concave], one[concave], other[concave], -turn[concave]
+    if not len(a):
+        return np.zeros((0, 4))
+    between = np.cross(one + other, b - a)
+    normal = np.concatenate([one, other, between])
+    length = np.linalg.norm(normal, axis=1)
+    real = length > 1e-9 * size
+    normal = normal[real] / length[real, None]
+    at, weight = np.tile(a, (3, 1))[real], np.tile(weight, 3)[real]
+    normal *= np.where(normal[np.arange(len(normal)), np.abs(normal).argmax(axis=1)] < 0.0, -1.0, 1.0)[:, None]
+    planes = np.column_stack([normal, np.einsum("ij,ij->i", normal, at)])
+    middle = np.append(piece.points.mean(axis=0), -1.0)
+    steps = np.column_stack([np.rint(normal * 6.0), np.rint(planes @ middle / size * 24.0)])
+    _, where, which = np.unique(steps, axis=0, return_index=True, return_inverse=True)
+    total = np.bincount(which.ravel(), weight)
+    return planes[where[np.argsort(-total, kind="stable")[:MAX_PLANES]]]
+
+
+def _even_planes(points: NDArray[np.float64], shares: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return (k, 4) planes that divide the extents along the principal axes of the points and along x, y and z."""
+    offsets = points - points.mean(axis=0)
+    axes = np.concatenate([np.linalg.eigh(offsets.T @ offsets)[1].T, np.eye(3)])
+    along = points @ axes.T
+    low, high = along.min(axis=0), along.max(axis=0)
+    levels = low[:, None] + (high - low)[:, None] * shares
+    return np.column_stack([axes.repeat(len(shares), axis=0), levels.ravel()])
+
+
+def _gains(
+    piece: _Piece, planes: NDArray[np.float64], measure: Callable[..., NDArray[np.float64]] = hull_volumes
+) -> NDArray[np.float64]:
+    """Return by how much each plane reduces the volume of the hulls of connected parts, for each part it adds."""
+    points, edges = piece.points, piece.edges()
+    height = points @ planes[:, :3].T - planes[:, 3]  # (n, k)
+    height[np.abs(height) <= ON_PLANE_RTOL * np.ptp(points, axis=0).max()] = 0.0
+    a, b = height[edges[:, 0]], height[edges[:, 1]]
+    edge, plane = np.nonzero(a * b < 0.0)
+    share = (a[edge, plane] / (a[edge, plane] - b[edge, plane]))[:, None]
+    new = (1.0 - share) * points[edges[edge, 0]] + share * points[edges[edge, 1]]
+    sets, owners, inward = [points], [np.zeros(len(points), np.intp)], [np.zeros(1, bool)]
+    out = np.stack([np.bincount(piece.start, column[piece.face], len(points)) for column in piece.normals.T], axis=1)
+    total = 1
+    whose = [np.full(1, -1)]
+    for sign in (1.0, -1.0):
+        above = sign * height >= 0.0
+        vertex, of = np.nonzero(above)
+        number = np.full(height.shape, -1)
+        number[vertex, of] = np.arange(len(vertex))
+        ends = number[edges]  # (e, 2, k)
+        link = np.nonzero((ends >= 0).all(axis=1) & ((a != 0.0) | (b != 0.0)))  # an edge in the plane joins nothing
+        new_number = len(vertex) + np.arange(len(new))
+        inner = ends[edge, :, plane].max(axis=1)
+        label, parts = connected_components(
+            len(vertex) + len(new),
+            np.concatenate([ends[link[0], 0, link[1]], new_number]),
+            np.concatenate([ends[link[0], 1, link[1]], inner]),
+        )
+        sets += [points[vertex], new]
+        inward.append(_face_inward(points[vertex], out[vertex], label[: len(vertex)], parts))
+        owners.append(total + label)
+        owner = np.empty(parts, np.intp)
+        owner[label] = np.concatenate([of, plane])
+        whose.append(owner)
+        total += parts
+    owner, place, whose = np.concatenate(owners), np.concatenate(sets), np.concatenate(whose)
+    order = np.argsort(owner, kind="stable")
+    starts = np.searchsorted(owner[order], np.arange(total))
+    around = _boxes_around(place[order], starts, whose, np.concatenate(inward))
+    order = order[np.argsort(around[owner[order]], kind="stable")]
+    outer, starts = np.unique(around[owner[order]], return_index=True)
+    volumes = measure(place[order], starts, SEARCH_RTOL)
+    parts = np.bincount(whose[outer[1:]], minlength=len(planes))
+    return (volumes[0] - np.bincount(whose[outer[1:]], volumes[1:], len(planes))) / np.maximum(parts - 1, 1)
+
+
+@lru_cache(maxsize=1)
+def _directions() -> ConvexHull:
+    return convex_hull(spread_directions(DIRECTIONS), 1e-9)
+
+
+def _rough_volumes(points: NDArray[np.float64], starts: NDArray[np.intp], _: float) -> NDArray[np.float64]:
+    """Return about the volumes of hulls: those of polyhedra of the farthest points in some directions."""
+    ball = _directions()
+    sizes = np.diff(np.append(starts, len(points)))
+    reach = points @ ball.points.T
+    row, direction = np.nonzero(reach >= np.maximum.reduceat(reach, starts).repeat(sizes, axis=0))
+    farthest = np.empty((len(starts), len(ball.points), 3))
+    farthest[np.arange(len(starts)).repeat(sizes)[row], direction] = points[row]
+    farthest -= farthest[:, :1].copy()
+    a, b, c = (farthest[:, ball.triangles[:, k]] for k in range(3))
+    return np.einsum("ijk,ijk->i", a, np.cross(b, c)) / 6.0
+
+
+def _face_inward(points: NDArray, out: NDArray, label: NDArray[np.intp], parts: int) -> NDArray[np.bool_]:
+    """Return a (parts,) mask of the parts whose faces look at the middle: walls of holes. out: (n, 3) normals."""
+    count = np.bincount(label, minlength=parts)
+    flux = np.bincount(label, np.einsum("ij,ij->i", points, out), parts)
+    for place, normal in zip(points.T, out.T):
+        flux -= np.bincount(label, place, parts) * np.bincount(label, normal, parts) / np.maximum(count, 1)
+    return flux < 0.0
+
+
+def _boxes_around(
+    points: NDArray, starts: NDArray[np.intp], plane: NDArray[np.intp], inward: NDArray[np.bool_]
+) -> NDArray[np.intp]:
+    """Return, for each set of points, itself, or of walls of a hole the set of the same plane around its box."""
+    low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
+    size = (high - low).sum(axis=1)
+    around = np.arange(len(starts))
+    order = np.argsort(plane, kind="stable")
+    for group in np.split(order, np.flatnonzero(np.diff(plane[order])) + 1):
+        if inward[group].any():
+            inside = (low[group] <= low[group, None]).all(axis=2) & (high[group] >= high[group, None]).all(axis=2)
+            largest = np.where(inside, size[group], -1.0).argmax(axis=1)
+            around[group] = np.where(inward[group] & (size[group][largest] > size[group]), group[largest], group)
+    return around
+
+
+def _merge(sets: list[NDArray[np.float64]], most: int, volume: float) -> list[NDArray[np.float64]]:
+    """Merge sets of points, each time the pair whose common hull adds least, until at most so many are left.
+
+    Merges that add nothing go on.
+    """
+    sets = [_hull_corners(points) for points in sets]
+    volumes = _volumes(sets)
+    cost = np.full((len(sets), len(sets)), np.inf)
+    rows, columns = np.triu_indices(len(sets), 1)
+    cost[rows, columns] = _volumes([np.concatenate([sets[i], sets[j]]) for i, j in zip(rows, columns)])
+    cost[rows, columns] -= volumes[rows] + volumes[columns]
+    while len(sets) > 1:
+        i, j = np.unravel_index(cost.argmin(), cost.shape)
+        if len(sets) <= most and cost[i, j] > LEAST_GAIN * volume:
+            break
+        keep = [k for k in range(len(sets)) if k not in (i, j)]
+        merged = _hull_corners(np.concatenate([sets[i], sets[j]]))
+        sets, cost = [sets[k] for k in keep], cost[np.ix_(keep, keep)]
+        both = _volumes([*(np.concatenate([one, merged]) for one in sets), merged])
+        column = both[:-1] - volumes[keep] - both[-1]
+        volumes = np.append(volumes[keep], both[-1])
+        cost = np.pad(cost, ((0, 1), (0, 1)), constant_values=np.inf)
+        cost[:-1, -1] = column
+        sets.append(merged)
+    return sets
+
+
+def _hull_corners(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    return convex_hull(points, HULL_RTOL).points
+
+
+def _volumes(sets: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    if not sets:
+        return np.zeros(0)
+    starts = np.cumsum([0, *(len(points) for points in sets[:-1])])
+    return hull_volumes(np.concatenate(sets), starts, HULL_RTOL)

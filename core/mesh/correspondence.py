@@ -1,0 +1,253 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Correspondences of two meshes: the similarities that lay one onto the other, and the elements that meet.
+
+A similarity is fixed by the images of two vertices and the hand. Two vertices of one mesh that few others resemble are
+paired with all that resemble them in the other mesh, so that every symmetry is found. Each candidate is proven on all
+vertices, edges and faces, which may be numbered in any order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+DIRECTION = np.array([0.7071, 0.5477, 0.4472])  # along which the points of hardly any mesh coincide
+MAX_CANDIDATES = 500  # similarities that are compared in full
+PROBES = 6  # vertices that are compared first
+RESEMBLANCE = 20.0  # tolerances within which the scores of equal vertices lie
+Indices = NDArray[np.intp]
+
+
+class Elements:
+    """A mesh: (n, 3) points, (e, 2) edges, (c,) vertices of the corners, (f + 1,) first corners of the faces.
+
+    unit_points: the points about their middle, in units of the radius. scores: (n,) numbers that no similarity changes.
+    """
+
+    def __init__(self, points: NDArray[np.float64], edges: Indices, corners: Indices, starts: Indices):
+        self.points, self.edges, self.corners, self.starts = points, edges, corners, starts
+        self.sizes = np.diff(starts)
+        self.middle = points.mean(axis=0) if len(points) else np.zeros(3)
+        self.radius = float(np.linalg.norm(points - self.middle, axis=1).max(initial=0.0))
+        self.unit_points = (points - self.middle) / (self.radius or 1.0)
+        lengths = np.linalg.norm(self.unit_points[edges[:, 0]] - self.unit_points[edges[:, 1]], axis=1)
+        valence = np.bincount(edges.ravel(), minlength=len(points))
+        mean = np.bincount(edges.ravel(), lengths.repeat(2), len(points)) / np.maximum(valence, 1)
+        self.scores = np.linalg.norm(self.unit_points, axis=1) + 0.618 * mean + 4.0 * valence
+
+
+@dataclass(frozen=True, eq=False)
+class Correspondence:
+    """The similarity p → linear · p + offset that lays one mesh onto another, and the elements that meet.
+
+    vertices, edges, faces, corners: the other mesh's index for each element.
+    """
+
+    linear: NDArray[np.float64]
+    offset: NDArray[np.float64]
+    vertices: Indices
+    edges: Indices
+    faces: Indices
+    corners: Indices
+
+    @property
+    def is_still(self) -> bool:
+        """Whether the similarity is the identity."""
+        return bool((self.linear == np.eye(3)).all() and not self.offset.any())
+
+    @property
+    def is_ordered(self) -> bool:
+        """Whether vertices and corners have the same numbers in both meshes."""
+        return all((indices == np.arange(len(indices))).all() for indices in (self.vertices, self.corners))
+
+
+def correspondences(
+    first: Elements, second: Elements, tolerance: float, labels: tuple[NDArray, NDArray] | None = None
+) -> Iterator[Correspondence]:
+    """Yield the correspondences of two meshes with equal counts; tolerance: relative to the second mesh's radius.
+
+    labels: (n,) numbers that equal vertices have in common. The correspondence that keeps the numbers of all vertices
+    comes first, if there is one; then those that turn least.
+    """
+    count, loose = len(first.points), 4.0 * tolerance
+    if not count or not first.radius or not second.radius:
+        return
+    if not np.array_equal(np.sort(first.sizes), np.sort(second.sizes)):
+        return
+    scores = [mesh.scores + label for mesh, label in zip((first, second), labels or (0.0, 0.0))]
+    if np.abs(np.sort(scores[0]) - np.sort(scores[1])).max() > RESEMBLANCE * loose:
+        return
+    same = np.arange(count)
+    for mirrored in (False, True):
+        if found := _prove(first, second, same, same, mirrored, tolerance):
+            yield found
+    targets = second.unit_points
+    others = _first_near(targets, targets, loose)
+    for turn in _candidate_turns(first.unit_points, targets, scores, loose):
+        places = _first_near(first.unit_points @ turn.T, targets, loose)
+        if found := _prove(first, second, places, others, bool(np.linalg.det(turn) < 0.0), tolerance):
+            yield found
+
+
+def _first_near(points: NDArray, targets: NDArray, tolerance: float) -> Indices:
+    """Return for each of (n, 3) points the first of the (m, 3) targets within the tolerance, or m."""
+    along, places, reach = targets @ DIRECTION, points @ DIRECTION, 2.0 * tolerance
+    order = np.argsort(along, kind="stable")
+    low = np.searchsorted(along[order], places - reach)
+    high = np.searchsorted(along[order], places + reach, side="right")
+    found = np.full(len(points), len(targets))
+    for k in range((high - low).max()):
+        rows = np.flatnonzero(low + k < high)
+        near = order[low[rows] + k]
+        is_near = np.abs(points[rows] - targets[near]).max(axis=1) <= tolerance
+        found[rows[is_near]] = np.minimum(found[rows[is_near]], near[is_near])
+    return found
+
+
+def _candidate_turns(
+    points: NDArray, targets: NDArray, scores: list[NDArray], tolerance: float
+) -> Iterator[NDArray[np.float64]]:
+    """Yield orthogonal (3, 3) maps that may lay points onto targets with the same scores: turns first, least first."""
+    near = RESEMBLANCE * tolerance
+    pair = _anchors(points, scores[0], near)
+    if pair is None:
+        return
+    a, b = points[list(pair)]
+    alike = [np.abs(scores[1] - scores[0][anchor]) <= near for anchor in pair]
+    frame, turns = _frames(a[None], b[None])[0], [np.empty((0, 3, 3))]
+    for image in targets[alike[0]]:
+        others = targets[alike[1] & (np.abs(targets @ image - a @ b) <= near)]
+        frames = _frames(np.broadcast_to(image, others.shape), others)
+        turns += [(frames * (1.0, 1.0, hand)) @ frame.T for hand in (1.0, -1.0)]
+    maps = np.concatenate(turns)
+    for probe in np.argsort(scores[0])[:: -(-len(targets) // PROBES)]:
+        ends = targets[np.abs(scores[1] - scores[0][probe]) <= near]
+        hits = [len(ends) and np.abs(ends - image).max(axis=1).min() <= near for image in maps @ points[probe]]
+        maps = maps[np.array(hits, bool)]
+    order = np.lexsort((-np.trace(maps, axis1=1, axis2=2), np.linalg.det(maps) < 0.0))
+    yield from maps[order[:MAX_CANDIDATES]]
+
+
+def _anchors(points: NDArray, scores: NDArray, near: float) -> tuple[int, int] | None:
+    """Return two vertices, not in line with the middle, that as few others as possible resemble."""
+
+    def count_alike(scores: NDArray) -> Indices:
+        ordered = np.sort(scores)
+        return np.searchsorted(ordered, scores + near, side="right") - np.searchsorted(ordered, scores - near)
+
+    a = int(np.where(np.linalg.norm(points, axis=1) >= 0.3, count_alike(scores), len(points) + 1).argmin())
+    across = np.linalg.norm(np.cross(points, points[a]), axis=1)
+    if across.max() <= near:
+        return None
+    count = count_alike(scores + 1.32 * (points @ points[a]))
+    return a, int(np.where(across >= min(0.1, across.max()), count, len(points) + 1).argmin())
+
+
+def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+    """Return (k, 3, 3) right-handed frames, as columns, whose first axes are (k, 3) and in whose planes lie others."""
+    x = first / np.linalg.norm(first, axis=1, keepdims=True)
+    z = np.cross(x, second)
+    z /= np.maximum(np.linalg.norm(z, axis=1, keepdims=True), np.finfo(float).tiny)
+    return np.stack([x, np.cross(z, x), z], axis=2)
+
+
+def _prove(
+    first: Elements, second: Elements, places: Indices, others: Indices, mirrored: bool, tolerance: float
+) -> Correspondence | None:
+    """Return the correspondence of meshes whose vertices have (n,) numbers of places, equal ones for those that meet.
+
+    None if points, edges or faces do not meet.
+    """
+    meeting = _match_faces(first, second, places, others, mirrored)
+    if meeting is None:
+        return None
+    faces, corners = meeting
+    vertices = np.full(len(first.points), -1)
+    vertices[first.corners] = second.corners[corners]
+    if not np.array_equal(vertices[first.corners], second.corners[corners]):
+        return None
+    loose, is_free = np.flatnonzero(vertices < 0), np.ones(len(vertices), bool)
+    is_free[vertices[vertices >= 0]] = False
+    free = np.flatnonzero(is_free)
+    if len(loose) != len(free):
+        return None
+    vertices[loose[np.argsort(places[loose], kind="stable")]] = free[np.argsort(others[free], kind="stable")]
+    edges = _match_rows(np.sort(vertices[first.edges], axis=1), np.sort(second.edges, axis=1))
+    if edges is None:
+        return None
+    points, met, limit = first.points, second.points[vertices], tolerance * second.radius
+    linear, offset = _similarity(points, met, mirrored)
+    error = np.linalg.norm(points @ linear.T + offset - met, axis=1).max()
+    if error > limit:
+        return None
+    # Of maps that are as good but for rounding, the one that changes least counts.
+    rounding = 4.0 * np.finfo(np.float32).eps * max(np.abs(points).max(), np.abs(met).max())
+    for simple in [] if mirrored else [np.zeros(3), met.mean(axis=0) - first.middle]:
+        if np.linalg.norm(points + simple - met, axis=1).max() <= min(2.0 * error + rounding, limit):
+            linear, offset = np.eye(3), simple
+            break
+    found = Correspondence(linear, offset, vertices, edges, faces, corners)
+    return found if _triangulates_alike(first, second, found, limit) else None
+
+
+def _similarity(source: NDArray, target: NDArray, mirrored: bool) -> tuple[NDArray, NDArray]:
+    """Return the map and the offset of the similarity of this hand that moves (n, 3) points nearest to others."""
+    middle, other = source.mean(axis=0), target.mean(axis=0)
+    a, b = source - middle, target - other
+    u, _, vt = np.linalg.svd(b.T @ a)
+    hand = (-1.0 if mirrored else 1.0) * np.sign(np.linalg.det(u @ vt))
+    linear = np.sqrt((b * b).sum() / (a * a).sum()) * ((u * (1.0, 1.0, hand)) @ vt)
+    return linear, other - linear @ middle
+
+
+def _match_faces(
+    first: Elements, second: Elements, places: Indices, others: Indices, mirrored: bool
+) -> tuple[Indices, Indices] | None:
+    """Return the second mesh's face and corner for each of the first's; of a mirror image, corners run backward."""
+    faces, corners = np.empty(len(first.sizes), np.intp), np.empty(len(first.corners), np.intp)
+    for size in np.unique(first.sizes):
+        here, there = (np.flatnonzero(mesh.sizes == size) for mesh in (first, second))
+        steps = np.arange(size)
+        own = first.starts[here][:, None] + (-steps % size if mirrored else steps)
+        keys, own = _from_least(places[first.corners[own]], own)
+        met = second.starts[there][:, None] + steps
+        other_keys, met = _from_least(others[second.corners[met]], met)
+        order = _match_rows(keys, other_keys)
+        if order is None:
+            return None
+        faces[here], corners[own] = there[order], met[order]
+    return faces, corners
+
+
+def _from_least(keys: Indices, corners: Indices) -> tuple[Indices, Indices]:
+    """Return the (k, s) keys and corners of faces, each row turned so that it begins with its least key."""
+    turned = (keys.argmin(axis=1)[:, None] + np.arange(keys.shape[1])) % keys.shape[1]
+    return np.take_along_axis(keys, turned, axis=1), np.take_along_axis(corners, turned, axis=1)
+
+
+def _match_rows(rows: Indices, others: Indices) -> Indices | None:
+    """Return the index in `others` of each row, or None if the rows are not the same."""
+    order, other_order = np.lexsort(rows.T[::-1]), np.lexsort(others.T[::-1])
+    if not np.array_equal(rows[order], others[other_order]):
+        return None
+    found = np.empty(len(rows), np.intp)
+    found[order] = other_order
+    return found
+
+
+def _triangulates_alike(first: Elements, second: Elements, found: Correspondence, limit: float) -> bool:
+    """Return whether faces that begin at another corner, and so may have other triangles, are flat."""
+    begins = second.starts[found.faces]
+    turned = (first.sizes > 3) & (found.corners[first.starts[:-1]] != begins)
+    for size in np.unique(first.sizes[turned]):
+        rows = np.flatnonzero(turned & (first.sizes == size))
+        places = second.points[second.corners[begins[rows][:, None] + np.arange(size)]]
+        places = places - places.mean(axis=1, keepdims=True)
+        normals = np.linalg.svd(places, full_matrices=False)[2][:, 2]
+        if np.abs(np.einsum("fsi,fi->fs", places, normals)).max() > limit:
+            return False
+    return True

@@ -1,0 +1,236 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Momentum of a body of moving parts from frame to frame, and the motion that a body without contacts must have.
+
+Velocities are those in the middle between two frames. The center's is exact on a parabola. Parts are followed in the
+axes of the heaviest one, whose turn is interpolated as a quaternion: a rigid body that turns is a body at rest there.
+No interpolation crosses a take-off or a landing, where velocities jump.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.rotations import polar_rotation, quaternion, rotation_matrix
+
+Flight = tuple[int, int]  # indices of the last frame on the ground, or the first of all, and of the first one again
+Span = tuple[int, int, float, float]  # indices of the first and last frame; linear and angular momentum from nothing
+
+NODES, DEGREE = 9, 8  # of the polynomial through the frames around a velocity
+CLOSE, CLOSE_DEGREE = 0.02, 5  # seconds: closer frames turn less, and are captured, with noise that averages out
+AVERAGED = 3  # velocities between frames that those at a frame are computed from
+UNEXPLAINED = 0.2  # of the weight: more force than that, without a contact, comes from nothing
+SMOOTHED = 0.1  # seconds over which noise of captured motion averages out
+TRIALS, CORRECTIONS = 12, 10  # of a turn between two frames, and of all turns
+CONSTANT = 1e-9  # relative change of the angular momentum
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """The p parts of a body at f frames.
+
+    step: seconds from frame to frame. masses: (p,). centers: (f, p, 3). spreads: (f, p, 3, 3) integrals of r rᵀ dm
+    about each part's center. linear: (f, p, 3, 3) matrices from each part's own axes to the world.
+    """
+
+    step: float
+    masses: NDArray[np.float64]
+    centers: NDArray[np.float64]
+    spreads: NDArray[np.float64]
+    linear: NDArray[np.float64]
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """(f, 3) centers of mass."""
+        first = self.centers[0, 0]
+        return first + np.einsum("p,fpi->fi", self.masses / self.masses.sum(), self.centers - first)
+
+    def turned(self, turns: NDArray[np.float64]) -> Course:
+        """Return the body turned about its center by a (3, 3) rotation at each frame."""
+        center, each = self.center[:, None], turns[:, None]
+        centers = center + np.einsum("fij,fpj->fpi", turns, self.centers - center)
+        spreads = each @ self.spreads @ each.swapaxes(-1, -2)
+        return Course(self.step, self.masses, centers, spreads, each @ self.linear)
+
+
+def find_flights(touching: ArrayLike) -> list[Flight]:
+    """Return the flights in (f,) frames that touch the ground or do not, with the frames of contact at their ends."""
+    last = len(np.asarray(touching)) - 1
+    return [(max(start - 1, 0), min(end, last)) for start, end in _runs(~np.asarray(touching, bool))]
+
+
+def _runs(true: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Return starts and ends of the runs of true values."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], true, [False]]).astype(int)))
+    return [(start, end) for start, end in edges.reshape(-1, 2).tolist()]
+
+
+def momenta_between(course: Course, first: int, last: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the motion in the middle between neighboring frames of a section without jumps, and (n, 3, 3) inertia.
+
+    The motion is (n, 7): the center's velocity, the angular momentum about the center, and the kinetic energy.
+    """
+    rows, count, step = slice(first, last + 1), last - first, course.step
+    masses, center = course.masses, course.center[rows]
+    axes = _axes(course.linear[rows, int(masses.argmax())])
+    back = rotation_matrix(axes).swapaxes(-1, -2)[:, None]
+    degree = DEGREE if step > CLOSE else CLOSE_DEGREE
+    mean, rate = (_stencils(count + 1, np.arange(count) + 0.5, NODES, order, degree) for order in (False, True))
+    arms = (back @ (course.centers[rows] - center[:, None])[..., None])[..., 0]
+    linear = back @ course.linear[rows]
+    arm, spread = mean(arms), mean(back @ course.spreads[rows] @ back.swapaxes(-1, -2))
+    arm_rate, shape, turn = rate(arms) / step, mean(linear), mean(axes)
+    shape[np.linalg.det(shape) == 0.0] = np.eye(3)  # a bone scaled to nothing has no spread either
+    growth = (rate(linear) / step) @ np.linalg.inv(shape)
+    rotation, turn_rate = rotation_matrix(turn), rate(axes) / step
+    # Twice the vector of the rate times the conjugate is the angular velocity.
+    spin = turn[:, :1] * turn_rate[:, 1:] - turn_rate[:, :1] * turn[:, 1:] - np.cross(turn_rate[:, 1:], turn[:, 1:])
+    spin = 2.0 * np.einsum("fji,fj->fi", rotation, spin) / (turn * turn).sum(axis=1)[:, None]
+    second = spread.sum(axis=1) + np.einsum("p,fpi,fpj->fij", masses, arm, arm)
+    inertia = np.trace(second, axis1=1, axis2=2)[:, None, None] * np.eye(3) - second
+    product = growth @ spread
+    skew = (product - product.swapaxes(-1, -2)).sum(axis=1)
+    inner = np.einsum("p,fpi->fi", masses, np.cross(arm, arm_rate))
+    inner += np.stack([skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]], axis=1)
+    angular = inner + np.einsum("fij,fj->fi", inertia, spin)
+    velocity = np.diff(center, axis=0) / step
+    energy = masses.sum() * (velocity**2).sum(axis=1) + (spin * (angular + inner)).sum(axis=1)
+    energy += np.einsum("p,fpi->f", masses, arm_rate**2) + (product * growth).sum(axis=(1, 2, 3))
+    angular = np.einsum("fij,fj->fi", rotation, angular)
+    return np.column_stack([velocity, angular, energy / 2.0]), rotation @ inertia @ rotation.swapaxes(-1, -2)
+
+
+def momenta(course: Course, flights: Sequence[Flight]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the (f, 7) motion at the frames and its rate; at the ends of a flight, those of the flight."""
+    now, change = np.zeros((2, len(course.centers), 7))
+    ends = sorted({0, len(course.centers) - 1, *(end for flight in flights for end in flight)})
+    for first, last in sorted(zip(ends, ends[1:]), key=lambda section: section in flights):
+        between, at = momenta_between(course, first, last)[0], np.arange(last - first + 1) - 0.5
+        now[first : last + 1] = _stencils(last - first, at, AVERAGED)(between)
+        change[first : last + 1] = _stencils(last - first, at, AVERAGED, derivative=True)(between) / course.step
+    return now, change
+
+
+def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray) -> list[Span]:
+    """Return the frames of flights at which the momenta change otherwise than by gravity, and by how much.
+
+    A force above a fifth of the weight is unexplained, or its torque at the body's radius of gyration.
+    """
+    spans, mass = [], float(course.masses.sum())
+    limit = UNEXPLAINED * mass * float(np.linalg.norm(gravity))
+    for first, last in flights:
+        if last - first < 2:
+            continue
+        between, inertia = momenta_between(course, first, last)
+        nodes = min(2 * max(1, round(SMOOTHED / course.step / 2.0)), last - first)
+        slope = _stencils(last - first, np.arange(last - first - 1) + 0.5, nodes, derivative=True, degree=1)
+        change = slope(between) / course.step
+        force = mass * np.linalg.norm(change[:, :3] - gravity, axis=1)
+        torque = np.linalg.norm(change[:, 3:6], axis=1)
+        gyration = np.sqrt(np.trace(inertia, axis1=1, axis2=2).mean() / (2.0 * mass))
+        for start, end in _runs((force > limit) | (torque > limit * gyration)):
+            sums = (float(values[start:end].sum()) * course.step for values in (force, torque))
+            spans.append((first + 1 + start, first + end, *sums))
+    return spans
+
+
+def zero_moment_points(
+    center: NDArray, height: NDArray, force: NDArray, torque: NDArray, weight: NDArray
+) -> NDArray[np.float64]:
+    """Return (f, 3) points of the ground at which the contact forces have no moment along it; NaN without such forces.
+
+    center: (f, 3). height: (f,) above the ground. force, torque: (f, 3) rates of the momenta. weight: (3,), a force.
+    """
+    up = -weight / np.linalg.norm(weight)
+    carried = force - weight
+    upward = carried @ up
+    moment = np.cross(up, torque) - height[:, None] * carried
+    upward = np.where(upward > 1e-3 * np.linalg.norm(weight), upward, np.nan)
+    return center + moment / upward[:, None]
+
+
+def ballistic_arc(start: NDArray, end: NDArray, frames: int, step: float, gravity: ArrayLike) -> NDArray[np.float64]:
+    """Return (frames + 1, 3) places of a free fall from one place to another."""
+    share = np.arange(frames + 1)[:, None] / frames
+    fall = np.asarray(gravity, np.float64) * (0.5 * (frames * step) ** 2)
+    return start + share * (end - start) - share * (1.0 - share) * fall
+
+
+def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
+    """Return the number of frames, not whole, of a free fall as high as an (f, 3) path, between its ends."""
+    strength = float(np.linalg.norm(gravity))
+    heights = -(center - center[0]) @ np.asarray(gravity, np.float64) / strength
+    top = float(heights.max())
+    return float(np.sqrt(2.0 * top / strength) + np.sqrt(2.0 * (top - heights[-1]) / strength)) / step
+
+
+def turns_of_constant_spin(course: Course, first: int, last: int) -> NDArray[np.float64]:
+    """Return (last - first + 1, 3, 3) turns about the center that keep the angular momentum after the first frame.
+
+    They are integrated from frame to frame, then corrected until the turned body, measured as any other, keeps it.
+    """
+    (motion, inertia), step = momenta_between(course, first, last), course.step
+    angular, inverse = motion[:, 3:6], np.linalg.inv(inertia)
+    kept = angular[0]
+    turns = np.tile(np.eye(3), (last - first + 1, 1, 1))
+    for index in range(last - first):
+        rate = np.zeros(3)
+        for _ in range(TRIALS):
+            half = turns[index] @ _rotation(0.5 * step * rate)
+            rate = inverse[index] @ (half.T @ kept - angular[index])
+        turns[index + 1] = turns[index] @ _rotation(step * rate)
+    arrays = course.centers, course.spreads, course.linear
+    section = Course(step, course.masses, *(array[first : last + 1] for array in arrays))
+    for _ in range(CORRECTIONS):
+        motion, inertia = momenta_between(section.turned(turns), 0, last - first)
+        missing = kept - motion[:, 3:6]
+        if np.abs(missing).max() <= CONSTANT * np.linalg.norm(kept):
+            break
+        total = np.eye(3)
+        for index, rate in enumerate(np.linalg.solve(inertia, missing[:, :, None])[:, :, 0]):
+            total = _rotation(step * rate) @ total
+            turns[index + 1] = total @ turns[index + 1]
+    return turns
+
+
+def _axes(linear: NDArray) -> NDArray[np.float64]:
+    """Return (f, 4) quaternions of a part's axes, each of the sign that is nearer to the one before."""
+    polar, _ = polar_rotation(linear)
+    turns = quaternion(polar * np.sign(np.linalg.det(polar))[:, None, None])
+    turns[1:] *= np.cumprod(np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))[:, None]
+    return turns
+
+
+def _rotation(vector: NDArray) -> NDArray[np.float64]:
+    """Return the (3, 3) rotation by a vector's length about it."""
+    half = 0.5 * float(np.linalg.norm(vector))
+    return rotation_matrix(np.concatenate([[np.cos(half)], 0.5 * np.sinc(half / np.pi) * vector]))
+
+
+class _stencils:
+    """Interpolation, or its derivative, of (count, ...) values at (k,) places between them, by their nearest nodes.
+
+    degree: of a polynomial fitted to the nodes; without, the one through all of them.
+    """
+
+    def __init__(self, count: int, places: NDArray, nodes: int, derivative: bool = False, degree: int | None = None):
+        nodes = min(nodes, count)
+        degree = nodes - 1 if degree is None else min(degree, nodes - 1)
+        self.starts = np.clip(np.ceil(places - nodes / 2.0), 0, count - nodes).astype(np.intp)
+        middle = (nodes - 1) / 2.0
+        offsets, self.kinds = np.unique(places - self.starts - middle, return_inverse=True)
+        powers = np.arange(degree + 1)
+        fit = np.linalg.pinv((np.arange(nodes) - middle)[:, None] ** powers)
+        basis = offsets[:, None] ** powers
+        if derivative:
+            basis = np.concatenate([np.zeros((len(offsets), 1)), basis[:, :-1] * powers[1:]], axis=1)
+        self.weights = basis @ fit
+
+    def __call__(self, values: NDArray) -> NDArray[np.float64]:
+        """Return (k, ...) combinations."""
+        weights = self.weights[self.kinds].reshape(len(self.starts), -1, *(1,) * (values.ndim - 1))
+        return np.sum([weights[:, node] * values[self.starts + node] for node in range(weights.shape[1])], axis=0)

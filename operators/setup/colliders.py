@@ -1,0 +1,243 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Make Colliders, Remove Colliders, and Add Equal-Inertia Shape, whose shapes are colliders too.
+
+The origin of an equal-inertia shape is the center of mass and its axes are the principal ones, which Bullet assumes;
+and from a box Bullet computes exactly the inertia of that box. So a box with the object as its child falls as the
+object does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from typing import TYPE_CHECKING
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.types import Context, Menu, Object, Operator
+
+from ... import core
+from ...blender import session
+from ...blender.scene.rigid_world import add_rigid_bodies, require_rigid_world
+from ...blender.settings.given import COLLIDER, COLLIDERS
+from ...blender.write import reports
+from ...core.verdict.finding import EditRefusedError, Finding
+from .. import selection
+from ..findings import PRIMITIVE_HAS_PARENT
+from ..modal import ModalSteps
+
+if TYPE_CHECKING:
+    from ...blender.session.colliders import Plan
+
+SHAPES = (
+    ("AUTOMATIC", "Automatic", "The simplest shape within the tolerances, else convex pieces"),
+    ("BOX", "Box", "The smallest box around the object"),
+    ("AXES_BOX", "Box along Principal Axes", "The smallest box along the principal axes"),
+    ("SPHERE", "Sphere", "The smallest sphere around the object"),
+    ("CAPSULE", "Capsule", "A small capsule around the object"),
+    ("CYLINDER", "Cylinder", "A small cylinder around the object"),
+    ("HULL", "Convex Hull", "The convex hull, with a limited number of vertices"),
+    ("PIECES", "Convex Pieces", "Several convex hulls, cut where the object is concave"),
+    ("EQUAL_BOX", "Equal-Inertia Box", "The box of the same mass, center and inertia"),
+    ("EQUAL_ELLIPSOID", "Equal-Inertia Ellipsoid", "The ellipsoid of the same mass, center and inertia"),
+    (
+        "EQUAL_CAPSULE",
+        "Equal-Inertia Capsule",
+        "The capsule of the same mass and center, and of the inertia that comes nearest",
+    ),
+)
+HULLS = {"AUTOMATIC", "HULL", "PIECES"}  # shapes with tolerances and limits
+ENGINES = (
+    ("NONE", "None", "Names that no engine interprets"),
+    ("UNREAL", "Unreal", "Prefixes by shape: UBX_, USP_, UCP_ and UCX_"),
+    ("GODOT", "Godot, Convex", "Suffix -convcolonly: a convex shape, for bodies that move"),
+    ("GODOT_MESH", "Godot, Triangles", "Suffix -colonly: the triangles, for bodies that do not move"),
+    ("UNITY", "Unity", "One child for each collider, to which its Collider component is added"),
+)
+MAX_SHOWN_NAMES = 4
+COLLISION_SHAPES = {"BOX": "BOX", "ELLIPSOID": "CONVEX_HULL", "CAPSULE": "CONVEX_HULL"}
+
+
+class _Making(selection.OnSelectionInObjectMode, ModalSteps):
+    """Base of operators that make colliders: what is `_wanted`, for each object that passes `_check`."""
+
+    PROGRESS = "Making colliders: {share:.0%}. Esc to cancel"
+    CANCELED = "Making colliders canceled; nothing was changed"
+    tolerance, correct, engine = "LENGTH", "NONE", "NONE"
+
+    def _wanted(self) -> tuple[str, float, float, int, int]:
+        """Return the fields of `Wanted`."""
+        raise NotImplementedError
+
+    def _check(self, obj: Object) -> None:
+        """Raise MeasureError for an object that cannot have the colliders."""
+
+    def _begin(self, context: Context) -> float:
+        self._plans: list[Plan] = []
+        self._failures: list[Finding] = []
+        self._objects = bodies_of(context)
+        known: dict[str, Plan] = {}
+        depsgraph, wanted = context.evaluated_depsgraph_get(), core.colliders.fits.Wanted(*self._wanted())
+
+        def plan(obj: Object) -> Generator[float, None, None]:
+            self._check(obj)
+            options = wanted, self.tolerance == "SHARE", self.correct, known
+            self._plans.append((yield from session.plan_colliders(obj, depsgraph, *options)))
+
+        self._steps = selection.iterate_objects(self._objects, plan, self._failures)
+        return len(self._objects)
+
+    def _finish(self, context: Context) -> set[str]:
+        self._made = session.store_colliders(context, self._plans, self.engine)
+        done = reports.phrase("{count} collider made", "{count} colliders made", count=len(self._made))
+        if len(self._plans) == 1:
+            text = "volume {share:percent} of the object's"
+            done += "; " + reports.phrase(text, share=self._plans[0].record["volume_ratio"])
+        selection.redraw(context)
+        return selection.summarize(self, len(self._plans), len(self._objects), done, self._failures)
+
+
+class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
+    """Make colliders of the selected objects, or renew them, and compare their physics with the exact one"""
+
+    bl_idname = "object.body_moments_make_colliders"
+    bl_label = "Make Colliders"
+    bl_description = (
+        "Make colliders for each selected object as its children, in place of earlier ones, and compare the mass, "
+        "center and inertia that an engine computes from them with the exact ones"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    shape: EnumProperty(name="Shape", description="What collides in place of the object", items=SHAPES)
+    tolerance: EnumProperty(
+        name="Tolerance",
+        description="How the largest distances are given",
+        items=(("SHARE", "Share of Size", "Parts of the largest extent"), ("LENGTH", "Meters", "Lengths in meters")),
+    )
+    outward: FloatProperty(
+        name="Outward",
+        description="Largest distance by which the colliders may stand out of the object",
+        default=0.03,
+        min=0.0,
+        precision=4,
+        step=1,
+    )
+    inward: FloatProperty(
+        name="Inward",
+        description="Largest distance by which the object may stand out of the colliders",
+        default=0.002,
+        min=0.0,
+        precision=4,
+        step=1,
+    )
+    pieces: IntProperty(name="Pieces", description="Largest number of convex pieces", default=16, min=1, max=1024)
+    vertices: IntProperty(
+        name="Vertices", description="Largest number of vertices of a hull", default=64, min=4, max=255
+    )
+    correct: EnumProperty(
+        name="Correct",
+        description="How the colliders get the mass, center and inertia of the object",
+        items=(
+            ("NONE", "Off", "Every collider has the density of the object"),
+            ("MASSES", "Masses", "Give the pieces masses that sum to the object's mass, center and inertia"),
+            ("VERTICES", "Vertices", "Move vertices of the hulls, within the tolerances"),
+        ),
+    )
+    engine: EnumProperty(name="Names For", description="The engine that reads the names", items=ENGINES)
+    names: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
+
+    def draw(self, _context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        limits = ("tolerance", "outward", "inward", "pieces", "vertices") if self.shape in HULLS else ()
+        for name in ("shape", *limits, "correct", "engine"):
+            layout.prop(self, name)
+        column = layout.column(align=True)
+        for name in self.names.splitlines():
+            column.label(text=name, translate=False)
+
+    def _wanted(self) -> tuple[str, float, float, int, int]:
+        return self.shape.lower(), self.outward, self.inward, self.pieces, self.vertices
+
+    def _finish(self, context: Context) -> set[str]:
+        result = super()._finish(context)
+        names = [obj.name for obj in self._made[: MAX_SHOWN_NAMES + 1]]
+        self.names = "\n".join(name if index < MAX_SHOWN_NAMES else "…" for index, name in enumerate(names))
+        return result
+
+
+class OBJECT_OT_body_moments_remove_colliders(selection.OnSelectionInObjectMode, Operator):
+    """Remove the colliders that were made for the selected objects"""
+
+    bl_idname = "object.body_moments_remove_colliders"
+    bl_label = "Remove Colliders"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Context) -> set[str]:
+        objects = bodies_of(context)
+        count = session.remove_colliders(context, objects)
+        done = reports.phrase("{count} object without colliders", "{count} objects without colliders", count=count)
+        idle = reports.phrase("no selected object has colliders")
+        selection.redraw(context)
+        return selection.summarize(self, count, len(objects), done, idle=idle)
+
+
+def bodies_of(context: Context) -> list[Object]:
+    """Return the selected objects, each once, with the bodies in place of their colliders."""
+    chosen = context.view_layer.objects.selected
+    return list(dict.fromkeys(obj.parent if COLLIDER in obj and obj.parent else obj for obj in chosen))
+
+
+class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
+    """Add a simple shape with the mass, center of mass and inertia of each selected object"""
+
+    bl_idname = "object.body_moments_equal_inertia"
+    bl_label = "Add Equal-Inertia Shape"
+    bl_options = {"REGISTER", "UNDO"}
+
+    kind: EnumProperty(
+        name="Shape",
+        description="What is added",
+        items=[(name.removeprefix("EQUAL_"), label.split()[-1], tip) for name, label, tip in SHAPES[-3:]],
+        default="BOX",
+    )
+    rigid_body: BoolProperty(
+        name="As Rigid Body",
+        description="Make the shape an active rigid body with the mass, and the object its child",
+        default=False,
+    )
+
+    def _wanted(self) -> tuple[str, float, float, int, int]:
+        return "equal_" + self.kind.lower(), 0.0, 0.0, 1, 4
+
+    def _check(self, obj: Object) -> None:
+        if self.rigid_body and (not obj.is_editable or obj.parent is not None):
+            raise EditRefusedError(PRIMITIVE_HAS_PARENT)
+        if self.rigid_body:
+            require_rigid_world(bpy.context.scene)
+
+    def _finish(self, context: Context) -> set[str]:
+        result = super()._finish(context)
+        add_rigid_bodies(context, self._made if self.rigid_body else [])
+        for new, plan in zip(self._made, self._plans) if self.rigid_body else ():
+            matrix = new.matrix_world.copy()
+            new.parent, new.matrix_world = None, matrix
+            del new[COLLIDER], plan.obj[COLLIDERS]
+            new.rigid_body.collision_shape = COLLISION_SHAPES[self.kind]
+            new.rigid_body.mass = plan.shapes[0].mass
+            plan.obj.parent, plan.obj.matrix_parent_inverse = new, matrix.inverted()
+        return result
+
+
+def _menu(menu: Menu, _context: Context) -> None:
+    menu.layout.separator()
+    for operator, icon in zip(CLASSES, ("MESH_ICOSPHERE", "X", "MESH_CUBE")):
+        menu.layout.operator(operator.bl_idname, icon=icon)
+
+
+CLASSES = (
+    OBJECT_OT_body_moments_make_colliders,
+    OBJECT_OT_body_moments_remove_colliders,
+    OBJECT_OT_body_moments_equal_inertia,
+)
+MENUS = ((bpy.types.VIEW3D_MT_object_rigid_body, _menu),)

@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel of colliders: the button that makes them, and what they do to the object's physics."""
+
+from __future__ import annotations
+
+from math import degrees, dist
+
+from bpy.types import Context, Object
+
+from ..blender.read.visibility import measurable
+from ..blender.session.tracking.staleness import stale_reason
+from ..blender.session.tracking.stamps import of_colliders
+from ..blender.settings.given import COLLIDER, COLLIDERS
+from ..blender.write.units import Units
+from . import rows
+from .places import in_both_places
+
+KEYS = {"shape", "engine", "correct", "count", "volume_ratio", "mass_ratio", "moment_ratios", "center_shift"}
+KEYS |= {"axes_turn", "outward", "inward"}
+SLIGHT = 0.01  # parts by which an engine may be off without a warning
+
+
+class CollidersPanel:
+    """Colliders, and how an engine that takes mass, center and inertia from them differs from the object"""
+
+    bl_label = "Colliders"
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None and measurable(context.object)
+
+    def draw(self, context: Context) -> None:
+        layout, body = self.layout, _body(context.object)
+        layout.use_property_decorate = False
+        group = body.get(COLLIDERS)
+        stored = group if hasattr(group, "keys") and KEYS.issubset(group.keys()) else None
+        row = layout.row(align=True)
+        text = {} if stored is None else {"text": "Renew Colliders"}
+        make = rows.button(row, context, "object.body_moments_make_colliders", "MESH_ICOSPHERE", **text)
+        if stored is None:
+            rows.remark(layout, context, "Engines take mass, center and inertia from colliders.")
+            return
+        row.operator("object.body_moments_remove_colliders", text="", icon="X")
+        make.shape, make.engine, make.correct = (str(stored[name]).upper() for name in ("shape", "engine", "correct"))
+        rows.stale_row(layout, context, stale_reason(body, context.scene, of_colliders))
+        units = Units.from_settings(context.scene.unit_settings)
+        column = layout.column(align=True)
+        rows.filled(column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"])
+        ratios = [stored["mass_ratio"], *stored["moment_ratios"]]
+        if max(abs(ratio - 1.0) for ratio in ratios) > SLIGHT:
+            rows.remark(column, context, "An engine would simulate another body.", icon="ERROR")
+        else:
+            rows.remark(column, context, "An engine simulates the body within 1%.", icon="CHECKMARK")
+        rows.title(layout, "Of the Object's")
+        labels = ("Volume", "Mass", "Moment 1", "Moment 2", "Moment 3")
+        values = [stored["volume_ratio"], *ratios]
+        rows.table(
+            layout.column(align=True),
+            [(label, "{:.5g} %".format(100.0 * value), repr(value), "") for label, value in zip(labels, values)],
+        )
+        rows.title(layout, "Off by")
+        column = layout.column(align=True)
+        lengths = dist(stored["center_shift"], (0.0, 0.0, 0.0)), stored["outward"], stored["inward"]
+        size = max(body.dimensions) * context.scene.unit_settings.scale_length  # rounding is shown as 0
+        rows.values(column, units, ("Center", "Outward", "Inward"), "length", lengths, size)
+        turn = degrees(stored["axes_turn"])
+        rows.table(column, [("Axes", "{:.3f}°".format(turn), repr(turn), "")])
+
+
+def _body(obj: Object) -> Object:
+    """Return the body of a collider, and any other object itself."""
+    return obj.parent if COLLIDER in obj and obj.parent is not None else obj
+
+
+CLASSES = in_both_places(CollidersPanel, "colliders")

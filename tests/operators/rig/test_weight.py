@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Show Weight and Balance Pose: margins reached, contacts that stay, refusals that change nothing."""
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.figure import figure
+from tests.blender.session.test_character import HEIGHT, boxes, weight
+
+SHOW, BALANCE = bpy.ops.pose.body_moments_show_weight, bpy.ops.pose.body_moments_balance_pose
+FREE = ("spine", "head", "arm.L", "arm.R", "forearm.L")
+
+
+def posed(seed=1, held=True, show=True):
+    """A figure in Pose Mode that leans and reaches out."""
+    rig, body = figure(held=held)
+    bpy.ops.object.mode_set(mode="POSE")
+    rng = np.random.default_rng(seed)
+    for name in FREE:
+        rig.pose.bones[name].rotation_euler = rng.uniform(-0.8, 0.8, 3)
+    bpy.context.view_layer.update()
+    if show:
+        assert SHOW() == {"FINISHED"}
+    return rig, body
+
+
+def channels(rig):
+    return [(*bone.location, *bone.rotation_euler, *bone.rotation_quaternion) for bone in rig.pose.bones]
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3, 4])
+def test_center_comes_over_middle_and_contacts_stay(scene, seed):
+    rig, _body = posed(seed)
+    before = weight(rig)
+    assert BALANCE() == {"FINISHED"}
+    after = weight(rig)
+    assert np.abs(after.contacts.points - before.contacts.points).max() < 1e-4 * HEIGHT
+    assert np.abs((after.parts.center - after.support.target(None))[:2]).max() < 1e-4 * HEIGHT
+    assert after.support.margin > before.support.margin
+
+
+def test_nearest_point_inside_has_the_margin(scene):
+    rig, _body = posed()
+    rig.pose.bones["spine"].rotation_euler = 1.2, 0, 0.1
+    before = weight(rig).support
+    assert before.margin < 0.05
+    assert BALANCE(target="INSIDE", margin=0.06) == {"FINISHED"}
+    inside = tuple(rig.pose.bones["hips"].location)
+    assert weight(rig).support.margin == pytest.approx(0.06, abs=1e-4 * HEIGHT)
+    rig.pose.bones["hips"].location = 0, 0, 0
+    assert BALANCE() == {"FINISHED"}
+    assert np.linalg.norm(inside) < np.linalg.norm(rig.pose.bones["hips"].location)
+
+
+def test_straight_legs_are_lowered_before_they_are_stretched(scene):
+    rig, _body = posed()
+    before = weight(rig)
+    assert BALANCE() == {"FINISHED"}
+    assert np.abs(weight(rig).contacts.points - before.contacts.points).max() < 1e-4 * HEIGHT
+    assert rig.pose.bones["hips"].location.y < 0.0
+
+
+def test_legs_without_inverse_kinematics_turn_the_spine(scene):
+    rig, _body = posed(held=False)
+    before = weight(rig)
+    assert BALANCE(target="INSIDE", margin=before.support.margin + 0.01) == {"FINISHED"}
+    after = weight(rig)
+    assert not any(rig.pose.bones["hips"].location) and after.support.margin > before.support.margin
+    assert after.contacts.points == pytest.approx(before.contacts.points, abs=1e-6)
+
+
+def test_balance_measures_by_itself_and_is_one_undo_step(scene):
+    rig, _body = posed(show=False)
+    assert BALANCE() == {"FINISHED"}
+    assert "body_mass" in rig
+    assert "UNDO" in bpy.types.POSE_OT_body_moments_balance_pose.bl_options
+
+
+def test_balance_keys_the_bone_with_auto_keying(scene):
+    rig, _body = posed()
+    scene.tool_settings.use_keyframe_insert_auto = True
+    assert BALANCE() == {"FINISHED"}
+    assert rig.animation_data.action is not None
+
+
+def refused(rig, operator, text, **options):
+    """Check that an operator refuses with a text, and leaves all channels as they were."""
+    before = channels(rig)
+    with pytest.raises(RuntimeError, match=text):
+        operator(**options)
+    assert channels(rig) == before
+
+
+def test_locked_hips_and_unheld_root_are_refused(scene):
+    rig, _body = posed()
+    rig.pose.bones["hips"].lock_location = rig.pose.bones["hips"].lock_rotation = True, True, True
+    refused(rig, BALANCE, "No bone that may move", bone="hips")
+    refused(rig, BALANCE, "No bone that may move", bone="root")
+    refused(rig, BALANCE, "no bone “nobody”", bone="nobody")
+
+
+def test_driven_bone_is_refused(scene):
+    rig, _body = posed()
+    bone = rig.pose.bones["hips"]
+    for path in ("location", "rotation_euler"):
+        for axis in range(3):
+            bone.driver_add(path, axis).driver.expression = "0.0"
+    bpy.context.view_layer.update()
+    refused(rig, BALANCE, "No bone that may move", bone="hips")
+
+
+def test_contacts_in_the_air_are_refused(scene):
+    rig, _body = posed()
+    rig.pose.bones["root"].location = 0, 0, 0.3
+    bpy.context.view_layer.update()
+    refused(rig, BALANCE, "Nothing touches the ground.*Set Ground|Lower the pose")
+
+
+def test_zero_gravity_is_refused(scene):
+    rig, _body = posed(show=False)
+    scene.use_gravity = False
+    refused(rig, SHOW, "no gravity")
+    refused(rig, BALANCE, "no gravity")
+    assert not rig.body_moments_weight.show and "body_mass" not in rig
+
+
+@pytest.mark.parametrize("missing", ["mesh", "weights"])
+def test_rig_without_skin_is_refused(scene, missing):
+    rig, body = posed(show=False)
+    if missing == "mesh":
+        bpy.data.objects.remove(body)
+    else:
+        body.vertex_groups.clear()
+    refused(rig, SHOW, "assign weights")
+    refused(rig, BALANCE, "assign weights")
+    assert not rig.body_moments_weight.show and "body_mass" not in rig
+
+
+def test_several_characters_are_shown_together(scene):
+    rig, _body = figure()
+    other, _boxes = boxes()
+    rig.select_set(True)
+    bpy.context.view_layer.objects.active = rig
+    other.select_set(True)
+    bpy.ops.object.mode_set(mode="POSE")
+    assert SHOW() == {"FINISHED"}
+    assert rig.body_moments_weight.show and other.body_moments_weight.show
+    assert weight(other).parts.names == ("bone0", "bone1", "bone2")
+    assert SHOW() == {"FINISHED"}
+    assert not rig.body_moments_weight.show and not other.body_moments_weight.show
+
+
+def test_override_is_measured_and_balanced(scene, tmp_path):
+    """An override cannot hold results, so they are remembered while the file is open."""
+    rig, body = figure()
+    cast = bpy.data.collections.new("Cast")
+    scene.collection.children.link(cast)
+    for obj in (rig, body):
+        cast.objects.link(obj)
+        scene.collection.objects.unlink(obj)
+    path = str(tmp_path / "cast.blend")
+    bpy.data.libraries.write(path, {cast})
+    for obj in (rig, body):
+        bpy.data.objects.remove(obj)
+    bpy.data.collections.remove(cast)
+    with bpy.data.libraries.load(path, link=True) as (_there, here):
+        here.collections = ["Cast"]
+    here.collections[0].override_hierarchy_create(scene, bpy.context.view_layer, do_fully_editable=True)
+    rig = next(obj for obj in bpy.data.objects if obj.type == "ARMATURE" and obj.override_library)
+    bpy.context.view_layer.objects.active = rig
+    rig.select_set(True)
+    bpy.ops.object.mode_set(mode="POSE")
+    rig.pose.bones["spine"].rotation_euler = 0.7, 0, 0
+    assert SHOW() == {"FINISHED"}
+    assert "body_mass" not in rig
+    assert BALANCE() == {"FINISHED"}
+    assert np.abs((weight(rig).parts.center - weight(rig).support.target(None))[:2]).max() < 1e-4 * HEIGHT
