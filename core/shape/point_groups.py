@@ -14,6 +14,7 @@ candidate is refuted by a point whose image is far from the surface. The candida
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +31,7 @@ SKEW = np.array([0.5377, 0.6213, 0.5699])  # corners are sorted along this direc
 MAX_TRIES = 64  # corners of nearly equal height along it that are compared
 FIRST_IMAGES = 12  # images of corners that refute most candidates
 FIRST_SAMPLES = 64  # corners that refute most of the others
-ROUND_SAMPLES = 1500  # corners that are turned about an axis
+ROUND_SAMPLES = 500  # corners that are turned about an axis
 MAX_PROVED = 4096  # triangles between other corners that are proved; of more, evenly many (all corners are compared)
 MAX_PIECES = 1 << 16  # of triangles, looked at in all rounds of cutting
 CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
@@ -48,15 +49,19 @@ class PlacedTriangles:
         height = self.points @ SKEW
         self._order = np.argsort(height, kind="stable")
         self._height = height[self._order]
-        self._tree = SurfaceTree(self.points, self.triangles)
         self._first = self._match(self.points)
         self._sides, self._faces = self._face_keys(self._first)
         self._witnesses = np.arange(0, len(self.points), 1 + len(self.points) // FIRST_SAMPLES)
 
-    def groups(self, enough: float = np.inf) -> list[NDArray[np.float64]] | None:
+    @cached_property
+    def _tree(self) -> SurfaceTree:
+        return SurfaceTree(self.points, self.triangles)
+
+    def groups(self) -> list[NDArray[np.float64]] | None:
         """Return the (k, 3, 3) operations of the group, then of larger possible ones; None if there are too many.
 
-        They are the groups at tolerances that grow from near to far. More than `enough` operations end the search.
+        They are the groups at tolerances that grow from near to far, from the largest one that holds without the noise
+        of the corners that its operations were found by.
         """
         operations = self._candidates()
         if operations is None:
@@ -71,8 +76,6 @@ class PlacedTriangles:
             if levels[i] <= self.near:
                 trial = _closed(operations, held, [*generators, i], levels == np.inf)
                 held, generators = (held, generators) if trial is None else (trial, [*generators, i])
-                if held.sum() > enough:
-                    break
             elif levels[i] == np.inf:
                 own = operations[held]
                 alike = _nearest((own[:, None] @ operations[i] @ own).reshape(-1, 3, 3), operations)
@@ -84,7 +87,20 @@ class PlacedTriangles:
                 if trial is not None:
                     found.append(trial)
                     generators = [*generators, i]
-        return [_exact_group(operations[mask]) for mask in found]
+        groups = [_exact_group(operations[mask]) for mask in found]
+        last = len(groups) - 1
+        while last and any(self._misfit(each) > self.near for each in groups[last]):
+            last -= 1
+        return groups[last:]
+
+    def turn_order(self, axis: NDArray) -> int:
+        """Return the number of corners on the outermost ring about an axis if a turn from one to the next holds, or 1."""
+        height = self.points @ axis
+        radius = lengths(self.points - np.outer(height, axis))[:, 0]
+        outer = radius.argmax()
+        is_ring = (radius >= radius[outer] - 2.0 * self.far) & (np.abs(height - height[outer]) <= 2.0 * self.far)
+        count = len(self._distinct(np.flatnonzero(is_ring)))
+        return count if self._misfit(axis_rotation(axis, 2.0 * np.pi / count)) <= self.near else 1
 
     def is_round(self, found: Symmetry, tolerance: float) -> bool:
         """Return whether turns about the axes of revolution leave a sample of the corners within the tolerance."""

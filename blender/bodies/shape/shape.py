@@ -58,7 +58,6 @@ NOISE_FACTORS = 0.5, 1.0, 2.0  # of the level of noise, on which a unique frame 
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
-LEAST_MISFIT = NOISE_LEVEL / 2.0  # relative to the size: images of a symmetry are nearer to the surface
 MAX_MISFIT = 0.02  # relative to the size: coordinates that leave more tell no group
 COARSE_NOISE = 1e-4, 1e-3  # of moments of a ball with facets
 MAX_FACETS = 0.05  # relative to the size: between a body of revolution and the polygons that stand for it
@@ -185,14 +184,15 @@ class Shape:
         """Return the group that the surface has, or the groups that it may have; None if coordinates are too coarse."""
         whole = join_surfaces(list(self.pieces()))
         moved = float(np.linalg.norm(whole.coordinate_error)) / self.size
-        near, far = LEAST_MISFIT + 4.0 * moved, 4.0 * NOISE_LEVEL + 16.0 * moved
+        near, far = NOISE_LEVEL + 4.0 * moved, 4.0 * NOISE_LEVEL + 16.0 * moved
         if far > MAX_MISFIT:
             return None
         points = (whole.points.astype(np.float64) - self.center) / self.size
         placed = PlacedTriangles(points, whole.all_triangles()[0], near, far)
         is_round = len(found.revolution_axes) > 0 and placed.is_round(found, MAX_FACETS)
-        enough = 4 * MAX_AXIAL_ORDER if is_round else np.inf  # operations: only groups of higher axes have more
-        finite = [Symmetry(each, np.empty((0, 3)), 0) for each in placed.groups(enough) or ()]
+        if is_round and max(map(placed.turn_order, found.revolution_axes)) > MAX_AXIAL_ORDER:
+            return found.group
+        finite = [Symmetry(each, np.empty((0, 3)), 0) for each in placed.groups() or ()]
         names = [each.group for each in finite]
         if is_round:
             order = max([n for each in finite[:1] for _, n in each.axes], default=0)
