@@ -44,8 +44,10 @@ class PlacedTriangles:
     """
 
     def __init__(self, points: NDArray, triangles: NDArray, near: float, far: float):
-        used, corners = np.unique(triangles, return_inverse=True)
-        self.points, self.triangles, self.near, self.far = points[used], corners.reshape(-1, 3), near, far
+        is_used = np.zeros(len(points), bool)
+        is_used[triangles] = True
+        self.points, self.triangles = points[is_used], (np.cumsum(is_used) - 1)[triangles]
+        self.near, self.far = near, far
         height = self.points @ SKEW
         self._order = np.argsort(height, kind="stable")
         self._height = height[self._order]
@@ -80,18 +82,20 @@ class PlacedTriangles:
                 own = operations[held]
                 alike = _nearest((own[:, None] @ operations[i] @ own).reshape(-1, 3, 3), operations)
                 levels[alike[alike >= 0]] = np.inf
-        found = [held]
+        found = [(held, generators)]
         for i in np.argsort(levels, kind="stable"):
-            if levels[i] < np.inf and not found[-1][i]:
-                trial = _closed(operations, found[-1], [*generators, i], levels == np.inf)
+            if levels[i] < np.inf and not found[-1][0][i]:
+                generators = [*found[-1][1], i]
+                trial = _closed(operations, found[-1][0], generators, levels == np.inf)
                 if trial is not None:
-                    found.append(trial)
-                    generators = [*generators, i]
-        groups = [_exact_group(operations[mask]) for mask in found]
-        last = len(groups) - 1
-        while last and any(self._misfit(each) > self.near for each in groups[last]):
-            last -= 1
-        return groups[last:]
+                    found.append((trial, generators))
+        groups = [_exact_group(operations[mask]) for mask, _ in found]
+        for last in range(len(groups) - 1, 0, -1):
+            mask, generators = found[last]
+            exact = groups[last][np.searchsorted(np.flatnonzero(mask), generators)]
+            if all(self._misfit(each) <= self.near for each in exact):
+                return groups[last:]
+        return groups
 
     def turn_order(self, axis: NDArray) -> int:
         """Return the number of corners on the outermost ring about an axis if a turn from one to the next holds, or 1."""
