@@ -34,6 +34,7 @@ FIRST_SAMPLES = 64  # corners that refute most of the others
 ROUND_SAMPLES = 500  # corners that are turned about an axis
 MAX_PROVED = 4096  # triangles between other corners that are proved; of more, evenly many (all corners are compared)
 MAX_PIECES = 1 << 16  # of triangles, looked at in all rounds of cutting
+PIECES_PER_TRIANGLE = 64  # so many at most: if proof takes more, the misfit is that of the tolerance
 CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
 
 
@@ -207,8 +208,8 @@ class PlacedTriangles:
 
     def _cover(self, pieces: NDArray) -> float:
         """Return 0 if (k, 3, 3) triangles are near the surface, infinity if a point is far, else more than near."""
-        work = len(pieces)
-        while work <= MAX_PIECES:
+        work, most = len(pieces), min(MAX_PIECES, PIECES_PER_TRIANGLE * len(self.triangles))
+        while work <= most:
             middle = pieces.mean(axis=1)
             distance, face = self._tree.nearest(middle, self.far)
             worst = float(distance.max())
