@@ -99,7 +99,7 @@ class PlacedTriangles:
         return groups
 
     def turn_order(self, axis: NDArray) -> int:
-        """Return the number of corners on the outermost ring about an axis if a turn from one to the next holds, or 1."""
+        """Return the number of corners on the outermost ring about an axis if turns by one corner hold, or 1."""
         height = self.points @ axis
         radius = lengths(self.points - np.outer(height, axis))[:, 0]
         outer = radius.argmax()
@@ -223,12 +223,11 @@ class PlacedTriangles:
                 lengths(n)[:, 0] / (np.ptp(each, axis=1) ** 2).sum(axis=1) for n, each in zip(normals, (pieces, below))
             ]
             normal, outside = np.where((fat[0] > fat[1])[:, None], *normals), []
-            for i in range(3):
-                out = cross_rows(below[:, (i + 1) % 3] - below[:, i], normal)
-                out *= np.sign(((below[:, i] - below[:, (i + 2) % 3]) * out).sum(axis=1))[:, None]
-                size = lengths(out)
-                out = np.divide(out, size, out=np.zeros_like(out), where=size > 0.0)
-                height = ((pieces - below[:, i, None]) * out[:, None]).sum(axis=2) - self.near / 2.0
+            for i in range(6):  # along three sides, then across three tips
+                a, b, c = (below[:, (i + k) % 3] for k in range(3))
+                out = cross_rows(b - a, normal) if i < 3 else _unit(a - b) + _unit(a - c)
+                out *= np.sign(((a - c) * out).sum(axis=1))[:, None]
+                height = ((pieces - a[:, None]) * _unit(out)[:, None]).sum(axis=2) - self.near / 2.0
                 pieces, rows, cut = _split(pieces, height)
                 below, normal = below[rows], normal[rows]
                 outside.append(cut)
@@ -243,6 +242,12 @@ class PlacedTriangles:
     def _farthest(pieces: NDArray, below: NDArray) -> NDArray[np.float64]:
         """Return (k,) the largest distances of the corners of (k, 3, 3) triangles from another triangle each."""
         return np.max([triangle_distances(pieces[:, i], below) for i in range(3)], axis=0)
+
+
+def _unit(vectors: NDArray) -> NDArray[np.float64]:
+    """Return (k, 3) vectors of length 1, or zeros."""
+    size = lengths(vectors)
+    return np.divide(vectors, size, out=np.zeros_like(vectors), where=size > 0.0)
 
 
 def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
