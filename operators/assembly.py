@@ -38,7 +38,6 @@ TARGET = EnumProperty(
         ("OBJECT", "Empty", "The active empty with its children"),
         ("OF_OBJECT", "Collection of Object", "The collection of the active object, or the empty itself"),
     ),
-    default="COLLECTION",
 )
 
 
@@ -63,7 +62,6 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
 
     bl_idname = "object.body_moments_measure_assembly"
     bl_label = "Measure Assembly"
-    bl_options = {"REGISTER", "UNDO"}
     MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
 
     target: TARGET
@@ -150,9 +148,7 @@ class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
     bl_idname = "view3d.body_moments_cursor_to_assembly"
     bl_label = "Cursor to Center of Assembly"
 
-    rotate: BoolProperty(
-        name="Rotate to Principal Axes", description="Align the 3D cursor with the principal axes", default=False
-    )
+    rotate: BoolProperty(name="Rotate to Principal Axes", description="Align the 3D cursor with the principal axes")
 
     def _place(self, context: Context, assembly: "Assembly", center: list[float]) -> str:
         context.scene.cursor.location = center

@@ -30,6 +30,7 @@ class ModalSteps:
     MAX_AT_ONCE: largest count of steps that are run at once, without redrawing the window.
     """
 
+    bl_options = {"REGISTER", "UNDO"}
     PROGRESS = "Measuring: {share:.0%}. Esc to cancel"
     CANCELED = "Measuring canceled; nothing was changed"
     MAX_AT_ONCE = 0

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-from bpy.types import Context, Object, Operator
+from bpy.types import Context, Menu, Object, Operator
 
 from .. import core
 from ..blender.read.visibility import measurable
@@ -50,6 +50,8 @@ def poll_selection(cls: type[Operator], context: Context) -> bool:
 class InObjectMode:
     """Base of operators that need Object Mode."""
 
+    bl_options = {"REGISTER", "UNDO"}
+
     @classmethod
     def poll(cls, context: Context) -> bool:
         return poll_object_mode(cls, context)
@@ -57,6 +59,8 @@ class InObjectMode:
 
 class OnSelection:
     """Base of operators that need selected objects, in any mode."""
+
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -66,9 +70,18 @@ class OnSelection:
 class OnSelectionInObjectMode:
     """Base of operators that need selected objects in Object Mode."""
 
+    bl_options = {"REGISTER", "UNDO"}
+
     @classmethod
     def poll(cls, context: Context) -> bool:
         return poll_object_mode(cls, context) and poll_selection(cls, context)
+
+
+def select_only(context: Context, objects: Collection[Object], active: Object) -> None:
+    """Select these objects and no others, and make one active."""
+    for obj in context.view_layer.objects:
+        obj.select_set(obj in objects)
+    context.view_layer.objects.active = active
 
 
 def redraw(context: Context) -> None:
@@ -182,6 +195,15 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
             file.writelines(piece if isinstance(piece, bytes) else piece.encode() for piece in pieces)
     except OSError as error:
         raise FileError(FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)) from error
+
+
+def menu_entry(operator: type[Operator], **options: str) -> Callable[[Menu, Context], None]:
+    """Return a function that adds an operator to a menu."""
+
+    def draw(menu: Menu, _context: Context) -> None:
+        menu.layout.operator(operator.bl_idname, **options)
+
+    return draw
 
 
 def ask_for_table(operator: Operator, context: Context) -> set[str]:

@@ -223,7 +223,7 @@ class KeyedFlight(ModalDialog, OnArmature):
     CANCELED = "Following canceled; nothing was changed"
     TURNS = False
     DONE = ""
-    blend, keep = 0, "TIMES"  # properties of subclasses
+    lead, blend, keep = 0, 0, "TIMES"  # properties of subclasses
 
     use_contacts: BoolProperty(
         name="Find by Contacts",
@@ -251,10 +251,10 @@ class KeyedFlight(ModalDialog, OnArmature):
             flight = self.take_off, self.landing
             if self.landing < self.take_off + 2:
                 raise reports.Refused(EMPTY_FLIGHT)
-            frames = range(self.take_off, self.landing + self.blend + 1)
+            frames = range(self.take_off - self.lead, self.landing + self.blend + 1)
         followed = session.CharacterMotion(context, read.rig.require_armature(context.object), frames)
         followed.find_carrier(context, self.bone, self.TURNS, self.use_layer)
-        self._steps = followed.follow_flight(context.scene, flight, self.keep == "HEIGHT", self.blend)
+        self._steps = followed.follow_flight(context.scene, flight, self.keep == "HEIGHT", self.lead, self.blend)
         self._followed = followed
         return len(frames)
 
@@ -303,9 +303,18 @@ class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
     DONE = "“{name}” keeps its angular momentum from frame {start} to {end}"
     TURNS = True
 
+    lead: IntProperty(
+        name="Lead",
+        description=(
+            "Frames before take-off over which the character turns already, so that less is left after the landing. "
+            "If 0, the turn begins at take-off"
+        ),
+        default=0,
+        min=0,
+    )
     blend: IntProperty(
         name="Blend",
-        description="Frames after the landing over which the turn goes back. It begins at take-off without a jolt",
+        description="Frames after the landing over which the turn goes back",
         default=8,
         min=1,
     )

@@ -41,7 +41,6 @@ class AdvancedPanel:
 
     def draw(self, context: Context) -> None:
         layout, obj, scene = self.layout, context.object, context.scene
-        layout.use_property_decorate = False
         units = Units.from_settings(scene.unit_settings)
         shown = displayed(obj, scene)
         if shown is not None and shown.live is None:
@@ -91,7 +90,6 @@ class MomentsPanel:
 
     def draw(self, context: Context) -> None:
         layout, obj, settings = self.layout, context.object, context.scene.body_moments
-        layout.use_property_decorate = False
         column = layout.column()
         rows.setting(column, settings, "moments_order")
         rows.setting(column, settings, "moments_of")

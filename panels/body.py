@@ -47,16 +47,11 @@ class BodyPanel:
 
     bl_label = "Body Moments"
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return context.object is not None
-
     def draw_header_preset(self, context: Context) -> None:
         header_switch(self.layout, context)
         draw_links(self.layout, icons_only=True)
 
     def draw(self, context: Context) -> None:
-        self.layout.use_property_decorate = False
         if shown_objects(context) == [context.object]:
             _one_object(self.layout, context, displayed(context.object, context.scene))
         else:
@@ -198,10 +193,6 @@ class ApplyPanel:
 
     bl_label = "Apply to Object"
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return context.object is not None and measurable(context.object)
-
     def draw(self, context: Context) -> None:
         layout, obj = self.layout, context.object
         column = layout.column(align=True)
@@ -220,9 +211,9 @@ class ApplyPanel:
             rows.button(layout, context, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 
 
-VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(BodyPanel)
+VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(BodyPanel, shown_for=lambda obj: True)
 CLASSES = (
     *(VIEW3D_PT_body_moments, OBJECT_PT_body_moments),
-    *in_both_places(ApplyPanel, "apply"),
+    *in_both_places(ApplyPanel, "apply", shown_for=measurable),
     *in_both_places(RefusedPanel, "refused", options={"HIDE_HEADER"}),
 )

@@ -16,8 +16,8 @@ from ..blender.write.units import Units
 from . import rows
 from .places import in_both_places
 
-KEYS = {"shape", "engine", "correct", "count", "volume_ratio", "mass_ratio", "moment_ratios", "center_shift"}
-KEYS |= {"axes_turn", "outward", "inward"}
+# Ratios to numbers that are zero are not stored.
+KEYS = {"shape", "engine", "correct", "count", "center_shift", "axes_turn", "outward", "inward", "distance_bound"}
 SLIGHT = 0.01  # parts by which an engine may be off without a warning
 
 
@@ -47,23 +47,27 @@ class CollidersPanel:
         units = Units.from_settings(context.scene.unit_settings)
         column = layout.column(align=True)
         rows.filled(column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"])
-        ratios = [stored["mass_ratio"], *stored["moment_ratios"]]
-        if max(abs(ratio - 1.0) for ratio in ratios) > SLIGHT:
+        size = max(body.dimensions) * context.scene.unit_settings.scale_length
+        shift = dist(stored["center_shift"], (0.0, 0.0, 0.0))
+        changes = abs(stored.get("mass_ratio", 1.0) - 1.0), stored.get("inertia_change", 0.0), shift / (size or 1.0)
+        if max(changes) > SLIGHT:
             rows.remark(column, context, "An engine would simulate another body.", icon="ERROR")
         else:
             rows.remark(column, context, "An engine simulates the body within 1%.", icon="CHECKMARK")
         rows.title(layout, "Of the Object's")
         labels = ("Volume", "Mass", "Moment 1", "Moment 2", "Moment 3")
-        values = [stored["volume_ratio"], *ratios]
+        moments = stored.get("moment_ratios", (None,) * 3)
+        ratios = zip(labels, (stored.get("volume_ratio"), stored.get("mass_ratio"), *moments))
         rows.table(
             layout.column(align=True),
-            [(label, "{:.5g} %".format(100.0 * value), repr(value), "") for label, value in zip(labels, values)],
+            [(label, "{:.5g} %".format(100.0 * one), repr(one), "") for label, one in ratios if one is not None],
         )
         rows.title(layout, "Off by")
         column = layout.column(align=True)
-        lengths = dist(stored["center_shift"], (0.0, 0.0, 0.0)), stored["outward"], stored["inward"]
-        size = max(body.dimensions) * context.scene.unit_settings.scale_length  # rounding is shown as 0
-        rows.values(column, units, ("Center", "Outward", "Inward"), "length", lengths, size)
+        lengths = shift, *(stored[name] for name in ("outward", "inward", "distance_bound"))
+        rows.values(
+            column, units, ("Center", "Outward", "Inward", "Uncertain by"), "length", lengths, size
+        )  # rounding is shown as 0
         turn = degrees(stored["axes_turn"])
         rows.table(column, [("Axes", "{:.3f}°".format(turn), repr(turn), "")])
 

@@ -29,12 +29,7 @@ class DensityPanel:
 
     bl_label = "Density"
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return context.object is not None and _has_density(context.object)
-
     def draw(self, context: Context) -> None:
-        self.layout.use_property_decorate = False
         _settings(self.layout, context, context.object)
 
 
@@ -219,14 +214,8 @@ class GivenPanel:
 
     bl_label = "Given Mass"
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = context.object
-        return obj is not None and (_may_be_point(obj) or obj.body_moments.mass_from == "MASS")
-
     def draw(self, context: Context) -> None:
         layout, obj = self.layout, context.object
-        layout.use_property_decorate = False
         settings = obj.body_moments
         if _may_be_point(obj):
             row = layout.row(align=True)
@@ -255,4 +244,9 @@ def given_rows(layout: UILayout, settings: PropertyGroup) -> None:
         rows.setting(column, settings, "given_inertia_products", text="Ixy, Ixz, Iyz")
 
 
-CLASSES = (*in_both_places(DensityPanel, "density"), *in_both_places(GivenPanel, "given"))
+CLASSES = (
+    *in_both_places(DensityPanel, "density", shown_for=_has_density),
+    *in_both_places(
+        GivenPanel, "given", shown_for=lambda obj: _may_be_point(obj) or obj.body_moments.mass_from == "MASS"
+    ),
+)

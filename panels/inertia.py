@@ -32,7 +32,6 @@ class InertiaPanel:
 
     def draw(self, context: Context) -> None:
         layout, scene = self.layout, context.scene
-        layout.use_property_decorate = False
         units = Units.from_settings(scene.unit_settings)
         current = displayed(context.object, scene)
         if current is None:
@@ -65,7 +64,6 @@ class ReferencePanel:
 
     def draw(self, context: Context) -> None:
         layout, scene = self.layout, context.scene
-        layout.use_property_decorate = False
         settings = scene.body_moments_reference
         column = layout.column()
         rows.setting(column, settings, "about")

@@ -10,9 +10,9 @@ module that `panels/__init__.py` names. Sub-panels of the main panel follow `ORD
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Callable, Set
 
-from bpy.types import Panel
+from bpy.types import Context, Object, Panel
 
 ORDER = (
     "weight",
@@ -31,49 +31,49 @@ ORDER = (
     "refused",
 )  # what is posed, then the order of CAD's mass property dialogs
 ROOT = "body_moments"
+PLACES = {  # by the beginning of the panels' identifiers
+    "VIEW3D_PT_": {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Moments"},
+    "OBJECT_PT_": {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": "object"},
+}
 
 
 def in_both_places(
-    contents: type, name: str = "", parent: str | None = None, options: Set[str] = frozenset({"DEFAULT_CLOSED"})
-) -> tuple[type[Panel], type[Panel]]:
+    contents: type,
+    name: str = "",
+    parent: str | None = None,
+    options: Set[str] = frozenset({"DEFAULT_CLOSED"}),
+    shown_for: Callable[[Object], bool] | None = None,
+) -> tuple[type[Panel], ...]:
     """Make a panel of the sidebar and one of the object's properties that show these contents.
 
     `contents` has `bl_label`, `draw(self, context)` and, if needed, `poll` and `draw_header_preset`.
     `name` is part of the identifiers, `VIEW3D_PT_body_moments_NAME` and `OBJECT_PT_body_moments_NAME`; "" for the main
-    panel. `parent` names the parent panel, by default the main one. `options`: of a sub-panel.
+    panel. `parent` names the parent panel, by default the main one. `options`: of a sub-panel. `shown_for`, in place of
+    `poll`: whether to show the panel of an active object.
     """
-    return (
-        _panel(
-            "VIEW3D_PT_",
-            contents,
-            name,
-            parent,
-            bl_space_type="VIEW_3D",
-            bl_region_type="UI",
-            bl_category="Moments",
-            bl_options=set(options) if name else set(),
-        ),
-        _panel(
-            "OBJECT_PT_",
-            contents,
-            name,
-            parent,
-            bl_space_type="PROPERTIES",
-            bl_region_type="WINDOW",
-            bl_context="object",
-            bl_options=set(options),
-        ),
-    )
 
+    def draw(panel: Panel, context: Context) -> None:
+        panel.layout.use_property_decorate = False
+        contents.draw(panel, context)
 
-def _panel(prefix: str, contents: type, name: str, parent: str | None, **place: object) -> type[Panel]:
-    idname = _idname(prefix, name)
-    attributes = {"__doc__": contents.__doc__, "__module__": contents.__module__, "bl_idname": idname, **place}
-    if name:
-        attributes["bl_parent_id"] = _idname(prefix, parent)
+    def poll(_cls: type[Panel], context: Context) -> bool:
+        return context.object is not None and shown_for(context.object)
+
+    shared: dict[str, object] = {"__doc__": contents.__doc__, "__module__": contents.__module__, "draw": draw}
+    if shown_for is not None:
+        shared["poll"] = classmethod(poll)
     if name in ORDER:
-        attributes["bl_order"] = ORDER.index(name)
-    return type(idname, (contents, Panel), attributes)
+        shared["bl_order"] = ORDER.index(name)
+    panels = []
+    for prefix, place in PLACES.items():
+        idname = _idname(prefix, name)
+        own = {"bl_idname": idname, **place, "bl_options": set(options)}
+        if name:
+            own["bl_parent_id"] = _idname(prefix, parent)
+        elif prefix == "VIEW3D_PT_":
+            own["bl_options"] = set()
+        panels.append(type(idname, (contents, Panel), {**shared, **own}))
+    return tuple(panels)
 
 
 def _idname(prefix: str, name: str | None) -> str:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from math import degrees
 
-from bpy.types import Context, UILayout
+from bpy.types import Context, Object, UILayout
 
 from ..blender.read.visibility import SECTION_TYPES
 from ..blender.session.tracking.staleness import stale_reason
@@ -33,17 +33,8 @@ class SectionPanel:
 
     bl_label = "Section"
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = context.object
-        if obj is None or obj.type not in SECTION_TYPES:
-            return False
-        is_flat = min(obj.dimensions) <= FLAT_RTOL * max(obj.dimensions)
-        return is_flat or obj.mode == "EDIT" or record.KEY in obj
-
     def draw(self, context: Context) -> None:
         obj, layout = context.object, self.layout
-        layout.use_property_decorate = False
         rows.button(layout, context, "object.body_moments_measure_section", "FACESEL", short="Measure")
         stored = record.stored(obj)
         if stored is None:
@@ -56,6 +47,13 @@ class SectionPanel:
         _more_numbers(layout, units, stored.section)
         remedies.notes(layout, context, "body_moments_section_notes", stored.findings)
         rows.button(layout, context, "object.body_moments_copy", "COPYDOWN").what = "SECTION"
+
+
+def _may_have_section(obj: Object) -> bool:
+    if obj.type not in SECTION_TYPES:
+        return False
+    is_flat = min(obj.dimensions) <= FLAT_RTOL * max(obj.dimensions)
+    return is_flat or obj.mode == "EDIT" or record.KEY in obj
 
 
 def _verdict(layout: UILayout, context: Context, stored: record.StoredSection, outdated: str | None) -> None:
@@ -120,4 +118,4 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
             rows.bounds(column, units, entries)
 
 
-CLASSES = in_both_places(SectionPanel, "section")
+CLASSES = in_both_places(SectionPanel, "section", shown_for=_may_have_section)

@@ -35,13 +35,8 @@ class ShapePanel:
 
     bl_label = "Shape"
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return context.object is not None and measurable(context.object) and shows_advanced()
-
     def draw(self, context: Context) -> None:
         layout = self.layout
-        layout.use_property_decorate = False
         rows.button(layout, context, "object.body_moments_find_symmetry", "MOD_MIRROR", short="Symmetry")
         _symmetry(layout, context, context.object)
         column = layout.column(align=True)
@@ -111,4 +106,4 @@ def _similar(layout: UILayout, context: Context) -> None:
         rows.right(row, "{:s}{:s}, {:.2g}".format(words, size, shape.distance))
 
 
-CLASSES = in_both_places(ShapePanel, "shape")
+CLASSES = in_both_places(ShapePanel, "shape", shown_for=lambda obj: measurable(obj) and shows_advanced())

@@ -32,15 +32,9 @@ class StabilityPanel:
 
     bl_label = "Stability"
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = context.object
-        return obj is not None and (measurable(obj) or armatures.stands_for_meshes(obj))
-
     def draw(self, context: Context) -> None:
         layout, objects = self.layout, shown_objects(context)
         obj = objects[0] if len(objects) == 1 else context.object
-        layout.use_property_decorate = False
         stability = loaded_module(stored, "stability")
         if stability is None or not stability.is_known(obj):
             rows.remark(layout, context, "Stability has not been computed.")
@@ -117,4 +111,6 @@ def _poses(layout: UILayout, context: Context, obj: Object) -> None:
     rows.button(layout, context, "object.body_moments_rest_on_ground", "TRIA_DOWN_BAR", short="Rest").pose = 1
 
 
-CLASSES = in_both_places(StabilityPanel, "stability")
+CLASSES = in_both_places(
+    StabilityPanel, "stability", shown_for=lambda obj: measurable(obj) or armatures.stands_for_meshes(obj)
+)

@@ -243,14 +243,14 @@ def prepare(name: str, python: str, version: str, requirements: list[str]) -> Pa
 
 
 def prepare_blender(version: str, addition: str | None = None) -> Path | None:
-    """Return the Python that has this Blender as a module, or None if there is no Python for it.
+    """Return the Python that has this Blender as a module and what builds the packages, or None if no Python fits.
 
     The requirements of an addition are installed beside it, in an environment of their own.
     """
     wanted = BLENDERS[version]
     if not (python := find_python(wanted)):
         return None
-    requirements = [f"requirements-{name}.txt" for name in (version, addition) if name]
+    requirements = [f"requirements-{name}.txt" for name in (version, "build", addition) if name]
     executable = prepare(addition or f"blender-{version}", python, wanted, requirements)
     with INSTALLING:
         if find_load_problem(executable):
@@ -539,9 +539,8 @@ def demo(options: argparse.Namespace) -> int:
 
 def build(options: argparse.Namespace) -> int:
     python = prepare_blender(any_blender())
-    builder = prepare("build", sys.executable, RUNNING, ["requirements-build.txt"])
     zipped = show([python, "-P", TESTS / "package" / "extension.py", ROOT / "dist"])
-    return show([builder, "-P", "-m", "build", "--wheel", "--no-isolation", "--outdir", ROOT / "dist", ROOT]) or zipped
+    return show([python, "-P", "-m", "build", "--wheel", "--no-isolation", "--outdir", ROOT / "dist", ROOT]) or zipped
 
 
 def benchmark(options: argparse.Namespace) -> int:

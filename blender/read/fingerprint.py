@@ -11,14 +11,18 @@ import math
 import struct
 from array import array
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import bpy
 from mathutils import Matrix
 
-from ...core.measurement.settings import Settings, digest
+from ...core import measurement
+from .. import settings
 from ..settings.density import density_key
 from ..settings.given import COLLIDER
-from ..settings.options import object_settings
+
+if TYPE_CHECKING:
+    from ...core.measurement.settings import Settings
 
 SAME_SCALE_RTOL = 2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
 MAX_LENGTH = 3e38  # largest length of an axis that float32 can store
@@ -26,7 +30,7 @@ MAX_LENGTH = 3e38  # largest length of an axis that float32 can store
 
 def matrix_hash(obj: bpy.types.Object) -> str:
     """Return a digest of the object's place, rotation, scale and shear."""
-    return digest(matrix_bytes(obj.matrix_world))
+    return measurement.settings.digest(matrix_bytes(obj.matrix_world))
 
 
 def matrix_bytes(matrix: Matrix) -> bytes:
@@ -73,10 +77,10 @@ def _moves_along(obj: bpy.types.Object) -> bool:
     """Return whether the body in the object's frame is independent of the object's place."""
     if obj.type == "META" or len(obj.particle_systems):
         return False
-    settings = obj.body_moments
-    if settings.mass_from != "DENSITY" or settings.density_from not in {"POLYNOMIAL", "VOLUME"}:
+    chosen = obj.body_moments
+    if chosen.mass_from != "DENSITY" or chosen.density_from not in {"POLYNOMIAL", "VOLUME"}:
         return True
-    return settings.density_from == "POLYNOMIAL" and settings.density_frame == "OBJECT"
+    return chosen.density_from == "POLYNOMIAL" and chosen.density_frame == "OBJECT"
 
 
 def scale_hash(obj: bpy.types.Object) -> str:
@@ -84,7 +88,9 @@ def scale_hash(obj: bpy.types.Object) -> str:
     axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))
     products = [sum([i * j for i, j in zip(a, b)]) for a in axes for b in axes]
     largest = max(map(abs, products)) or 1.0
-    return digest(struct.pack("<9d", *[round(product / largest * 1e5) / 1e5 + 0.0 for product in products]))
+    return measurement.settings.digest(
+        struct.pack("<9d", *[round(product / largest * 1e5) / 1e5 + 0.0 for product in products])
+    )
 
 
 def colliders_digest(obj: bpy.types.Object) -> str:
@@ -95,8 +101,8 @@ def colliders_digest(obj: bpy.types.Object) -> str:
             points = array("f", bytes(12 * len(child.data.vertices)))
             child.data.vertices.foreach_get("co", points)
             places = matrix_bytes(child.matrix_parent_inverse) + matrix_bytes(child.matrix_basis)
-            parts.append(digest(places + points.tobytes()))
-    return digest("".join(sorted(parts)).encode())
+            parts.append(measurement.settings.digest(places + points.tobytes()))
+    return measurement.settings.digest("".join(sorted(parts)).encode())
 
 
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
@@ -107,4 +113,4 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
 def current_settings(obj: bpy.types.Object, scene: bpy.types.Scene) -> Settings:
     """Return the current settings of the object, with the key of a varying density."""
     materials = str(obj.get("body_materials", "")).splitlines()
-    return replace(object_settings(obj, scene), varying=density_key(obj, materials, scene))
+    return replace(settings.options.object_settings(obj, scene), varying=density_key(obj, materials, scene))

@@ -49,6 +49,17 @@ def existing_curves(obj: Object) -> Iterable[FCurve]:
     return ()
 
 
+def is_shared(obj: Object) -> bool:
+    """Return whether other objects are animated by the keys of an object's action, which is not linked, too."""
+    animation = obj.animation_data
+    if animation.action.library is not None:
+        return False
+    # ActionSlot.users() can crash Blender 5.2.
+    slot, users = animation.action_slot, bpy.data.user_map(subset=[animation.action])[animation.action]
+    owners = (getattr(user, "animation_data", None) for user in users)
+    return sum(owner is not None and owner.action_slot == slot for owner in owners) > 1
+
+
 def has_strips(obj: Object) -> bool:
     """Return whether the NLA animates an object."""
     animation = obj.animation_data
@@ -100,8 +111,9 @@ def replace_section(curve: FCurve, first: int, last: int, values: NDArray) -> No
     frames = keys(curve)[:, 0]
     before, after = frames[frames <= first].max(initial=-np.inf), frames[frames >= last].min(initial=np.inf)
     shift = first + len(values) - 1 - last
-    around = [*range(int(np.ceil(before)), first)] if np.isfinite(before) else []
-    around += range(last + 1, int(np.floor(after)) + 1) if np.isfinite(after) else ()
+    # Beyond all keys, one more keeps a linear extrapolation.
+    around = [*range(int(np.ceil(before)) if np.isfinite(before) else first - 1, first)]
+    around += range(last + 1, int(np.floor(after)) + 1 if np.isfinite(after) else last + 2)
     kept = {frame + (shift if frame > last else 0): curve.evaluate(frame) for frame in around}
     points = curve.keyframe_points
     for point in reversed(points):
@@ -122,9 +134,16 @@ def add_layer(obj: Object, name: str, frames: NDArray, channels: Mapping[Channel
     animation = obj.animation_data_create()
     action = animation.action
     if action is not None:
+        is_combined = has_strips(obj)  # without strips below, Blender ignores how the action is combined
         strip = animation.nla_tracks.new().strips.new(action.name, int(action.frame_range[0]), action)
-        strip.action_slot, strip.blend_type = animation.action_slot, animation.action_blend_type
-        strip.frame_start_ui = action.frame_range[0]
+        strip.action_slot = animation.action_slot
+        if is_combined:
+            strip.blend_type, strip.influence = animation.action_blend_type, animation.action_influence
+            strip.use_animated_influence, strip.extrapolation = True, animation.action_extrapolation
+        # Cycles and keys outside a manual frame range go on.
+        scene, (start, end) = bpy.context.scene, action.curve_frame_range
+        strip.action_frame_start, strip.action_frame_end = min(start, scene.frame_start), max(end, scene.frame_end)
+        strip.frame_start_ui = strip.action_frame_start
         animation.action = None
     layer = bpy.data.actions.new(name)
     slot = layer.slots.new("OBJECT", obj.name)

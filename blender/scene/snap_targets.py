@@ -95,12 +95,10 @@ class SnapTarget:
         return bool((np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all())
 
 
-def targets_in_turn(
-    context: Context, objects: Sequence[Object], strict: bool = False
-) -> Callable[[Object], SnapTarget]:
+def targets_in_turn(context: Context, objects: Sequence[Object]) -> Callable[[Object], SnapTarget]:
     """Return a function that gives the `snap_target` of one object at a time, measured in batches, in a fixed scene."""
     measured = measured_in_turn(objects, context.evaluated_depsgraph_get(), POSE)
-    return lambda obj: target_of(context, obj, measured(obj), strict)
+    return lambda obj: target_of(context, obj, measured(obj), False)
 
 
 def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarget:

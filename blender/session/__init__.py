@@ -19,5 +19,5 @@ __getattr__, __dir__, __all__ = lazy_names(
     remeasure="snapping",
     remove_colliders="colliders",
     store_colliders="colliders",
-    store_measured="snapping",
+    store_measured="stored.results",
 )

@@ -62,15 +62,13 @@ class CharacterMotion(BalanceGroup):
         before, subframe = scene.frame_current, scene.frame_subframe
         scene.frame_set(frames[0])
         try:
-            character.prepare(context, armature)
+            self._found = self.known, self.ground, _rig = character.find(context, armature)
         finally:
             scene.frame_set(before, subframe=subframe)
         self._context, self.unit = context, shortest_decimal(scene.unit_settings.scale_length)
         self.armature, self.frames = armature, frames
         self.step = scene.render.fps_base / scene.render.fps
-        known = character.character(armature, self.unit)
-        assert known is not None
-        self.known, self.objects, self.feet = known, [armature], [armature]
+        self.objects, self.feet = [armature], [armature]
         self.centers, self.supports, self.failure = [], [], None
         self.carrier: Carrier | None = None
         self._parts: list[Parts] = []
@@ -86,8 +84,7 @@ class CharacterMotion(BalanceGroup):
         if self._parts and parts.names != self._parts[0].names:
             several = set(parts.names).symmetric_difference(self._parts[0].names)
             raise Refused(HELD_IN_PART, names=", ".join(sorted(several)))
-        ground = self.armature.body_moments_weight.ground
-        points = self.known.contacts(self.armature, depsgraph, ground, down).points
+        points = self.known.contacts(self.armature, depsgraph, self.ground, down).points
         self._parts.append(parts)
         self.centers.append(parts.center)
         self.supports.append(support_of_contacts(points, parts.center, down, OUTLINE) if len(points) else None)
@@ -123,11 +120,11 @@ class CharacterMotion(BalanceGroup):
         raise Refused(NOT_CARRIED, part=part, name=owners[0].name)
 
     def follow_flight(
-        self, scene: Scene, flight: tuple[int, int] | None, keep_height: bool, blend: int
+        self, scene: Scene, flight: tuple[int, int] | None, keep_height: bool, before: int, after: int
     ) -> Iterator[int]:
         """Find a flight if none is given, and follow it at the times at which its poses were.
 
-        keep_height: the flight lasts as long as its height demands. blend: frames after it that are followed, too.
+        keep_height: the flight lasts as long as its height demands. before, after: frames that are followed, too.
         """
         if keep_height and self.is_layered:
             raise Refused(LAYERED_TIMES)
@@ -140,8 +137,9 @@ class CharacterMotion(BalanceGroup):
         if keep_height:
             count = max(2, round(motion.frames_of_height(np.array(self.centers[rows]), self.step, self.gravity)))
         self.landing = self.first + count
-        self.times = np.linspace(self.first, self.last, count + 1).tolist()
-        self.times += range(self.last + 1, self.last + blend + 1)
+        self.before, self.after = before, after
+        self.times = [*range(self.first - before, self.first), *np.linspace(self.first, self.last, count + 1).tolist()]
+        self.times += range(self.last + 1, self.last + after + 1)
         if set(self.times) <= set(frames):
             self.clear([round(time) - frames[0] for time in self.times])
         else:
@@ -158,18 +156,21 @@ class CharacterMotion(BalanceGroup):
         return frames[first], frames[last]
 
     def _moves(self, turns: bool) -> NDArray[np.float64]:
-        """Return (f, 4, 4) moves onto the arc between the ends, or turns of constant spin, which then go back."""
+        """Return (f, 4, 4) moves onto the arc between the ends, or turns of constant spin, blended around it."""
         centers, moves = np.array(self.centers), np.tile(np.eye(4), (len(self.centers), 1, 1))
         if not turns:
             arc = motion.ballistic_arc(centers[0], centers[-1], len(centers) - 1, self.step, self.gravity)
             moves[:, :3, 3] = arc - centers
             return moves
-        landing = self.landing - self.first
-        moves[: landing + 1, :3, :3] = motion.turns_of_constant_spin(self.course, 0, landing)
-        end = Quaternion(quaternion(moves[landing, :3, :3]))
-        for index, left in enumerate(np.linspace(1.0, 0.0, len(centers) - landing)[1:], landing + 1):
-            back = Quaternion().slerp(end, left * left * (3.0 - 2.0 * left))
-            moves[index, :3, :3] = rotation_matrix(back)
+        first, last = self.before, self.before + self.landing - self.first
+        spins = motion.turns_of_constant_spin(self.course, first, last, first / (first + self.after))
+        rows = np.arange(len(centers))
+        near = np.clip(rows, first, last)
+        moves[:, :3, :3] = spins[near - first]
+        for row in np.flatnonzero(rows != near):
+            left = 1.0 - abs(row - near[row]) / (first if row < first else self.after)
+            whole = Quaternion(quaternion(moves[row, :3, :3]))
+            moves[row, :3, :3] = rotation_matrix(Quaternion().slerp(whole, left * left * (3.0 - 2.0 * left)))
         moves[:, :3, 3] = centers - np.einsum("fij,fj->fi", moves[:, :3, :3], centers)
         return moves
 
@@ -180,18 +181,20 @@ class CharacterMotion(BalanceGroup):
         """
         moves, carrier = self._moves(turns), self.carrier
         assert carrier is not None
+        character.keep(self.armature, *self._found)
         targets = np.einsum("fij,fj->fi", moves, np.insert(self.centers, 3, 1.0, axis=1))[:, :3]
         with tracking_paused():
             carrier.key(moves, self.times, turns, self.is_layered)
             self.clear()
             self.carrier, places = None, np.unique(np.linspace(0, len(moves) - 1, CHECKED).astype(int))
-            for _ in self.follow(context.scene, (self.first + places).tolist()):
+            for _ in self.follow(context.scene, (self.first - self.before + places).tolist()):
                 pass
         off = float(np.linalg.norm(self.centers - targets[places], axis=1).max())
         return off * self.unit if off > FOLLOWS * self.known.size else 0.0
 
     def bake(self, context: Context, curves: bool) -> tuple[Object, int]:
         """Key the path on an empty, with curves of the momenta; return it and the number of unexplained spans."""
+        character.keep(self.armature, *self._found)
         course, touching, unit = self.course, self.touching, self.unit
         flights = motion.find_flights(touching)
         spans = motion.find_unexplained(course, flights, self.gravity)
@@ -262,6 +265,9 @@ class Carrier:
                 "constrained": any(not one.mute and one.influence > 0.0 for one in owner.constraints),
                 "muted": any(curve.mute for curve in keyed),
                 "being tweaked in the NLA editor": animation is not None and animation.use_tweak_mode,
+                "changed by F-curve modifiers": any(not one.mute for curve in keyed for one in curve.modifiers),
+                "keyed for several objects": bool(keyed) and fcurves.is_shared(self.armature),
+                "changed by Delta Transforms": not self.is_bone and _has_deltas(owner),
             }
             for state, holds in states.items():
                 if holds:
@@ -335,3 +341,9 @@ class Carrier:
                 rows = np.array([curve.evaluate(time) for time in times])
             if rows is not None:
                 fcurves.replace_section(curve, first, last, rows)
+
+
+def _has_deltas(obj: Object) -> bool:
+    """Return whether the delta transforms of an object change its location, rotation or scale."""
+    turns = *obj.delta_rotation_euler, *obj.delta_rotation_quaternion[1:]
+    return any((*obj.delta_location, *turns, *(factor != 1.0 for factor in obj.delta_scale)))

@@ -19,6 +19,7 @@ from ...core.colliders.fits import Wanted, make_colliders
 from ...core.measurement.documents import plain
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import digest
+from ...core.mesh.hulls import convex_hull
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.numerics.float32 import shortest_decimal
 from ...core.robots.model import Pose, Shape
@@ -68,7 +69,8 @@ def plan_colliders(
     if is_share:
         size = float(np.ptp(surface.points, axis=0).max())
         wanted = replace(wanted, outward=size * wanted.outward, inward=size * wanted.inward)
-    shapes = yield from make_colliders(surface, body, wanted)
+    hull = convex_hull(surface.points)
+    shapes = yield from make_colliders(surface, body, wanted, hull)
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     if correct == "VERTICES":
         shapes = correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
@@ -80,7 +82,7 @@ def plan_colliders(
     else:
         masses = uniform_masses(measurement.density, shapes)
     shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
-    outward, inward, bound = distances(surface, shapes)
+    outward, inward, bound = distances(surface, shapes, hull)
     record = {
         "shape": wanted.shape,
         "correct": correct.lower(),

@@ -20,8 +20,8 @@ from ..bodies.stacks.many import measure_many
 from ..bodies.stacks.stack import Stacked
 from ..settings.options import MeasureOptions
 from ..write.remedies import REMEDIES, REPAIR, remedies_of
-from .snapping import store_measured
 from .stored.density import noted
+from .stored.results import store_measured
 
 WORDS = {
     "kind": ("solid", "shell", "wire"),

@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import bpy
 from bpy.types import ID, Context, Object, PoseBone, Scene
@@ -32,8 +33,7 @@ ASSEMBLY = Method(Verdict.ASSEMBLY)
 BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
 
 
-@dataclass(frozen=True, eq=False)
-class Displayed:
+class Displayed(NamedTuple):
     """The displayed numbers of an object, SI.
 
     numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason: the reason if the
@@ -149,7 +149,7 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
     else:
         stamp = None if before is None or before.reason is not None else of_results(obj)
         if before is not None and stamp is not None and has_transform(obj, stamp.transform):
-            shown = replace(before, world=before.numbers.in_world(obj.matrix_world, before.unit))
+            shown = before._replace(world=before.numbers.in_world(obj.matrix_world, before.unit))
         else:
             shown = displayed(obj, scene) if "body_mass" in obj or obj in following.followed else None
     if shown is None or not shown.world.mass > 0.0:

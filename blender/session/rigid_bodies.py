@@ -29,8 +29,8 @@ from ..scene.rigid_world import MIN_MASS, add_joint, add_rigid_bodies, remove_jo
 from ..scene.snap_targets import POSE, SnapTarget, matrix_along_axes, matrix_at_center
 from ..settings.given import COLLIDER
 from ..write import properties, reports
-from .snapping import store_measured
 from .stored import assembly
+from .stored.results import store_measured
 from .tracking import staleness
 
 # Blender's collision shapes of colliders that are primitives; all others are convex hulls.

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from bpy.types import Context, Object
 from numpy.typing import NDArray
@@ -19,19 +19,11 @@ from ..scene import reframe
 from ..scene.snap_targets import POSE, SnapTarget, target_of
 from ..settings.options import MeasureOptions
 from ..write import properties, reports
-from .stored import assembly, results
+from .stored import assembly
+from .stored.results import store_measured
 from .tracking import staleness
 
 CENTER = MeasureOptions(axes=False)
-
-
-def store_measured(context: Context, measured: Iterable[tuple[Object, Measured | Stacked]]) -> dict[Object, Exception]:
-    """Store measurements of the present scene; return the errors of objects that cannot hold their results."""
-    measured = list(measured)
-    outcomes = list(results.store_many(measured, context.scene))
-    shapes = {obj: found.shape_digest for obj, found in measured if isinstance(found, Stacked)}
-    staleness.mark_up_to_date(context, [obj for obj, refusal in outcomes if refusal is None], shapes)
-    return {obj: refusal for obj, refusal in outcomes if refusal is not None}
 
 
 def remeasure(

@@ -46,7 +46,6 @@ class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
             ("MEMBERS", "Members", "Add up the members"),
             ("MASS", "Mass", "Enter the mass of the whole; the members give its center and inertia unless entered"),
         ),
-        default="MEMBERS",
         update=part_changed,
     )
     mass: mass_property("Mass of the whole in kilograms, independent of the scene units", part_changed)
@@ -84,7 +83,6 @@ class BodyMomentsBoneSettings(PropertyGroup):
             ("DENSITY", "Density", "A density for what is skinned to the bone; objects parented to it keep theirs"),
             ("MASS", "Mass", "The mass of the bone's whole part"),
         ),
-        default="MESH",
         update=part_changed,
     )
     density: density_property(
@@ -111,7 +109,6 @@ class BodyMomentsWeightSettings(PropertyGroup):
     mass: FloatProperty(
         name="Total Mass",
         description="Mass of all bones in kilograms; those with a mass of their own keep it. At 0, the measured mass",
-        default=0.0,
         min=0.0,
         step=10,
         precision=3,

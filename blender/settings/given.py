@@ -37,7 +37,6 @@ class GivenPartProperties:
     use_center: BoolProperty(
         name="Given Center",
         description="Enter the center of mass instead of taking that of the geometry",
-        default=False,
         update=changed,
     )
     given_center: FloatVectorProperty(
@@ -51,7 +50,6 @@ class GivenPartProperties:
     use_inertia: BoolProperty(
         name="Given Inertia",
         description="Enter the inertia tensor instead of taking that of the geometry with the given mass",
-        default=False,
         update=changed,
     )
     given_inertia_diagonal: FloatVectorProperty(

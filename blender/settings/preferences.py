@@ -39,7 +39,6 @@ class SceneDefaults:
             ("WORLD", "World", "World axes and origin"),
             ("OBJECT", "Object", "Location and rotation of the object, with unit scale"),
         ),
-        default="WORLD",
     )
     density_unit: EnumProperty(
         name="Density Unit",
@@ -50,7 +49,6 @@ class SceneDefaults:
             ("G_CM3", "g/cm³", "Grams per cubic centimeter"),
             ("LB_IN3", "lb/in³", "Pounds per cubic inch"),
         ),
-        default="AUTO",
     )
     digits: IntProperty(
         name="Precision",
@@ -67,7 +65,6 @@ class SceneDefaults:
             ("COMMA", "Comma", "20,000"),
             ("NONE", "None", "20000"),
         ),
-        default="SPACE",
     )
     default_material: EnumProperty(
         name="Default Material",
@@ -77,7 +74,6 @@ class SceneDefaults:
             ("CUSTOM", "Custom", "The density below"),
             *MATERIAL_ITEMS,
         ],
-        default="NONE",
         update=default_density_changed,
     )
     default_density: density_property(
@@ -110,7 +106,6 @@ class BodyMomentsPreferences(SceneDefaults, AddonPreferences):
         name="Advanced",
         description="Show the menu and the panel Advanced: moments of any order, Fourier transforms, sections, "
         "signatures, density polynomials",
-        default=False,
     )
 
     def draw(self, _context: Context) -> None:

@@ -71,7 +71,6 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("SHELL", "Shell", "The surface is a sheet or wall of the given thickness"),
             ("WIRE", "Wire", "The curve is a wire of the given mass per length"),
         ),
-        default="SOLID",
         update=changed,
     )
     mass_from: EnumProperty(
@@ -81,7 +80,6 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("DENSITY", "Density", "Enter the density and compute the mass"),
             ("MASS", "Mass", "Enter the measured mass and compute the mean density"),
         ),
-        default="DENSITY",
         update=density_changed,
     )
     density_from: EnumProperty(
@@ -107,7 +105,6 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ),
             ("VOLUME", "Volume Object", "Grid of a Volume object around a solid, constant in each voxel"),
         ),
-        default="VALUE",
         update=density_changed,
     )
     density_polynomial: StringProperty(
@@ -131,7 +128,6 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ),
             ("WORLD", "World", "Meters along the world axes from the world origin"),
         ),
-        default="OBJECT",
         update=changed,
     )
     density_attribute: StringProperty(
@@ -164,7 +160,6 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
                 "Real thickness, half behind and half in front of the faces, with mitered corners",
             ),
         ),
-        default="THIN",
         update=wall_changed,
     )
     thickness: FloatProperty(
@@ -187,7 +182,6 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ),
             ("UNION", "Count as Union", "Components are united first by Blender's exact Boolean"),
         ),
-        default="SIGNED",
         update=changed,
     )
     material: StringProperty(
@@ -208,7 +202,6 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("SOLID", "Solid", "The grid is a level set that bounds a solid filled with material"),
             ("THRESHOLD", "Threshold", "The body where the values, linear between voxels, are at least a threshold"),
         ),
-        default="DENSITY",
         update=changed,
     )
     threshold: FloatProperty(
@@ -226,7 +219,6 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("MATERIAL", "Material", "One density, as for any solid"),
             ("GRID", "Grid", "The density that the values of the grid represent"),
         ),
-        default="MATERIAL",
         update=changed,
     )
     values_from: EnumProperty(
@@ -236,7 +228,6 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             ("FACTOR", "Factor", "Multiply the values by a density"),
             ("TABLE", "Table", "Use a transfer table, for example for CT numbers"),
         ),
-        default="FACTOR",
         update=changed,
     )
     value_density: density_property(

@@ -25,7 +25,6 @@ class BodyMomentsOverlaySettings(PropertyGroup):
         name="All Measured Objects",
         description="Draw all visible measured objects instead of the selected ones. From 20 objects on, only the "
         "sum, doubtful ones and the active one are drawn",
-        default=False,
     )
     show_axes: BoolProperty(
         name="Principal Axes",
@@ -45,17 +44,14 @@ class BodyMomentsOverlaySettings(PropertyGroup):
             ("BOX", "Box", "Draw the box with the same inertia"),
             ("ELLIPSOID", "Ellipsoid", "Draw the ellipsoid with the same inertia"),
         ),
-        default="NONE",
     )
     show_sum: BoolProperty(
         name="Sum of Selection",
         description="Draw the center of mass and the principal axes of the selected objects as one body",
-        default=False,
     )
     show_faults: BoolProperty(
         name="Faults",
         description="Draw boundary edges and flipped faces that were found when the object was measured",
-        default=False,
     )
     show_support: BoolProperty(
         name="Support Polygon",
@@ -132,7 +128,6 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
             ("MASS", "Mass", "Volume, or for shells the area, times the density wherever it comes from"),
             ("FLAT", "Area", "Area of a flat shape in its own plane, ∫ x^p y^q dA"),
         ),
-        default="VOLUME",
     )
     moments_about: EnumProperty(
         name="About",
@@ -153,7 +148,6 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
             ),
             ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
         ),
-        default="ORIGIN",
     )
 
 

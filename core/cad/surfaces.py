@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.bspline import SplineSpace
-from ..nurbs.bezier_form import bezier_patches
-from ..nurbs.blender_knots import blender_space
+from ..nurbs.bezier_form import bezier_patches, bezier_space
 from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 from ..nurbs.patch import Face, Patch
 from ..streams.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
@@ -30,7 +29,6 @@ MAX_COORDINATE = 3e38  # Just below the largest float32.
 # A quarter of a circle is (1 - t², 2t) / (1 + t²), which has the weights 1, 1, 2.
 _CIRCLE = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)], np.float64)
 _WEIGHTS = np.array([1.0, 1.0, 2.0, 1.0, 1.0, 1.0, 2.0, 1.0, 1.0])
-_ORDER = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,7 +177,7 @@ def revolved_solid(bottom: float, top: float, height: float, axis: str, is_round
     columns[..., 2] = heights
     # Rotated so that the third axis becomes the wanted one.
     points = np.roll(columns, max("ZXY".find(axis), 0), axis=2)
-    return Patch((_space(len(_CIRCLE)), _space(len(radii))), points, np.outer(_WEIGHTS, weights))
+    return Patch((bezier_space(len(_CIRCLE), 3), bezier_space(len(radii), 3)), points, np.outer(_WEIGHTS, weights))
 
 
 class _Profile:
@@ -200,7 +198,3 @@ class _Profile:
         else:
             middle, end = (last_radius, height), weight / 2.0
         self.rows += [(*middle, min(weight, end)), (radius, height, end)]
-
-
-def _space(count: int) -> SplineSpace:
-    return blender_space(count, _ORDER, cyclic=False, bezier=True, endpoint=True)  # type: ignore[return-value]

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from math import inf, pi
@@ -20,9 +20,10 @@ from ..polyhedron.integration import volume_and_center
 from ..robots.model import Shape
 from ..robots.plausibility import spread_directions
 
-STEPS = 24  # sides of triangles between samples, over the extent of what is sampled
+STEPS, COARSE_STEPS = 24, 6  # sides of triangles between samples, over the extent of what is sampled
 MOST_SAMPLES = 20_000
-ROUND_POINTS = 400  # of the polyhedra in round shapes
+ROUND_POINTS, RING_POINTS = 400, 96  # of the polyhedra in round shapes
+END = np.array([0.0, 0.0, 0.5])
 BALL_SAG = 0.012  # of the radius: the greatest depth of their faces in a ball
 CONVEX_RTOL = 1e-9  # of the volume that a convex body lacks in its hull
 PAIRS_PER_BLOCK = 1 << 20
@@ -43,29 +44,44 @@ def distances(
     points = np.asarray(surface.points, np.float64)
     size = float(np.ptp(hull.points, axis=0).max())
     solids, sags = zip(*map(_polyhedron, shapes))
-    samples, step = (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size)
-    inward = float(_distances_from_union(samples, solids, size).max(initial=0.0))
+    samples, step = (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size / STEPS)
+    nearest = np.full(len(samples), np.inf)
+    for shape, solid in zip(shapes, solids):
+        nearest = np.minimum(nearest, _distances_from_shape(samples, shape, solid, nearest, size))
+    inward = float(nearest.max(initial=0.0))
     corners = np.concatenate([solid.points for solid in solids])
-    outward = float(_distances_from_union(corners, [hull], size).max())
+    outward = float(_heights(corners, hull).max())
+    if outward <= enough:
+        outward = float(_distances_from_hull(corners, hull, np.full(len(corners), np.inf), size).max())
     is_convex = hull_volume(hull) - volume_and_center(surface)[0] <= CONVEX_RTOL * hull_volume(hull)
     if is_convex or outward > enough:
-        return outward, inward, step + max(sags)
+        return max(outward, 0.0), inward, step + max(sags)
     tree = Bvh(points, sort_components(points, triangles, np.zeros(len(triangles), np.intp), 1), np.ones(1, bool))
-    steps = [step]
-    for i, solid in enumerate(solids):
-        reach = max(size, float(np.ptp(solid.points, axis=0).max()))
-        places, step = _samples(solid.points, solid.triangles, reach)
-        covered = np.zeros(len(places), bool)
-        for j, other in enumerate(solids):
-            if j != i:
-                covered |= _heights(places, other).max(axis=1) < -INSIDE_RTOL * size
-        places = places[~covered] - tree.origin
-        winding, sure = tree.winding_numbers(places, np.zeros(len(places), np.intp), INSIDE_RTOL * size)
+    own_step = 0.0
+    for fineness in (COARSE_STEPS, STEPS) if enough < inf else (STEPS,):
+        places, own_step = _outer_samples(solids, size, fineness)
+        component = np.zeros(len(places), np.intp)
+        winding, sure = tree.winding_numbers(places - tree.origin, component, INSIDE_RTOL * size)
         places = places[~((winding != 0) & sure)]
         if len(places):
-            outward = max(outward, float(tree.distances(places, np.zeros(len(places), np.intp)).max()))
+            outward = max(outward, float(tree.distances(places - tree.origin, component[: len(places)]).max()))
+        if outward > enough:
+            break
+    return outward, inward, max(step, own_step) + max(sags)
+
+
+def _outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> tuple[NDArray[np.float64], float]:
+    """Return places on the surface of the union of solids, and the bound of their distances as of `_samples`."""
+    kept, steps = [], []
+    for solid in solids:
+        reach = max(size, float(np.ptp(solid.points, axis=0).max()))
+        places, step = _samples(solid.points, solid.triangles, reach / fineness)
         steps.append(step)
-    return outward, inward, max(steps) + max(sags)
+        for other in solids:
+            if other is not solid:
+                places = places[_heights(places, other).max(axis=1) >= -INSIDE_RTOL * size]
+        kept.append(places)
+    return np.concatenate(kept), max(steps)
 
 
 def hull_volume(hull: ConvexHull) -> float:
@@ -73,75 +89,98 @@ def hull_volume(hull: ConvexHull) -> float:
     return volume_and_center(Surface.from_triangles(hull.points, hull.triangles))[0]
 
 
-@lru_cache(maxsize=1)
-def _ball() -> ConvexHull:
-    return convex_hull(spread_directions(ROUND_POINTS), 1e-9)
+@lru_cache
+def _unit(kind: str) -> ConvexHull:
+    """Return a box, ball, cylinder or capsule whose sides, radius and length are 1."""
+    points = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    if kind != "box":
+        turn = np.linspace(0.0, 2.0 * pi, RING_POINTS, endpoint=False)
+        ring = np.stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)], axis=1)
+        points = ring if kind == "cylinder" else spread_directions(ROUND_POINTS)
+    if kind in ("cylinder", "capsule"):
+        points = np.concatenate([points + END, points - END])
+    return convex_hull(points, 1e-9)
 
 
 def _polyhedron(shape: Shape) -> tuple[ConvexHull, float]:
     """Return a shape as a convex polyhedron in the link's frame, and the depth by which that lies in a round shape."""
-    sag = 0.0
     if shape.surface is not None:
-        points = np.asarray(shape.surface.points, np.float64) * shape.size
-    elif shape.kind == "box":
-        points = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * shape.size
-    elif shape.kind in ("sphere", "ellipsoid"):
-        hull = _ball().transform(np.diag(np.broadcast_to(shape.size, 3)))
-        return replace(hull, points=_placed(hull.points, shape)), BALL_SAG * max(shape.size)
+        hull = convex_hull(np.asarray(shape.surface.points, np.float64) * shape.size, 1e-9)
+        return replace(hull, points=_placed(hull.points, shape)), 0.0
+    hull, size = _unit("sphere" if shape.kind == "ellipsoid" else shape.kind), shape.size
+    if shape.kind == "capsule":  # the ends move apart, and no face changes
+        ends = np.where((hull.indices < ROUND_POINTS)[:, None], END, -END)
+        points = size[0] * (hull.points - ends) + size[1] * ends
     else:
-        radius, length = shape.size
-        ring = _ball().points
-        if shape.kind == "cylinder":
-            turn = np.linspace(0.0, 2.0 * pi, 96, endpoint=False)
-            ring = np.stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)], axis=1)
-        end = np.array([0.0, 0.0, length / 2.0])
-        points = np.concatenate([radius * ring + end, radius * ring - end])
-    if shape.surface is None and shape.kind != "box":
-        sag = BALL_SAG * shape.size[0]
-    hull = convex_hull(points, 1e-9)
-    return replace(hull, points=_placed(hull.points, shape)), sag
+        points = hull.points * (size if shape.kind != "cylinder" else (size[0], size[0], size[1]))
+    return replace(hull, points=_placed(points, shape)), 0.0 if shape.kind == "box" else BALL_SAG * max(size)
 
 
 def _placed(points: NDArray[np.float64], shape: Shape) -> NDArray[np.float64]:
     return points @ shape.pose.rotation.T + shape.pose.position
 
 
-def _heights(points: NDArray[np.float64], hull: ConvexHull) -> NDArray[np.float64]:
-    """Return (n, m) signed distances of points from the planes of a hull's faces."""
+def _face_normals(hull: ConvexHull) -> NDArray[np.float64]:
+    """Return the (m, 3) unit normals of a hull's faces; those of faces without area are zero."""
     normal = normals(hull.points, hull.triangles)
-    length = np.linalg.norm(normal, axis=1)
-    normal = normal[length > 0.0] / length[length > 0.0, None]
-    at = hull.points[hull.triangles[length > 0.0, 0]]
-    return points @ normal.T - np.einsum("ij,ij->i", normal, at)
+    return normal / np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
 
 
-def _distances_from_union(points: NDArray, hulls: Iterable[ConvexHull], size: float) -> NDArray[np.float64]:
-    """Return the distances of points from the union of hulls; 0 inside."""
-    nearest = np.full(len(points), np.inf)
-    for hull in hulls:
-        rows = max(1, PAIRS_PER_BLOCK // len(hull.triangles))
-        for begin in range(0, len(points), rows):
-            part = slice(begin, begin + rows)
-            height = _heights(points[part], hull).max(axis=1)
-            # The largest height is a lower bound of the distance.
-            closer = np.flatnonzero((height < nearest[part]) & (height > INSIDE_RTOL * size))
-            nearest[part][height <= INSIDE_RTOL * size] = 0.0
-            if len(closer):
-                places = points[part][closer].repeat(len(hull.triangles), axis=0)
-                corners = np.tile(hull.points[hull.triangles], (len(closer), 1, 1))
-                apart = triangle_distances(places, corners).reshape(len(closer), -1).min(axis=1)
-                nearest[part][closer] = np.minimum(nearest[part][closer], apart)
-    return nearest
+def _heights(points: NDArray[np.float64], hull: ConvexHull) -> NDArray[np.float64]:
+    """Return (n, m) signed distances of points from the planes of a hull's faces; -inf from faces without area."""
+    normal = _face_normals(hull)
+    at = np.einsum("ij,ij->i", normal, hull.points[hull.triangles[:, 0]])
+    return points @ normal.T - np.where(normal.any(axis=1), at, np.inf)
 
 
-def _samples(points: NDArray, triangles: NDArray, size: float) -> tuple[NDArray[np.float64], float]:
-    """Return places on triangles, and a bound of the distance of any other place from the nearest of them.
+def _distances_from_shape(
+    points: NDArray, shape: Shape, solid: ConvexHull, nearest: NDArray, size: float
+) -> NDArray[np.float64]:
+    """Return the distances of points from a shape as `_distances_from_hull` does; exact for round shapes, too."""
+    if shape.kind in ("mesh", "ellipsoid"):
+        return _distances_from_hull(points, solid, nearest, size)
+    place = np.abs((points - shape.pose.position) @ shape.pose.rotation)
+    if shape.kind == "cylinder":
+        place = np.stack([np.hypot(place[:, 0], place[:, 1]), place[:, 2]], axis=1)
+    length = shape.size[-1] / 2.0
+    core, radius = {
+        "box": (np.array(shape.size) / 2.0, 0.0),
+        "sphere": (np.zeros(3), shape.size[0]),
+        "capsule": (np.array([0.0, 0.0, length]), shape.size[0]),
+        "cylinder": (np.array([shape.size[0], length]), 0.0),
+    }[shape.kind]
+    return np.maximum(np.linalg.norm(np.maximum(place - core, 0.0), axis=1) - radius, 0.0)
+
+
+def _distances_from_hull(points: NDArray, hull: ConvexHull, nearest: NDArray, size: float) -> NDArray[np.float64]:
+    """Return the distances of points from a hull, 0 inside; those above `nearest` may be too small."""
+    distance = np.zeros(len(points))
+    normal = _face_normals(hull)
+    rows = max(1, PAIRS_PER_BLOCK // len(hull.triangles))
+    for begin in range(0, len(points), rows):
+        part = points[begin : begin + rows]
+        heights = _heights(part, hull)
+        face = heights.argmax(axis=1)
+        height = heights[np.arange(len(part)), face]
+        distance[begin : begin + rows] = np.where(height > INSIDE_RTOL * size, height, 0.0)
+        # The largest height is a lower bound, and the distance if its foot is on the hull.
+        farther = np.flatnonzero((height > INSIDE_RTOL * size) & (height < nearest[begin : begin + rows]))
+        feet = part[farther] - height[farther, None] * normal[face[farther]]
+        farther = farther[_heights(feet, hull).max(axis=1, initial=-np.inf) > INSIDE_RTOL * size]
+        if len(farther):
+            places = part[farther].repeat(len(hull.triangles), axis=0)
+            corners = np.tile(hull.points[hull.triangles], (len(farther), 1, 1))
+            distance[begin + farther] = triangle_distances(places, corners).reshape(len(farther), -1).min(axis=1)
+    return distance
+
+
+def _samples(points: NDArray, triangles: NDArray, step: float) -> tuple[NDArray[np.float64], float]:
+    """Return places on triangles, a step apart or more, and a bound of any other place's distance from the nearest.
 
     A place in a triangle is at most 1/√3 of its longest side from the nearest corner.
     """
     corners = points[triangles]
     longest = np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
-    step = size / STEPS
     parts = np.maximum(np.ceil(longest / step), 1.0).astype(int)
     while (count := int(((parts + 1) * (parts + 2) // 2).sum())) > MOST_SAMPLES and parts.max() > 1:
         step *= max(1.2, (count / MOST_SAMPLES) ** 0.5)

@@ -45,17 +45,19 @@ class Wanted:
     vertices: int
 
 
-def make_colliders(surface: Surface, body: MassProperties, wanted: Wanted) -> Generator[float, None, list[Shape]]:
+def make_colliders(
+    surface: Surface, body: MassProperties, wanted: Wanted, hull: ConvexHull | None = None
+) -> Generator[float, None, list[Shape]]:
     """Make the colliders of a body, in steps that yield the completed share.
 
-    surface: closed and outward, m. body: its mass properties in the same frame. Raise MeasureError if the points have
-    no extent.
+    surface: closed and outward, m. body: its mass properties in the same frame. hull: that of the surface, if it is
+    known. Raise MeasureError if the points have no extent.
     """
     if wanted.shape.startswith(EQUAL):
         frame = body.principal
         inertial = Inertial.with_agreeing_axes(body.mass, body.center, body.inertia, frame.moments, frame.axes)
         return [equal_inertia_shape(inertial, wanted.shape.removeprefix(EQUAL))]
-    hull = convex_hull(surface.points)
+    hull = hull or convex_hull(surface.points)
     fits = _Fits(hull, body.principal.axes, wanted.vertices)
     if wanted.shape not in ("automatic", "pieces"):
         return [fits.make(wanted.shape)]
@@ -83,7 +85,15 @@ class _Fits:
     @cached_property
     def box(self) -> Shape:
         """The smallest box."""
-        return _smallest_box(self.points, self.axes)
+        is_simple = len(self.points) <= AXES_CORNERS
+        return _smallest_box(self.hull if is_simple else convex_hull(self.points, max_corners=AXES_CORNERS), self)
+
+    @cached_property
+    def circles(self) -> list[tuple[NDArray[np.float64], NDArray[np.float64], float]]:
+        """Axes as columns, with center and radius of the smallest circle around the points along the third axis."""
+        frames = (self.axes, self.box.pose.rotation, np.eye(3))
+        turned = [frame[:, order] for frame in frames for order in ([0, 1, 2], [1, 2, 0], [2, 0, 1])]
+        return [(frame, *enclosing_ball(self.points @ frame[:, :2])) for frame in turned]
 
     def make(self, shape: str) -> Shape:
         """Return the shape of this name in `Wanted`."""
@@ -98,9 +108,7 @@ class _Fits:
             center, radius = enclosing_ball(self.points)
             return Shape("sphere", (radius,), Pose(center))
         fit = _capsule if shape == "capsule" else _cylinder
-        frames = (self.axes, self.box.pose.rotation, np.eye(3))
-        turned = [frame[:, order] for frame in frames for order in ([0, 1, 2], [1, 2, 0], [2, 0, 1])]
-        return min((fit(self.points, frame) for frame in turned), key=_volume)
+        return min((fit(self.points, *circle) for circle in self.circles), key=_volume)
 
 
 def _hull_shape(hull: ConvexHull) -> Shape:
@@ -114,12 +122,12 @@ def _box(points: NDArray[np.float64], axes: NDArray[np.float64]) -> Shape:
     return Shape("box", tuple((high - low).tolist()), Pose(axes @ (low + high) / 2.0, axes))
 
 
-def _smallest_box(points: NDArray[np.float64], axes: NDArray[np.float64]) -> Shape:
-    """Return the smallest box along given axes, along x, y and z, or with a side in a face of the hull."""
-    hull = convex_hull(points, max_corners=AXES_CORNERS)
+def _smallest_box(hull: ConvexHull, fits: _Fits) -> Shape:
+    """Return the smallest box along the principal axes, along x, y and z, or with a side in a face of the hull."""
+    points = fits.points
     corners = hull.points[hull.triangles]
     sides = (corners[:, [1, 2, 0]] - corners).reshape(-1, 3)
-    boxes = [_box(points, axes), _box(points, np.eye(3))]
+    boxes = [_box(points, fits.axes), _box(points, np.eye(3))]
     least = min(_volume(box) for box in boxes)
     for normal in np.unique(np.round(_units(normals(hull.points, hull.triangles)), 12), axis=0):
         across = sides - np.outer(sides @ normal, normal)
@@ -141,19 +149,17 @@ def _units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     return vectors / np.linalg.norm(vectors, axis=1)[:, None]
 
 
-def _cylinder(points: NDArray[np.float64], axes: NDArray[np.float64]) -> Shape:
+def _cylinder(points: NDArray[np.float64], axes: NDArray[np.float64], middle: NDArray, radius: float) -> Shape:
     """Return the cylinder around points along the third axis."""
     along = points @ axes
-    middle, radius = enclosing_ball(along[:, :2])
     low, high = along[:, 2].min(), along[:, 2].max()
     center = axes @ np.append(middle, (low + high) / 2.0)
     return Shape("cylinder", (radius, float(high - low)), Pose(center, axes))
 
 
-def _capsule(points: NDArray[np.float64], axes: NDArray[np.float64]) -> Shape:
+def _capsule(points: NDArray[np.float64], axes: NDArray[np.float64], middle: NDArray, radius: float) -> Shape:
     """Return the capsule around points along the third axis, as thin as the cylinder."""
     along = points @ axes
-    middle, radius = enclosing_ball(along[:, :2])
     caps = np.sqrt(np.maximum(radius**2 - ((along[:, :2] - middle) ** 2).sum(axis=1), 0.0))
     high, low = (along[:, 2] - caps).max(), (along[:, 2] + caps).min()
     center = axes @ np.append(middle, (low + high) / 2.0)
@@ -166,8 +172,9 @@ def enclosing_ball(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], fl
     The farthest point outside joins the points that hold the ball, of which the ball needs at most d + 1.
     """
     dimension = points.shape[1]
-    held = points[:1]
-    center, radius = points[0], 0.0
+    first = points[np.linalg.norm(points - points[0], axis=1).argmax()]
+    held = np.stack([first, points[np.linalg.norm(points - first, axis=1).argmax()]])
+    center, radius = _ball_through(held)
     while True:
         distance = np.linalg.norm(points - center, axis=1)
         farthest = int(distance.argmax())

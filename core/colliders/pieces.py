@@ -22,12 +22,12 @@ from numpy.typing import NDArray
 
 from ..mesh.hulls import ConvexHull, convex_hull, hull_volumes
 from ..mesh.point_triangle import triangle_distances
-from ..mesh.surface import Surface, normals
+from ..mesh.surface import Surface, normals, triangle_areas
 from ..numerics.graph import connected_components
 from ..robots.plausibility import spread_directions
 
 ON_PLANE_RTOL = 1e-9  # relative to the size: points nearer to a plane are on it
-HULL_RTOL = 1e-6  # of exact hulls
+HULL_RTOL = 1e-6  # of the resulting hulls
 SEARCH_RTOL = 1e-4  # of hulls that are only compared
 COARSE_POINTS = 96  # of the copy that planes are compared on
 MAX_PLANES = 24  # through concave edges
@@ -36,6 +36,7 @@ SHARES = np.array([1, 2, 3]) / 4.0  # of the extent, where planes divide a piece
 LEAST_GAIN = 1e-3  # relative to the body's volume: a smaller reduction is none
 LEAST_EXCESS = 0.01  # of the hull over the volume of a piece that is worth two cuts
 HOPE = 0.02  # The gain of a cut that gains nothing yet, relative to the excess.
+MERGE_CORNERS = 96  # of hulls that are compared before they are merged
 SPARE = 2  # pieces made for each wanted piece, before they are merged
 
 
@@ -43,7 +44,7 @@ SPARE = 2  # pieces made for each wanted piece, before they are merged
 class _Piece:
     """Closed planar faces: each edge (start, end) of points belongs to a face, counter-clockwise from outside.
 
-    face, start, end: (e,). normals: (f, 3) of faces. hull: of the points.
+    face, start, end: (e,). normals: (f, 3) of faces.
     """
 
     points: NDArray[np.float64]
@@ -81,7 +82,7 @@ def cut_into_pieces(
 ) -> Generator[float, None, list[ConvexHull]]:
     """Divide a closed body into convex hulls, in steps that yield the completed share.
 
-    surface: closed and outward. outward: m; a piece none of whose points is deeper in its hull is not divided.
+    surface: closed and outward. outward: m; a piece is not divided if its hull is nowhere seen farther from it.
     pieces: at most so many. corners: of each hull, at most.
     """
     body = [*_connected(_from_surface(surface))]
@@ -105,12 +106,29 @@ def cut_into_pieces(
 def _from_surface(surface: Surface) -> _Piece:
     triangles = surface.all_triangles()[0].astype(np.intp)
     points = np.asarray(surface.points, np.float64)
+    triangles = _join_open_edges(points, triangles)
     normal = normals(points, triangles)
     real = np.linalg.norm(normal, axis=1) > 0.0
     triangles, normal = triangles[real], normal[real]
     face = np.arange(len(triangles)).repeat(3)
     start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
     return _Piece(points, face, start, end, normal / np.linalg.norm(normal, axis=1)[:, None])
+
+
+def _join_open_edges(points: NDArray[np.float64], triangles: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return triangles whose open edges share points that coincide: lids of curves and texts have points of their own.
+
+    Other points stay apart, so that parts that only touch do not become one.
+    """
+    start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
+    is_open = ~np.isin(start * len(points) + end, end * len(points) + start)
+    ends = np.unique(np.concatenate([start[is_open], end[is_open]]))
+    if not len(ends):
+        return triangles
+    _, first, which = np.unique(points[ends] + 0.0, axis=0, return_index=True, return_inverse=True)
+    number = np.arange(len(points))
+    number[ends] = ends[first[which.ravel()]]
+    return number[triangles]
 
 
 def _cut(piece: _Piece, plane: NDArray[np.float64]) -> Iterator[_Piece]:
@@ -150,9 +168,8 @@ def _half(piece: _Piece, height: NDArray, crossing: NDArray, normal: NDArray) ->
     along = np.einsum("ij,ij->i", piece.points[where], np.cross(piece.normals[face], normal))
     order = np.lexsort((along, face))
     where, face, count = where[order], face[order], np.cumsum(step[order])
-    chords = np.flatnonzero((count[:-1] != 0) & (where[:-1] != where[1:])).repeat(
-        np.abs(count[:-1][(count[:-1] != 0) & (where[:-1] != where[1:])])
-    )
+    chords = np.flatnonzero((count[:-1] != 0) & (where[:-1] != where[1:]))
+    chords = chords.repeat(np.abs(count[chords]))
     forward = count[chords] > 0
     begin = np.where(forward, where[chords], where[chords + 1])
     stop = np.where(forward, where[chords + 1], where[chords])
@@ -227,21 +244,19 @@ def _joined_by_faces(piece: _Piece, label: NDArray[np.intp]) -> tuple[NDArray[np
     return first, second
 
 
-def _hull_volume(piece: _Piece) -> float:
-    return float(hull_volumes(piece.points, np.zeros(1, np.intp), HULL_RTOL)[0])
-
-
 def _best_plane(piece: _Piece, outward: float, volume: float) -> tuple[float, NDArray[np.float64]]:
     """Return the largest reduction of hulls by a plane, on a coarse copy of the piece, and the (4,) plane.
 
     No single plane reduces the hulls of a ring or a cup: then planes through the middle are followed by another one.
     """
     coarse = _coarse(piece)
-    if outward > 0.0 and _gap(coarse) <= outward:
+    if outward > 0.0 and _is_near_hull(coarse, outward):
         return 0.0, np.zeros(4)
     gain, best = _best_of(coarse, piece)
-    excess = _hull_volume(piece) - piece.volume()
-    if gain > LEAST_GAIN * volume or excess < LEAST_EXCESS * piece.volume():
+    if gain > LEAST_GAIN * volume:
+        return gain, best
+    excess = float(_volumes([piece.points])[0]) - piece.volume()
+    if excess < LEAST_EXCESS * piece.volume():
         return gain, best
     middle = _even_planes(coarse.points, np.array([0.5]))
     gains = [sum(_best_of(part, part)[0] for part in _cut(coarse, plane)) for plane in middle]
@@ -264,13 +279,14 @@ def _best_of(coarse: _Piece, piece: _Piece) -> tuple[float, NDArray[np.float64]]
     return float(gains.max()), near[gains.argmax()]
 
 
-def _gap(piece: _Piece) -> float:
-    """Return about the largest distance of the hull's faces from the piece."""
+def _is_near_hull(piece: _Piece, limit: float) -> bool:
+    """Return whether places on the hull's faces and edges, of the largest faces first, are all this near to a piece."""
     hull = convex_hull(piece.points, SEARCH_RTOL, 64)
-    corners = hull.points[hull.triangles]
-    samples = np.concatenate([corners.mean(axis=1), (corners[:, 0] + corners[:, 1]) / 2.0])
+    largest = np.argsort(-triangle_areas(hull.points, hull.triangles), kind="stable")
+    corners = hull.points[hull.triangles[largest]]
     fans = piece.points[np.stack([piece.first()[piece.face], piece.start, piece.end], axis=1)]
-    return max(float(triangle_distances(sample, fans).min()) for sample in samples)
+    samples = np.stack([corners.mean(axis=1), (corners[:, 0] + corners[:, 1]) / 2.0], axis=1).reshape(-1, 3)
+    return all(float(triangle_distances(sample, fans).min()) <= limit for sample in samples)
 
 
 def _coarse(piece: _Piece) -> _Piece:
@@ -426,36 +442,32 @@ def _boxes_around(
 def _merge(sets: list[NDArray[np.float64]], most: int, volume: float) -> list[NDArray[np.float64]]:
     """Merge sets of points, each time the pair whose common hull adds least, until at most so many are left.
 
-    Merges that add nothing go on.
+    Merges that add nothing go on. The hulls that are compared have few corners.
     """
-    sets = [_hull_corners(points) for points in sets]
-    volumes = _volumes(sets)
+    hulls = [convex_hull(points, SEARCH_RTOL, MERGE_CORNERS).points for points in sets]
+    volumes = _volumes(hulls)
     cost = np.full((len(sets), len(sets)), np.inf)
     rows, columns = np.triu_indices(len(sets), 1)
-    cost[rows, columns] = _volumes([np.concatenate([sets[i], sets[j]]) for i, j in zip(rows, columns)])
+    cost[rows, columns] = _volumes([np.concatenate([hulls[i], hulls[j]]) for i, j in zip(rows, columns)])
     cost[rows, columns] -= volumes[rows] + volumes[columns]
     while len(sets) > 1:
-        i, j = np.unravel_index(cost.argmin(), cost.shape)
+        i, j = (int(place) for place in np.unravel_index(cost.argmin(), cost.shape))
         if len(sets) <= most and cost[i, j] > LEAST_GAIN * volume:
             break
         keep = [k for k in range(len(sets)) if k not in (i, j)]
-        merged = _hull_corners(np.concatenate([sets[i], sets[j]]))
-        sets, cost = [sets[k] for k in keep], cost[np.ix_(keep, keep)]
-        both = _volumes([*(np.concatenate([one, merged]) for one in sets), merged])
+        merged = convex_hull(np.concatenate([hulls[i], hulls[j]]), SEARCH_RTOL, MERGE_CORNERS).points
+        sets, cost = [*(sets[k] for k in keep), np.concatenate([sets[i], sets[j]])], cost[np.ix_(keep, keep)]
+        hulls = [hulls[k] for k in keep]
+        both = _volumes([*(np.concatenate([one, merged]) for one in hulls), merged])
         column = both[:-1] - volumes[keep] - both[-1]
-        volumes = np.append(volumes[keep], both[-1])
+        volumes, hulls = np.append(volumes[keep], both[-1]), [*hulls, merged]
         cost = np.pad(cost, ((0, 1), (0, 1)), constant_values=np.inf)
         cost[:-1, -1] = column
-        sets.append(merged)
     return sets
-
-
-def _hull_corners(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    return convex_hull(points, HULL_RTOL).points
 
 
 def _volumes(sets: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     if not sets:
         return np.zeros(0)
     starts = np.cumsum([0, *(len(points) for points in sets[:-1])])
-    return hull_volumes(np.concatenate(sets), starts, HULL_RTOL)
+    return hull_volumes(np.concatenate(sets), starts, SEARCH_RTOL)

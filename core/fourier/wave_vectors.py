@@ -35,8 +35,8 @@ class FrequencyGrid:
     count : int
         Frequencies along each axis, at least 2.
     largest : float
-        The largest |q| along each axis, rad per unit of length. With h = count // 2 the j-th frequency of an axis is
-        (j - h) / h · largest: 0 is always one of them, and an even count leaves out +largest.
+        The largest ``|q|`` along each axis, rad per unit of length. With h = count // 2 the j-th frequency of an axis
+        is (j - h) / h · largest: 0 is always one of them, and an even count leaves out +largest.
     dimension : int
         3, or 2 for flat shapes.
 

@@ -17,7 +17,6 @@ entry by entry; entries that differ by noise are equal. The remaining frames are
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +24,7 @@ from numpy.typing import NDArray
 from ..moments.exponents import monomial_index, monomials
 from ..moments.moments import Measure, Moments
 from ..moments.symmetric_tensors import _contract, _rotate_tensor, _tensor_positions, distinct_arrays, tensor_index
+from ..numerics.quadrature import spread_directions
 from ..verdict.finding import MeasureError
 from .findings import MOMENTS_OVERFLOW
 from .plain_body import frame_about
@@ -209,7 +209,8 @@ def _extreme_directions(
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _normalization(central, spread, degree)[1].max()
     least = max(2.0 * _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1].max(), clear)
-    span = np.ptp(_contract(tensor, degree, _sphere_directions()))
+    everywhere = spread_directions(START_DIRECTIONS)
+    span = np.ptp(_contract(tensor, degree, everywhere))
     if span <= least / 2.0:
         return np.empty((0, 3)), 1.0, 0.0, False
     extremes = []
@@ -217,14 +218,14 @@ def _extreme_directions(
         within = min(noise, MAX_EQUAL_SHARE * span)
         points = _maximize_on_sphere(sign * tensor, degree, span, within)
         height = _contract(sign * tensor, degree, points)
-        if height.max() - _contract(sign * tensor, degree, _sphere_directions()).min() <= least:
+        if height.max() - _contract(sign * tensor, degree, everywhere).min() <= least:
             return np.empty((0, 3)), sign, 0.0, False
         top = points[height > height.max() - within]
         extremes.append((distinct_arrays(top, DISTINCT_DIRECTIONS), sign))
     directions, sign = min(extremes, key=lambda pair: len(pair[0]))
     tilt = noise / span
     # If extreme directions form a circle, the moment is the same all around its axis: no slope leads around it.
-    around = np.cross(_sphere_directions(), _contract(tensor, degree - 1, _sphere_directions()))
+    around = np.cross(everywhere, _contract(tensor, degree - 1, everywhere))
     pole = np.linalg.eigh(around.T @ around)[1][:, 0]
     is_round = np.abs(around @ pole).max() <= min(noise, MAX_EQUAL_SHARE * span)
     if is_round and np.linalg.norm(np.cross(directions, pole), axis=1).max() > DISTINCT_DIRECTIONS:
@@ -240,7 +241,7 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
     span / 4 on the way from a maximum to the nearest of them. Steps are Newton's in the directions that are curved, and
     always uphill.
     """
-    points, scale = _sphere_directions(), degree**2 * span
+    points, scale = spread_directions(START_DIRECTIONS), degree**2 * span
     height = _contract(tensor, degree, points)
     points = points[height >= height.max() - within - (degree * MAX_START_GAP) ** 2 / 4.0 * span]
     uphill = np.zeros_like(points)
@@ -264,15 +265,6 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
     steep = np.linalg.norm(uphill, axis=1)
     order = np.argsort(steep, kind="stable")
     return points[order[steep[order] <= max(1e-4 * scale, steep.min())]]
-
-
-@lru_cache
-def _sphere_directions() -> NDArray[np.float64]:
-    """Return (START_DIRECTIONS, 3) directions spread evenly: Fibonacci's lattice."""
-    i = np.arange(START_DIRECTIONS) + 0.5
-    z, turn = 1.0 - 2.0 * i / START_DIRECTIONS, np.pi * (1.0 + 5.0**0.5) * i
-    r = np.sqrt(1.0 - z * z)
-    return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
 
 
 def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDArray) -> tuple[NDArray, NDArray]:

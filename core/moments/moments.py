@@ -79,8 +79,8 @@ class Moments:
     measure : Measure
         Integrals over volume, area, length or mass.
     rounding_error : (K,) array, optional
-        Bounds of |raw - exact| for the coordinates as given: rounding, and truncation if a source states so. Zero by
-        default.
+        Bounds of ``|raw - exact|`` for the coordinates as given: rounding, and truncation if a source states so. Zero
+        by default.
     input_error : (K,) array, optional
         Bounds of the change when every coordinate moves by half an ulp of its float32 value. Zero by default, and for
         float64 sources.
@@ -227,10 +227,10 @@ class Moments:
     def transform(self, matrix: ArrayLike) -> Moments:
         """Return the moments of the body's image under matrix[:3, :3] @ x + matrix[:3, 3], about the image of `about`.
 
-        Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity only;
-        the deviation of a float32 rotation from one goes into `rounding_error`. ValueError if the matrix is not finite
-        (4, 4), or no similarity although one is needed; MeasureError if the image is too small for its measure to be a
-        number.
+        Volume and mass follow any map, mass unchanged and volume by ``|det|``. Areas and lengths follow a similarity
+        only; the deviation of a float32 rotation from one goes into `rounding_error`. ValueError if the matrix is not
+        finite (4, 4), or no similarity although one is needed; MeasureError if the image is too small for its measure
+        to be a number.
         """
         affine = float_array("matrix", matrix, *self.about.shape[:-1], 4, 4, finite=True)
         return image(self, affine, (affine[..., :3, :3] @ self.about[..., None])[..., 0] + affine[..., :3, 3])

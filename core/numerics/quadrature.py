@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rules of quadrature that are exact for polynomials: on a line and over a triangle."""
+"""Rules of quadrature that are exact for polynomials: on a line and over a triangle; directions all around."""
 
 from __future__ import annotations
 
@@ -53,3 +53,14 @@ def triangle_rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     second = np.outer(1.0 - u, v).reshape(-1)
     first = np.repeat(u, n)
     return np.stack([1.0 - first - second, first, second]), np.outer(towards, across).reshape(-1)
+
+
+@lru_cache
+def spread_directions(count: int) -> NDArray[np.float64]:
+    """Return read-only (count, 3) unit directions, spread evenly over the sphere: Fibonacci's lattice."""
+    index = np.arange(count) + 0.5
+    height, turn = 1.0 - 2.0 * index / count, np.pi * (1.0 + 5.0**0.5) * index
+    across = np.sqrt(1.0 - height * height)
+    directions = np.stack([across * np.cos(turn), across * np.sin(turn), height], axis=1)
+    directions.flags.writeable = False
+    return directions

@@ -168,10 +168,11 @@ def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
     return float(np.sqrt(2.0 * top / strength) + np.sqrt(2.0 * (top - heights[-1]) / strength)) / step
 
 
-def turns_of_constant_spin(course: Course, first: int, last: int) -> NDArray[np.float64]:
+def turns_of_constant_spin(course: Course, first: int, last: int, share: float = 0.0) -> NDArray[np.float64]:
     """Return (last - first + 1, 3, 3) turns about the center that keep the angular momentum after the first frame.
 
     They are integrated from frame to frame, then corrected until the turned body, measured as any other, keeps it.
+    share: of the last turn about the momentum, which is moved, backwards, to the first frame.
     """
     (motion, inertia), step = momenta_between(course, first, last), course.step
     angular, inverse = motion[:, 3:6], np.linalg.inv(inertia)
@@ -194,7 +195,10 @@ def turns_of_constant_spin(course: Course, first: int, last: int) -> NDArray[np.
         for index, rate in enumerate(np.linalg.solve(inertia, missing[:, :, None])[:, :, 0]):
             total = _rotation(step * rate) @ total
             turns[index + 1] = total @ turns[index + 1]
-    return turns
+    axis = kept / max(float(np.linalg.norm(kept)), np.finfo(float).tiny)
+    last_turn = quaternion(turns[-1])
+    angle = 2.0 * np.arctan(last_turn[1:] @ axis / last_turn[0]) if last_turn[0] else np.pi
+    return _rotation(-share * angle * axis) @ turns  # a turn about the momentum keeps it
 
 
 def _axes(linear: NDArray) -> NDArray[np.float64]:

@@ -117,7 +117,7 @@ class _Piece:
         """Return the piece rotated so that the up axis of its mesh file becomes z."""
         if self.upright is None:
             return self
-        moments = None if self.moments is None else self.moments.transform(_matrix(Pose(np.zeros(3), self.upright)))
+        moments = None if self.moments is None else self.moments.transform(Pose(rotation=self.upright).matrix)
         return _Piece(self.points @ self.upright.T, moments)
 
 
@@ -287,7 +287,7 @@ def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None
     for stated, piece in pieces:
         if piece.moments is None:
             return None
-        placed.append((piece.moments.transform(_matrix(stated.shape.pose)), 1.0))
+        placed.append((piece.moments.transform(stated.shape.pose.matrix), 1.0))
     try:
         whole = combine(placed)
     except MeasureError:
@@ -312,12 +312,6 @@ def _turned(pieces: Pieces) -> list[tuple[Finding, Reference]]:
                 change = finding(AUDIT_ANGLES, part="geometry", unit="degrees", wanted="radians")
                 result.append((change, reference))
     return result
-
-
-def _matrix(pose: Pose) -> NDArray[np.float64]:
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.position
-    return matrix
 
 
 def _primitive(shape: Shape) -> _Piece:

@@ -33,6 +33,13 @@ class Pose:
         """Return the pose of a frame in the outer frame, from its pose `other` in this frame."""
         return Pose(self.rotation @ other.position + self.position, self.rotation @ other.rotation)
 
+    @property
+    def matrix(self) -> NDArray[np.float64]:
+        """The (4, 4) map from the frame to the other one."""
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = self.rotation, self.position
+        return matrix
+
     def inverse(self) -> Pose:
         """Return the pose of the outer frame in this one."""
         return Pose(-self.rotation.T @ self.position, self.rotation.T)

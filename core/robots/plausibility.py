@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.quadrature import spread_directions
 from ..verdict.finding import Finding, finding
 from .findings import (
     INERTIAL_CENTER_OUTSIDE,
@@ -141,11 +142,3 @@ def _excess_spread(stated: StatedInertial, hull: Hull, is_outside: bool) -> list
         factor = float(variance[worst] / max(limit[worst], tolerance[worst]))
         return [finding(INERTIAL_SPREAD_OUTSIDE, factor=factor, direction=directions[worst].tolist())]
     return []
-
-
-def spread_directions(count: int) -> NDArray[np.float64]:
-    """Return (count, 3) unit directions, spread evenly over the sphere along a spiral."""
-    index = np.arange(count) + 0.5
-    height, turn = 1.0 - 2.0 * index / count, index * np.pi * (1.0 + 5.0**0.5)
-    across = np.sqrt(1.0 - height * height)
-    return np.stack([across * np.cos(turn), across * np.sin(turn), height], axis=1)

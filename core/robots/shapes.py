@@ -21,9 +21,7 @@ def moments_of(shape: Shape) -> Moments:
         own = integrate(surface, 1, area=False, area_moments=False, exact=True)[0]
     else:
         own = primitive_moments(shape)
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = shape.pose.rotation, shape.pose.position
-    return own.transform(matrix)
+    return own.transform(shape.pose.matrix)
 
 
 def primitive_moments(shape: Shape) -> Moments:

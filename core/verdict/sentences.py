@@ -20,8 +20,8 @@ from __future__ import annotations
 
 import string
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 from .catalog import declared
 from .finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
@@ -173,8 +173,7 @@ SIMILARITY = {
 }
 
 
-@dataclass(frozen=True, eq=False)
-class Group:
+class Group(NamedTuple):
     """Findings with one code, of one or several objects.
 
     finding: the first one, with the sum of all counts and the largest share. objects: full names.

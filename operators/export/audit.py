@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
-from bpy.types import Context, Menu, Operator
+from bpy.types import Context, Operator
 from bpy_extras.io_utils import ImportHelper
 
 from ...blender.write import reports
@@ -35,11 +35,11 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         description="A folder that meshes may be in, besides that of the file and of its package",
         subtype="DIR_PATH",
     )
-    allow_outside: BoolProperty(name="Meshes Anywhere", description="Read meshes wherever they are", default=False)
+    allow_outside: BoolProperty(name="Meshes Anywhere", description="Read meshes wherever they are")
     write_copy: BoolProperty(
-        name="Write Repaired Copy", description="Write a copy with _repaired in its name beside the file", default=False
+        name="Write Repaired Copy", description="Write a copy with _repaired in its name beside the file"
     )
-    write_page: BoolProperty(name="Write HTML", description="Write the report as a page beside the file", default=False)
+    write_page: BoolProperty(name="Write HTML", description="Write the report as a page beside the file")
 
     @selection.report_refusals
     def execute(self, _context: Context) -> set[str]:
@@ -79,10 +79,6 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         return str(target)
 
 
-def _menu(menu: Menu, _context: Context) -> None:
-    text = "Robot Description for Audit (.urdf/.sdf/.xml/.usda)"
-    menu.layout.operator(IMPORT_SCENE_OT_body_moments_audit.bl_idname, text=text)
-
-
 CLASSES = (IMPORT_SCENE_OT_body_moments_audit,)
-MENUS = ((bpy.types.TOPBAR_MT_file_import, _menu),)
+ENTRY = selection.menu_entry(*CLASSES, text="Robot Description for Audit (.urdf/.sdf/.xml/.usda)")
+MENUS = ((bpy.types.TOPBAR_MT_file_import, ENTRY),)

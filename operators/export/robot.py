@@ -51,7 +51,7 @@ class RobotExport(selection.InObjectMode, ExportHelper):
     bl_options = {"REGISTER", "PRESET"}
 
     use_selection: BoolProperty(
-        name="Selected Objects", description="Export selected objects only, else all that are rendered", default=False
+        name="Selected Objects", description="Export selected objects only, else all that are rendered"
     )
     collection: StringProperty(name="Source Collection", options={"HIDDEN"})
     links: EnumProperty(name="Links", description="What is one rigid body", items=LINKS, default="OBJECT")
@@ -62,10 +62,9 @@ class RobotExport(selection.InObjectMode, ExportHelper):
     fixed_base: BoolProperty(
         name="Fixed Base",
         description="Fix links without a parent to the world; else passive rigid bodies alone",
-        default=False,
     )
     inertial_only: BoolProperty(
-        name="Inertials Only", description="Write mass, center and inertia of each link and nothing else", default=False
+        name="Inertials Only", description="Write mass, center and inertia of each link and nothing else"
     )
 
     @selection.report_refusals

@@ -8,7 +8,7 @@ from types import ModuleType
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntVectorProperty, StringProperty
-from bpy.types import Context, Menu, Operator
+from bpy.types import Context, Operator
 from bpy_extras.io_utils import ImportHelper
 
 from ... import core
@@ -27,13 +27,11 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
 
     bl_idname = "object.body_moments_import_scan"
     bl_label = "Import Scan"
-    bl_options = {"REGISTER", "UNDO"}
 
     filter_glob: StringProperty(default=";".join("*" + end for end in SUFFIXES), options={"HIDDEN"})
     use_spacing: BoolProperty(
         name="Set Spacing",
         description="Use the spacing below instead of the file's",
-        default=False,
     )
     spacing: FloatVectorProperty(
         name="Spacing",
@@ -67,12 +65,10 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
     overwrite: BoolProperty(
         name="Overwrite",
         description="Replace an existing .vdb file beside the scan",
-        default=False,
     )
     allow_outside: BoolProperty(
         name="Allow Outside",
         description="Read a file of samples that the header names outside of its own folder. Only for trusted headers",
-        default=False,
     )
     raw_shape: IntVectorProperty(
         name="Raw Size",
@@ -89,7 +85,6 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
     raw_big_endian: BoolProperty(
         name="Raw Big-Endian",
         description="The most significant byte comes first in a .raw file",
-        default=False,
     )
 
     def execute(self, context: Context) -> set[str]:
@@ -139,9 +134,6 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         return [*texts, *placed.findings]
 
 
-def _menu(menu: Menu, _context: Context) -> None:
-    menu.layout.operator(OBJECT_OT_body_moments_import_scan.bl_idname, text="Scan of Densities (.nii/.nrrd/.npy)")
-
-
 CLASSES = (OBJECT_OT_body_moments_import_scan,)
-MENUS = ((bpy.types.TOPBAR_MT_file_import, _menu),)
+ENTRY = selection.menu_entry(*CLASSES, text="Scan of Densities (.nii/.nrrd/.npy)")
+MENUS = ((bpy.types.TOPBAR_MT_file_import, ENTRY),)

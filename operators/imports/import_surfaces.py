@@ -6,7 +6,7 @@ from pathlib import Path
 
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, StringProperty
-from bpy.types import Context, Menu, Object, Operator, OperatorFileListElement, UILayout
+from bpy.types import Context, Object, Operator, OperatorFileListElement, UILayout
 from bpy_extras.io_utils import ImportHelper
 
 from ... import core
@@ -21,7 +21,6 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
 
     bl_idname = "object.body_moments_import_surfaces"
     bl_label = "Import Surfaces"
-    bl_options = {"REGISTER", "UNDO"}
 
     filter_glob: StringProperty(default="*.igs;*.iges;*.obj", options={"HIDDEN"})
     directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
@@ -91,11 +90,6 @@ def _select(context: Context, made: list[Object]) -> None:
         context.view_layer.objects.active = visible[0]
 
 
-def _menu(menu: Menu, _context: Context) -> None:
-    menu.layout.operator(
-        OBJECT_OT_body_moments_import_surfaces.bl_idname, text="NURBS Surfaces (.igs/.iges, .obj with surf)"
-    )
-
-
 CLASSES = (OBJECT_OT_body_moments_import_surfaces,)
-MENUS = ((bpy.types.TOPBAR_MT_file_import, _menu),)
+ENTRY = selection.menu_entry(*CLASSES, text="NURBS Surfaces (.igs/.iges, .obj with surf)")
+MENUS = ((bpy.types.TOPBAR_MT_file_import, ENTRY),)

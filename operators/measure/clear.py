@@ -17,7 +17,6 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
 
     bl_idname = "object.body_moments_clear"
     bl_label = "Clear Results"
-    bl_options = {"REGISTER", "UNDO"}
 
     kinds: EnumProperty(
         name="Results",

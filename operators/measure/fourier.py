@@ -15,9 +15,8 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Event, Operator
 
 from ... import core
-from ...blender import bodies, write
+from ...blender import bodies, settings, write
 from ...blender.read.visibility import measurable
-from ...blender.settings.options import MeasureOptions
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.numerics.float32 import shortest_decimal
@@ -40,7 +39,6 @@ class _Settings:
     )
     of: EnumProperty(
         name="Domain",
-        default="BODY",
         description="What the transform integrates over",
         items=(
             ("BODY", "Body", "∫ exp(−i q·x) dV in m³. For shells, area times thickness"),
@@ -50,7 +48,6 @@ class _Settings:
     )
     frame: EnumProperty(
         name="Frame",
-        default="WORLD",
         description="Axes and origin of the frequencies",
         items=(
             ("WORLD", "World", "World axes and origin"),
@@ -66,7 +63,6 @@ class _Settings:
     )
     largest: FloatProperty(
         name="Max Frequency",
-        default=0.0,
         min=0.0,
         soft_max=1e6,
         precision=4,
@@ -119,10 +115,10 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
     def execute(self, context: Context) -> set[str]:
         if not self.filepath:
             return selection.refuse(self, selection.NO_FILE)
-        settings = {name: getattr(self, name) for name in ("filepath", "of", "frame", "count", "largest")}
+        chosen = {name: getattr(self, name) for name in ("filepath", "of", "frame", "count", "largest")}
         invoked = "EXEC_DEFAULT" if context.window is None else "INVOKE_DEFAULT"
         try:
-            return bpy.ops.object.body_moments_fourier_run(invoked, **settings)
+            return bpy.ops.object.body_moments_fourier_run(invoked, **chosen)
         except RuntimeError as error:  # its report, as Blender raises it here
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
@@ -149,7 +145,7 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         if self.of == "FLAT":
             self._work = bodies.flat_transform(obj, depsgraph, self._grid, frame=frame)
         else:
-            options, area = MeasureOptions(threads=bodies.THREADS), self.of == "AREA"
+            options, area = settings.options.MeasureOptions(threads=bodies.THREADS), self.of == "AREA"
             self._work = bodies.object_transform(obj, depsgraph, options, self._grid, frame=frame, area=area)
         self._steps = (done for done in self._work.steps())
         return 1.0

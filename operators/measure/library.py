@@ -58,12 +58,10 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     asset_metadata: BoolProperty(
         name="Write Asset Metadata",
         description="Write mass, volume and center into the metadata of the objects and collections that are assets",
-        default=False,
     )
     overwrite: BoolProperty(
         name="Overwrite Files",
         description="Save the metadata in the asset files themselves instead of in copies beside them",
-        default=False,
     )
     thumbnails: BoolProperty(name="Pictures", description="Draw a picture of each body in the report", default=True)
 

@@ -31,7 +31,6 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
 
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
-    bl_options = {"REGISTER", "UNDO"}
     MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
 
     # Settings for the redo panel; by default the objects keep their own settings.

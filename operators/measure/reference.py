@@ -27,7 +27,6 @@ class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
 
     bl_idname = "object.body_moments_store_reference"
     bl_label = "Store Inertia about Reference"
-    bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: Context) -> set[str]:
         objects = [obj for obj in context.view_layer.objects.selected if properties.is_stored(obj)]

@@ -17,8 +17,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Menu, Object, Operator
 
 from ... import core
-from ...blender import session
-from ...blender.scene.rigid_world import add_rigid_bodies, require_rigid_world
+from ...blender import scene, session
 from ...blender.settings.given import COLLIDER, COLLIDERS
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError, Finding
@@ -214,11 +213,11 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
         if self.rigid_body and (not obj.is_editable or obj.parent is not None):
             raise EditRefusedError(PRIMITIVE_HAS_PARENT)
         if self.rigid_body:
-            require_rigid_world(bpy.context.scene)
+            scene.rigid_world.require_rigid_world(bpy.context.scene)
 
     def _finish(self, context: Context) -> set[str]:
         result = super()._finish(context)
-        add_rigid_bodies(context, self._made if self.rigid_body else [])
+        scene.rigid_world.add_rigid_bodies(context, self._made if self.rigid_body else [])
         for new, plan in zip(self._made, self._plans) if self.rigid_body else ():
             matrix = new.matrix_world.copy()
             new.parent, new.matrix_world = None, matrix

@@ -20,7 +20,6 @@ class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
         "Add the node group “Center of Mass” to the file, marked as an asset: it computes center, volume and mass in "
         "geometry nodes, follows modifiers and animation, and works without the add-on"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     marker: BoolProperty(
         name="Add Marker",

@@ -71,7 +71,6 @@ class OBJECT_OT_body_moments_remedy(_OnActive, Operator):
     thickness: FloatProperty(
         name="Thickness",
         description="Thickness of the shell. At 0, that of the object's settings",
-        default=0.0,
         min=0.0,
         precision=6,
         unit="LENGTH",
@@ -215,9 +214,7 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
         objects = [obj for obj in context.view_layer.objects if obj.name_full in names]
         if not objects:
             return {"CANCELLED"}
-        for obj in context.view_layer.objects:
-            obj.select_set(obj in objects)
-        context.view_layer.objects.active = objects[0]
+        selection.select_only(context, objects, objects[0])
         return {"FINISHED"}
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
-from bpy.types import Context, Menu, Operator
+from bpy.types import Context, Operator
 
 from ...blender import session
 from ...blender.write import reports
@@ -31,13 +31,11 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
         "Make the selected objects rigid bodies: mass from density and true volume, origin at the center of mass, axes "
         "along the principal axes. Nothing visible moves, and joints stay where they are"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     type: EnumProperty(
         name="Type",
         description="Type of new rigid bodies",
         items=(("ACTIVE", "Active", "Moved by the simulation"), ("PASSIVE", "Passive", "Moved by animation alone")),
-        default="ACTIVE",
     )
     shape: EnumProperty(
         name="Shape",
@@ -48,7 +46,6 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
             ("MESH", "Mesh", "The mesh itself, slow"),
             ("BOX", "Box", "The bounding box along the object's axes"),
         ),
-        default="KEEP",
     )
     frame: EnumProperty(
         name="Frame",
@@ -58,9 +55,8 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
             ("ORIGIN", "Origin", "Origin at the center of mass; the axes stay"),
             ("KEEP", "Keep", "Leave origin and axes as they are"),
         ),
-        default="AXES",
     )
-    use_density: BoolProperty(name="Set Density", description="Give all objects one density first", default=False)
+    use_density: BoolProperty(name="Set Density", description="Give all objects one density first")
     density: FloatProperty(
         name="Density",
         description="Density in kg/m³, independent of the scene units",
@@ -126,9 +122,5 @@ def _compare_masses(context: Context, made: "RigidBodies") -> str:
     return "\n".join(lines)
 
 
-def _menu(menu: Menu, _context: Context) -> None:
-    menu.layout.operator(OBJECT_OT_body_moments_rigid_bodies.bl_idname, icon="RIGID_BODY")
-
-
 CLASSES = (OBJECT_OT_body_moments_rigid_bodies,)
-MENUS = ((bpy.types.VIEW3D_MT_object_rigid_body, _menu),)
+MENUS = ((bpy.types.VIEW3D_MT_object_rigid_body, selection.menu_entry(*CLASSES, icon="RIGID_BODY")),)

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from ...blender.session.similar import Match
 
 MAX_LISTED_BODIES = 20
-MIRRORED = BoolProperty(name="Ignore Mirroring", default=False, description="Rank mirror images like copies")
-SCALED = BoolProperty(name="Ignore Size", default=False, description="Rank scaled copies like copies")
+MIRRORED = BoolProperty(name="Ignore Mirroring", description="Rank mirror images like copies")
+SCALED = BoolProperty(name="Ignore Size", description="Rank scaled copies like copies")
 
 
 class BodyMomentsSimilar(PropertyGroup):
@@ -148,8 +148,7 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
                 "scaled_mirror": self.mirrored and self.scaled,
             }
             picked = {match.obj for match in matches if chosen.get(match.verdict)}
-            for obj in context.view_layer.objects:
-                obj.select_set(obj in picked or obj == context.object)
+            selection.select_only(context, {*picked, context.object}, context.object)
         return self.store_and_report(context, matches, "", self._failures)
 
 
@@ -199,9 +198,7 @@ class OBJECT_OT_body_moments_select_found(Operator):
         objects = [candidate for candidate in context.view_layer.objects if candidate.name_full in names]
         if not objects:
             return selection.refuse(self, "No object {object} in the view layer", object=self.name)
-        for candidate in context.view_layer.objects:
-            candidate.select_set(candidate in objects)
-        context.view_layer.objects.active = objects[0]
+        selection.select_only(context, objects, objects[0])
         return {"FINISHED"}
 
 

@@ -75,7 +75,6 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
         "Find the rotation axes and mirror planes through the center of mass of the selected objects that moments "
         "allow and the surface, or of flat shapes the outline, confirms"
     )
-    bl_options = {"REGISTER", "UNDO"}
     PROGRESS = "Finding symmetry: {share:.0%}. Esc to cancel"
     CANCELED = "Search canceled; nothing was changed"
 

@@ -26,7 +26,6 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
 
     bl_idname = "object.body_moments_link_copies"
     bl_label = "Link Copies"
-    bl_options = {"REGISTER", "UNDO"}
 
     tolerance: FloatProperty(
         name="Tolerance",

@@ -29,7 +29,6 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
         "report the distance between the surfaces. Symmetric objects take the nearest of their poses; mirror images "
         "are left unchanged"
     )
-    bl_options = {"REGISTER", "UNDO"}
     PROGRESS = "Comparing: {share:.0%}. Esc to cancel"
     CANCELED = "Match Pose canceled; nothing was moved"
 

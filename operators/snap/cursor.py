@@ -23,12 +23,10 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
 
     bl_idname = "view3d.body_moments_cursor_to_center"
     bl_label = "Cursor to Center of Mass"
-    bl_options = {"REGISTER", "UNDO"}
 
     rotate: BoolProperty(
         name="Rotate to Principal Axes",
         description="Align the 3D cursor with the principal axes",
-        default=False,
     )
 
     def execute(self, context: Context) -> set[str]:

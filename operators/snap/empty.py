@@ -19,7 +19,6 @@ class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operat
         "Add an empty at the center of mass, along the principal axes, with arrows as long as the largest radius of "
         "gyration. An empty added before is moved"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     parent: BoolProperty(
         name="Parent to Object",
@@ -36,7 +35,6 @@ class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operat
             ("SPHERE", "Sphere", "Sphere around the center of mass"),
             ("CUBE", "Cube", "Cube along the principal axes"),
         ),
-        default="ARROWS",
     )
     size: FloatProperty(
         name="Size",

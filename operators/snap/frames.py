@@ -19,7 +19,6 @@ STRICT_PROPERTY = BoolProperty(
         "Take axes 1 and 2 in the direction of positive third moments, as in the paper. Objects for which "
         "the rule is undefined, such as most symmetric ones, are left unchanged"
     ),
-    default=False,
 )
 
 
@@ -47,7 +46,6 @@ class OBJECT_OT_body_moments_origin_to_center(selection.OnSelectionInObjectMode,
         "Move the origin to the exact center of mass of the evaluated object. Nothing visible moves: children and "
         "other users of the data stay in place. Objects whose modifiers depend on the origin are left unchanged"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: Context) -> set[str]:
         done = (
@@ -66,7 +64,6 @@ class OBJECT_OT_body_moments_axes_to_principal(selection.OnSelectionInObjectMode
         "Move the origin to the center of mass and align the local X, Y and Z axes with the principal axes, from the "
         "smallest moment to the largest, with unit scale. Nothing visible moves"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     strict: STRICT_PROPERTY
 
@@ -91,7 +88,6 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
         "Rotate the object so that its principal axes align with the world axes, about its center of mass or at the "
         "world origin. Children follow"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     order: EnumProperty(
         name="Axes",
@@ -113,7 +109,6 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
             ("CENTER", "Keep", "Rotate about the center of mass"),
             ("ORIGIN", "World Origin", "Move the center of mass to the world origin"),
         ),
-        default="CENTER",
     )
 
     strict: STRICT_PROPERTY

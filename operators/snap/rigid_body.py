@@ -37,13 +37,11 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, selection.OnSelecti
         "Set the mass of rigid bodies to the measured mass in kilograms. The physics engine uses the origin as center "
         "of mass; use Axes to Principal Axes as well"
     )
-    bl_options = {"REGISTER", "UNDO"}
     MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
 
     add: BoolProperty(
         name="Add Rigid Bodies",
         description="Add an active rigid body to objects without one",
-        default=False,
     )
     axes: BoolProperty(
         name="Set Origins and Axes",
@@ -51,7 +49,6 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, selection.OnSelecti
             "Move origins to the centers of mass and align the local axes with the principal axes, as the physics "
             "engine takes them to be. Nothing visible moves"
         ),
-        default=False,
     )
 
     def _begin(self, context: Context) -> int:

@@ -32,7 +32,6 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
             ("CURSOR", "3D Cursor", "The 3D cursor"),
             ("POINT", "Point", "The point below, in world coordinates"),
         ),
-        default="CURSOR",
     )
     point: FloatVectorProperty(
         name="Point",
@@ -50,12 +49,10 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
             ),
             ("ALL", "All Axes", "Onto the target itself"),
         ),
-        default="ALONG_GRAVITY",
     )
     limit: FloatProperty(
         name="Max Distance",
         description="Longest move of a vertex. 0 for the size of the mesh",
-        default=0.0,
         min=0.0,
         unit="LENGTH",
         precision=4,

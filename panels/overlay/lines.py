@@ -44,10 +44,10 @@ def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np
     return np.stack([centers[:, None] - arms, centers[:, None] + arms], axis=2)
 
 
-def drop_lines(centers: NDArray, gyration: NDArray, floor: float = 0.0) -> NDArray[np.float64]:
+def drop_lines(centers: NDArray, gyration: NDArray) -> NDArray[np.float64]:
     """Return a dashed line from each center to the floor, and a ring at its foot."""
     feet = centers.copy()
-    feet[:, 2] = floor
+    feet[:, 2] = 0.0
     steps = np.arange(2 * DASHES).reshape(-1, 2) / (2.0 * DASHES - 1.0)
     dashes = feet[:, None, None] + steps[None, :, :, None] * (centers - feet)[:, None, None]
     ring = np.stack([np.cos(RING), np.sin(RING), np.zeros_like(RING)], axis=1)

@@ -81,7 +81,7 @@ def test_manifest_meets_the_platform_requirements(manifest):
 
 def test_the_zip_holds_the_add_on_and_nothing_else(archive):
     with zipfile.ZipFile(archive) as opened:
-        assert opened.testzip() is None
+        assert opened.testzip() is None and archive.stat().st_size < 8e6
         names = {name for name in opened.namelist() if not name.endswith("/")}
     top = {"__init__.py", "blender_manifest.toml", "LICENSE", "README.md"}
     expected = {
@@ -92,7 +92,7 @@ def test_the_zip_holds_the_add_on_and_nothing_else(archive):
     }
     manual = {name for name in names if name.startswith("manual/")}
     assert names - manual == top | expected
-    assert {PurePosixPath(name).suffix for name in manual} == {".html", ".png", ".json", ".cff"}
+    assert {PurePosixPath(name).suffix for name in manual} == {".html", ".png", ".json", ".cff", ".js", ".css"}
     assert {PurePosixPath(name).suffix for name in expected} == {".py", ".po"}
 
 

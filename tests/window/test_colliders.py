@@ -60,6 +60,9 @@ def test_button_makes_colliders_that_undo_removes(window):
     assert window.get("'body_colliders' in bpy.context.object") is False
     window.key("ctrl+shift+z")
     window.wait("{} == {}".format(COUNT, made))
+    window.redraw()
+    window.press("object.body_moments_remove_colliders")
+    window.wait(COUNT + " == 0")
 
 
 def test_esc_leaves_nothing_behind(window):

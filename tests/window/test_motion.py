@@ -25,6 +25,7 @@ view = area.spaces.active.region_3d
 view.view_rotation = (0.50, 0.46, 0.50, 0.53)
 view.view_location, view.view_distance = (0.0, -0.6, 1.0), 5.0
 """
+CURVES = "bpy.data.objects['Figure'].animation_data.action.layers[0].strips[0].channelbags[0].fcurves"
 EMPTY = "next(obj for obj in bpy.data.objects if 'body_balance_group' in obj)"
 
 
@@ -44,7 +45,7 @@ def test_floaty_jump_is_listed_and_a_click_goes_there(jump):
     window.press("pose.body_moments_bake_curves")
     window.wait("any('body_balance_group' in obj for obj in bpy.data.objects)")
     window.redraw()
-    window.picture("motion-floaty")
+    window.picture("motion")
     assert window.get(f"len({EMPTY}['body_balance_spans'])") == 4
     window.press("wm.context_set_int")
     window.wait("bpy.context.scene.frame_current > 8")
@@ -54,10 +55,19 @@ def test_parabola_explains_the_momentum(jump):
     window = jump
     window.press("pose.body_moments_parabola")
     window.key("Return")
-    curves = "bpy.data.objects['Figure'].animation_data.action.layers[0].strips[0].channelbags[0].fcurves"
-    window.wait(f"len({curves}[2].keyframe_points) > 10")
+    window.wait(f"len({CURVES}[2].keyframe_points) > 10")
     window.press("pose.body_moments_bake_curves")
     window.wait(f"'body_balance_spans' not in {EMPTY}")
     window.redraw()
     window.picture("motion-parabola")
+    assert "Traceback" not in window.output()
+
+
+def test_spin_is_keyed_and_the_path_is_traced(jump):
+    window = jump
+    window.press("pose.body_moments_keep_spin")
+    window.key("Return")
+    window.wait(f"any('rotation' in curve.data_path for curve in {CURVES})")
+    window.press("pose.body_moments_trace")
+    window.wait(f"'body_balance_momentum' not in {EMPTY}")
     assert "Traceback" not in window.output()

@@ -112,7 +112,7 @@ left += [str(member) for member in members if bpy.app.timers.is_registered(membe
 keys = bpy.context.window_manager.keyconfigs
 left += [item.idname for keymap in keys.user.keymaps for item in keymap.keymap_items if "body_moments" in item.idname]
 drawing = sys.modules.get("{PACKAGE}.panels.overlay.draw")
-left += [] if drawing is None or drawing._handle is None else ["draw handler"]
+left += [] if drawing is None or not drawing._handles else ["draw handler"]
 result = left
 """
 

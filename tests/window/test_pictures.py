@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The demo's bracket is measured and snapped as the README tells it; the README's pictures are taken on the way.
+"""The demo's bracket is measured and snapped as the manual tells it; pictures of the manual are taken on the way.
 
-They are left among the artefacts; the README shows copies of them (tests/window/pictures).
+They are left among the artefacts; the documents show copies of them (tests/window/pictures).
 """
 
 import math
@@ -48,7 +48,7 @@ def test_the_bracket_is_measured_in_aluminium(window):
     assert window.get(f"{BRACKET}['body_density']") == 2700.0
     window.point_at_view()
     window.redraw()
-    window.picture("readme-measured")
+    window.picture("measured")
 
 
 def test_an_empty_shows_the_principal_frame(window):
@@ -56,7 +56,7 @@ def test_an_empty_shows_the_principal_frame(window):
     window.wait("any(obj.type == 'EMPTY' for obj in bpy.data.objects)")
     window.point_at_view()
     window.redraw()
-    window.picture("readme-principal-frame")
+    window.picture("principal-frame")
     assert window.get(f"{BRACKET}['body_method']") == "exact"
 
 
@@ -71,7 +71,7 @@ def test_a_nurbs_sphere_is_the_ball_that_it_is(window):
     window.wait(f"'body_volume' in {sphere}")
     window.point_at_view()
     window.redraw()
-    window.picture("readme-nurbs")
+    window.picture("nurbs")
     assert window.get(f"{sphere}['body_method']") == "NURBS exact"
     assert window.get(f"{sphere}['body_volume']") == pytest.approx(4.0 * math.pi / 3.0 * (1.0 - 1.95e-7), rel=1e-8)
 
@@ -89,7 +89,7 @@ def test_a_scan_is_imported_and_measured(window, tmp_path):
     window.wait("'body_mass' in bpy.context.object")
     window.point_at_view()
     window.redraw()
-    window.picture("readme-volume")
+    window.picture("volume")
     assert window.get("bpy.context.object['body_mass']") == pytest.approx(16 * 12 * 8 * 900.0, rel=1e-12)
 
 

@@ -44,7 +44,7 @@ def test_figure_is_balanced_with_one_key_and_two_clicks(figure):
     window.press("pose.body_moments_balance_pose")
     window.wait(f"any({RIG}.pose.bones['hips'].location)")
     window.redraw()
-    window.picture("weight-balanced")
+    window.picture("weight")
     assert "Traceback" not in window.output()
 
 

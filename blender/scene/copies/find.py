@@ -8,6 +8,7 @@ counts under which the layers agree, too: so UVs and materials of symmetric shap
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -158,9 +159,7 @@ class Copies:
     @property
     def saved_bytes(self) -> int:
         """The memory of the meshes that nobody would use any more."""
-        counts: dict[MeshData, int] = {}
-        for _, data, _ in self.members:
-            counts[data] = counts.get(data, 0) + 1
+        counts = Counter(data for _, data, _ in self.members)
         return sum(data.bytes for data, count in counts.items() if data.mesh.users == count)
 
 

@@ -147,6 +147,13 @@ class Character:
         size = float(np.ptp(np.array(ends) @ place[:3, :3].T, axis=0).max())
         return cls(tuple(bodies), masses, np.array(centers), np.array(spreads), size)
 
+    @classmethod
+    def from_rig(cls, rig: Rig, unit: float) -> Character | None:
+        """Return a character that has just been measured; None if there is no mass."""
+        several = {part.name: part.measurement for part in rig.parts if part.measurement is not None}
+        bodies = {name: PlainBody.of_body(one.in_object_frame(), 0.0, 0.0, 0.0, {}) for name, one in several.items()}
+        return cls.from_bodies(rig.armature, bodies, unit)
+
     def pose(self, armature: Object, depsgraph: Depsgraph) -> Parts:
         """Return the parts as evaluated, held objects included."""
         row = {bone.name: index for index, bone in enumerate(armature.pose.bones)}
@@ -224,25 +231,12 @@ _weights: SessionCache[tuple[tuple, Weight | None]] = SessionCache()
 
 
 def measure(context: Context, armature: Object) -> Rig:
-    """Measure the bones of a character, and keep or, on a linked one, only remember the results.
-
-    Raise MeasureError, and keep nothing, if there are no parts, or no vertex of the meshes has a weight.
-    """
-    rig, unit = measure_rig(context, armature), shortest_decimal(context.scene.unit_settings.scale_length)
+    """Measure the bones; raise MeasureError if there are no parts, or no vertex of the meshes has a weight."""
+    rig = measure_rig(context, armature)
     bare = [found for found in rig.measurement.findings if found.code == UNWEIGHTED_VERTICES]
     meshes = skinned_objects(armature, rig.objects)
     if meshes and len(bare) == len(meshes) and all(found.values["count"] == found.values["total"] for found in bare):
         raise ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
-    try:
-        stored.rig.store(rig)
-    except EditRefusedError:
-        bodies = {
-            part.name: PlainBody.of_body(part.measurement.in_object_frame(), 0.0, 0.0, 0.0, {})
-            for part in rig.parts
-            if part.measurement is not None
-        }
-        _characters[armature] = properties.fingerprint(armature), Character.from_bodies(armature, bodies, unit)
-        handlers.count_change(armature)
     return rig
 
 
@@ -286,31 +280,50 @@ def require_gravity(scene: Scene) -> None:
         raise Refused(NO_GRAVITY)
 
 
-def prepare(context: Context, armature: Object) -> Rig | None:
-    """Measure a character unless its results are up to date; find its ground unless it is shown. Return a new Rig."""
-    if not armature.body_moments_weight.show:
+def find(context: Context, armature: Object) -> tuple[Character, float, Rig | None]:
+    """Return a character, measured unless its results are up to date, its ground, found unless shown, and a new Rig."""
+    settings, unit = armature.body_moments_weight, shortest_decimal(context.scene.unit_settings.scale_length)
+    if not settings.show:
         require_gravity(context.scene)
     is_known = weight(armature, context.evaluated_depsgraph_get()) is not None
     rig = None if is_known and stale_reason(armature, context.scene) is None else measure(context, armature)
-    if not armature.body_moments_weight.show:
-        find_ground(context, armature)
+    known = character(armature, unit) if rig is None else Character.from_rig(rig, unit)
+    if known is None:
+        raise ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
+    return known, settings.ground if settings.show else _find_ground(context, armature, known), rig
+
+
+def keep(armature: Object, known: Character, ground: float, rig: Rig | None) -> None:
+    """Store what `find` has found; on a linked character only remember its results."""
+    armature.body_moments_weight.ground = ground
+    if rig is None:
+        return
+    try:
+        stored.rig.store(rig)
+    except EditRefusedError:
+        _characters[armature] = properties.fingerprint(armature), known
+        handlers.count_change(armature)
+
+
+def prepare(context: Context, armature: Object) -> Rig | None:
+    """Measure a character and find its ground if necessary, and keep both. Return a new Rig."""
+    known, ground, rig = find(context, armature)
+    keep(armature, known, ground, rig)
     return rig
 
 
-def find_ground(context: Context, armature: Object) -> None:
-    """Set the height of a measured character's ground: the world's origin, or its lowest point at rest or as posed.
+def _find_ground(context: Context, armature: Object, known: Character) -> float:
+    """Return the height of a character's ground: the world's origin, or its lowest point at rest or as posed.
 
     A character that stands on one of them stands there; one in the air is above the higher of the first two.
     """
-    known = character(armature, shortest_decimal(context.scene.unit_settings.scale_length))
-    assert known is not None
     down = stored.stability.down(context.scene)
     with rest_pose(context, armature) as depsgraph:
         rest = known.contacts(armature, depsgraph, 0.0, down).height
     posed = known.contacts(armature, context.evaluated_depsgraph_get(), 0.0, down).height
-    if rest is not None and posed is not None:
-        below = [height for height in (0.0, rest) if height <= posed + REACH * known.size]
-        armature.body_moments_weight.ground = max(below, default=posed)
+    if rest is None or posed is None:
+        return armature.body_moments_weight.ground
+    return max((height for height in (0.0, rest) if height <= posed + REACH * known.size), default=posed)
 
 
 def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str | None]]:

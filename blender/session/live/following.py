@@ -4,25 +4,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bpy.types import Object
 
-from ....core.measurement.settings import VERSION
+from ....core import measurement as measuring
 from .. import live
 from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from ....core.measurement.measurement import Measurement
-    from ....core.nurbs.tracked_solid import TrackedSolid
     from ....core.verdict.finding import Finding
-    from .moving_surface import MovingSurface
+    from .live import Followed
 
 
 class Lag(StrEnum):
@@ -33,8 +28,7 @@ class Lag(StrEnum):
     BEHIND = "behind"
 
 
-@dataclass(frozen=True, eq=False)
-class LiveResult:
+class LiveResult(NamedTuple):
     """An object's current numbers.
 
     measurement: None if it was refused. refusal: the reason for that. seconds: duration of the measurement. settings:
@@ -45,28 +39,6 @@ class LiveResult:
     refusal: Finding | None
     seconds: float
     settings: str
-
-
-@dataclass(eq=False)
-class Followed:
-    """An object with Live on.
-
-    matrix, transform, number: at the measurement, matrix_world, transform key and number of the last update. tracked:
-    the body, if edits are followed rather than measured anew. surface: the faces, if a light pass can follow them.
-    first_order: volume and center in the object's coordinates by the last light pass. pass_seconds: its duration.
-    shows_others: whether the object shows instances. is_pending: whether the object changed since the measurement.
-    """
-
-    result: LiveResult | None = None
-    matrix: NDArray[np.float64] | None = None
-    transform: str = ""
-    number: int = 0
-    tracked: TrackedSolid | None = None
-    surface: MovingSurface | None = None
-    first_order: tuple[float, NDArray[np.float64]] | None = None
-    pass_seconds: float = 0.0
-    shows_others: bool = False
-    is_pending: bool = False
 
 
 followed: SessionCache[Followed] = SessionCache()
@@ -86,7 +58,7 @@ def current_numbers(obj: Object) -> LiveResult | None:
 def stamp_of(obj: Object) -> Stamp | None:
     """Return a stamp of the settings of live numbers, as Blender does not report every change of a setting."""
     now = current_numbers(obj)
-    return None if now is None else Stamp(Kind.SETTINGS, VERSION, settings=now.settings)
+    return None if now is None else Stamp(Kind.SETTINGS, measuring.settings.VERSION, settings=now.settings)
 
 
 def lag(obj: Object) -> Lag:

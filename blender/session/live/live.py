@@ -15,6 +15,7 @@ The switch is kept in memory, too: a property of the object would make Blender r
 from __future__ import annotations
 
 import time
+from dataclasses import dataclass
 from operator import itemgetter
 
 import bpy
@@ -42,7 +43,7 @@ from ...read.objects import read_patches
 from ...settings.options import MeasureOptions, object_settings
 from ...settings.preferences import preferences
 from ..tracking import handlers, updates
-from .following import Followed, LiveResult, followed
+from .following import LiveResult, followed
 from .moving_surface import MovingSurface
 
 BUDGET = 0.01  # s per redraw, if there are no preferences
@@ -51,6 +52,28 @@ RETRY = 0.7  # factor for the remembered time of a skipped pass, so that it is t
 IDLE = 0.25  # s without an update before measurements that take longer than the budget
 POLL = 0.1  # s between two checks whether these can begin
 _last_event = 0.0  # time of the last update
+
+
+@dataclass(eq=False)
+class Followed:
+    """An object with Live on.
+
+    matrix, transform, number: at the measurement, matrix_world, transform key and number of the last update. tracked:
+    the body, if edits are followed rather than measured anew. surface: the faces, if a light pass can follow them.
+    first_order: volume and center in the object's coordinates by the last light pass. pass_seconds: its duration.
+    shows_others: whether the object shows instances. is_pending: whether the object changed since the measurement.
+    """
+
+    result: LiveResult | None = None
+    matrix: NDArray[np.float64] | None = None
+    transform: str = ""
+    number: int = 0
+    tracked: TrackedSolid | None = None
+    surface: MovingSurface | None = None
+    first_order: tuple[float, NDArray[np.float64]] | None = None
+    pass_seconds: float = 0.0
+    shows_others: bool = False
+    is_pending: bool = False
 
 
 def map_properties(obj: Object, current: Followed, measured: Measurement, scene: Scene) -> PlainBody:

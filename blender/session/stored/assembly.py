@@ -53,16 +53,9 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
                 properties.store(data, assembly_measurement(part, depsgraph, unit))
             except Exception as error:
                 failures.append((data.name_full, internal_error.finding_of(error)))
-    stored = []
-    for obj, refusal in results.store_many(measured, scene):
-        if refusal is None:
-            stored.append(obj)
-        else:
-            failures.append((obj.name_full, internal_error.finding_of(refusal)))
     _write_rows(assembly)
-    shapes = {obj: found.shape_digest for obj, found in measured if isinstance(found, Stacked)}
-    staleness.mark_up_to_date(context, stored, shapes)
-    return failures
+    refused = results.store_measured(context, measured)
+    return failures + [(obj.name_full, internal_error.finding_of(refusal)) for obj, refusal in refused.items()]
 
 
 def clear(root: Root) -> bool:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import bpy
 
@@ -14,8 +14,7 @@ from ....core.verdict.sentences import Group, grouped, severity
 from ...write.findings import FAILURE
 
 
-@dataclass(frozen=True, eq=False)
-class ActionOutcome:
+class ActionOutcome(NamedTuple):
     """Refusals of one action, never empty. action: the operator's label, in English."""
 
     action: str

@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
-from bpy.types import Object, Scene
+from bpy.types import Context, Object, Scene
 
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import MeasuredStack, Stacked
@@ -46,6 +46,15 @@ def store_many(
                     yield obj, None
         else:
             yield from _store_stack(stack, [each.index for _, each in items], scene)
+
+
+def store_measured(context: Context, measured: Iterable[tuple[Object, Measured | Stacked]]) -> dict[Object, Exception]:
+    """Store measurements of the present scene; return the errors of objects that cannot hold their results."""
+    measured = list(measured)
+    outcomes = list(store_many(measured, context.scene))
+    shapes = {obj: found.shape_digest for obj, found in measured if isinstance(found, Stacked)}
+    staleness.mark_up_to_date(context, [obj for obj, refusal in outcomes if refusal is None], shapes)
+    return {obj: refusal for obj, refusal in outcomes if refusal is not None}
 
 
 def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterator[tuple[Object, Exception | None]]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import bpy
 from bpy.app.handlers import persistent
@@ -18,8 +18,7 @@ from bpy.types import ID, Collection, Depsgraph, Object, Scene
 from . import cache
 
 
-@dataclass(frozen=True, eq=False)
-class Updates:
+class Updates(NamedTuple):
     """Session uids of data-blocks that the window's dependency graph has evaluated again; there may be thousands.
 
     depsgraph: its `updates` are valid until the handlers return.

@@ -23,7 +23,7 @@ from typing import Any
 import bpy
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
-from ....core.measurement.settings import VERSION, digest
+from ....core import measurement
 from ....core.numerics.float32 import shortest_decimal
 from ... import read
 from ...read.fingerprint import colliders_digest, has_transform, matrix_hash, scale_hash, settings_hash
@@ -52,7 +52,7 @@ def stale_reason(
     stamp = stamp_of(owner)
     if stamp is None:
         return None
-    if stamp.version != VERSION:
+    if stamp.version != measurement.settings.VERSION:
         return Stale.FINGERPRINT
     for reason, holds in CHECKS[stamp.kind]:
         if not holds(owner, stamp, scene):
@@ -112,7 +112,7 @@ def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str
 def was_current(root: Object | Collection, scene: Scene) -> bool:
     """Return whether a total was up to date before the settings of members changed, of which Blender tells later."""
     stamp, parts = stamps.of_results(root), _digest_parts(root, scene, (None, Stale.SETTINGS))
-    if stamp is None or stamp.version != VERSION or not _has_matrix(root, stamp, scene):
+    if stamp is None or stamp.version != measurement.settings.VERSION or not _has_matrix(root, stamp, scene):
         return False
     return parts is None or parts == (stamp.settings, stamp.geometry)
 
@@ -132,7 +132,7 @@ def _digest_parts(
     texts = {obj: properties.fingerprint(obj) for obj in measured}
     is_stale = any(stale_reason(obj, scene) not in current for obj in measured)
     key = assembly.members_key(member, texts)
-    return assembly.structure_hash(member), "" if is_stale else digest(key.encode())
+    return assembly.structure_hash(member), "" if is_stale else measurement.settings.digest(key.encode())
 
 
 CHECKS = {

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from bpy.types import Collection, Object
 
-from ....core.measurement.settings import VERSION
+from ....core import measurement
 from ....core.verdict.method import Verdict
 from ...settings.given import COLLIDERS
 from ...write import properties, section
@@ -84,7 +84,7 @@ _carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
 
 def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
     """Attach a stamp to an original object's data in memory, and return it. number: `updates.count` at their making."""
-    stamp = Stamp(kind, VERSION, "{:s} {:d}".format(kind.value, number), transform, settings)
+    stamp = Stamp(kind, measurement.settings.VERSION, "{:s} {:d}".format(kind.value, number), transform, settings)
     _carried[obj] = {**(_carried.get(obj) or {}), kind: stamp}
     return stamp
 

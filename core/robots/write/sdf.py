@@ -20,6 +20,7 @@ from ..findings import SDF_FRAMES_ADDED
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
 from .joints import NAMES, lost_values, with_axis_frames
+from .shapes import shape_values
 from .text import add_text, document, inertial_element, is_identity, number, numbers, unique_names, xml_name
 
 VERSION = "1.9"  # The first with quaternions; newer parsers convert it, older ones refuse newer files.
@@ -120,17 +121,9 @@ def _add_shapes(parent: Element, link: Link) -> None:
 
 def _add_geometry(geometry: Element, shape: Shape) -> None:
     element = SubElement(geometry, shape.kind)
-    if shape.kind == "mesh":
-        add_text(element, "uri", shape.file)
-        if shape.size != (1.0, 1.0, 1.0):
-            add_text(element, "scale", numbers(shape.size))
-    elif shape.kind == "box":
-        add_text(element, "size", numbers(shape.size))
-    elif shape.kind == "ellipsoid":
-        add_text(element, "radii", numbers(shape.size))
-    else:
-        for name, value in zip(("radius", "length"), shape.size):
-            add_text(element, name, number(value))
+    values = {"uri": shape.file} if shape.kind == "mesh" else {}
+    for name, text in (values | shape_values(shape)).items():
+        add_text(element, name, text)
 
 
 def _joint_type(joint: Joint) -> str:

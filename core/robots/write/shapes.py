@@ -13,6 +13,7 @@ from ...verdict.finding import Finding, finding
 from ..findings import ROBOT_ELLIPSOID_AS_BOX, ROBOT_LINKS_BARE
 from ..model import Link, Robot, Shape
 from ..primitives import equal_inertia_shape
+from .text import number, numbers
 
 BOX_OF_ELLIPSOID = 2.0 * sqrt(3.0 / 5.0)  # sides over semi-axes at equal mass and inertia
 
@@ -28,6 +29,15 @@ def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
     """Return the finding about a robot's ellipsoids for a format without them, empty if it has none."""
     names = [link.name for link in robot.links if any(shape.kind == "ellipsoid" for shape in link.shapes)]
     return [finding(ROBOT_ELLIPSOID_AS_BOX, count=len(names), links=names)] if names else []
+
+
+def shape_values(shape: Shape) -> dict[str, str]:
+    """Return the names and texts of a shape's lengths in URDF and SDF; of a mesh its scale, unless it is 1."""
+    if shape.kind == "mesh":
+        return {"scale": numbers(shape.size)} if shape.size != (1.0, 1.0, 1.0) else {}
+    if shape.kind in ("box", "ellipsoid"):
+        return {"size" if shape.kind == "box" else "radii": numbers(shape.size)}
+    return {name: number(value) for name, value in zip(("radius", "length"), shape.size)}
 
 
 def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tuple[Robot, list[Finding]]:

@@ -21,7 +21,7 @@ from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
 from .joints import lost_values, with_axis_frames
 from .mjcf import raised_inertials, smallest_inertials
-from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
+from .shapes import box_of_ellipsoid, ellipsoids_as_boxes, shape_values
 from .text import document, inertial_element, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_name
 
 FLATNESS = 1e-7  # Thickness relative to length, of float32 vertices in a plane.
@@ -141,16 +141,8 @@ def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
             element = SubElement(parent, tag)
             _add_origin(element, piece.pose)
             geometry = SubElement(element, "geometry")
-            if piece.kind == "mesh":
-                mesh = SubElement(geometry, "mesh", filename=piece.file)
-                if piece.size != (1.0, 1.0, 1.0):
-                    mesh.set("scale", numbers(piece.size))
-            elif piece.kind == "box":
-                SubElement(geometry, "box", size=numbers(piece.size))
-            elif piece.kind == "cylinder":
-                SubElement(geometry, "cylinder", radius=number(piece.size[0]), length=number(piece.size[1]))
-            else:
-                SubElement(geometry, "sphere", radius=number(piece.size[0]))
+            values = {"filename": piece.file} if piece.kind == "mesh" else {}
+            SubElement(geometry, piece.kind, values | shape_values(piece))
 
 
 def _is_flat(surface: Surface | None) -> bool:

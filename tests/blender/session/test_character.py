@@ -18,8 +18,7 @@ HEIGHT = 1.75
 
 def shown(rig):
     """Measure a figure, find its ground, and return its weight as it is posed."""
-    character.measure(bpy.context, rig)
-    character.find_ground(bpy.context, rig)
+    character.prepare(bpy.context, rig)
     return weight(rig)
 
 

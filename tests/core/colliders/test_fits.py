@@ -155,6 +155,21 @@ def test_cavity_stays_with_the_body_around_it():
     assert 25.99 < sum(volumes(shapes)) < 27.01
 
 
+def test_lids_with_points_of_their_own_close_the_body():
+    points, triangles = L_SHAPE
+    lids = np.isin(triangles, np.arange(6)).all(axis=1) | np.isin(triangles, np.arange(6, 12)).all(axis=1)
+    part = np.concatenate([points, points]), np.where(lids[:, None], triangles + len(points), triangles)
+    shapes = make(part, "pieces")
+    assert len(shapes) == 2
+    assert sum(volumes(shapes)) == pytest.approx(5.0, rel=1e-6)
+
+
+def test_circumscribed_round_shapes_leave_nothing_outside():
+    surface = Surface.from_triangles(*bodies.box((-1, -1, -1), (1, 1, 1)))
+    for shape in (Shape("sphere", (3.0**0.5,)), Shape("cylinder", (2.0**0.5, 2.0)), Shape("capsule", (2.0**0.5, 2.0))):
+        assert distances(surface, [shape])[1] == pytest.approx(0.0, abs=1e-12)
+
+
 def test_separate_bodies_become_pieces_of_their_own():
     part = bodies.joined(bodies.box((0, 0, 0), (1, 1, 1)), bodies.box((5, 0, 0), (6, 1, 1)))
     assert sorted(volumes(make(part, "pieces"))) == pytest.approx([1.0, 1.0], rel=1e-6)

@@ -181,6 +181,21 @@ def test_angular_momentum_is_that_of_take_off(scene, mode, layer):
     assert np.abs(poses(rig, range(1, END + 1)) - pose).max() < 1e-5
 
 
+@pytest.mark.parametrize("lead", [0, 5])
+def test_lead_shares_the_turn_between_both_ends(scene, lead):
+    rig, frames = jumper("QUATERNION", spin=2.0), range(1, END + 1)
+    before, spun = poses_in_world(rig, frames), angular_momenta(rig, FLIGHT)
+    assert SPIN(lead=lead, blend=5, **TYPED) == {"FINISHED"}
+    after, found = poses_in_world(rig, frames), angular_momenta(rig, FLIGHT)
+    size = np.linalg.norm(spun[0])
+    assert np.abs(found - found[0]).max() < 0.01 * size and np.abs(found[0] - spun[0]).max() < 0.03 * size
+    kept = [*range(TAKE_OFF - lead), *range(LANDING + 4, END)]
+    assert np.abs(after - before)[kept].max() < 1e-5
+    ends = [Matrix(after[frame - 1, 0] @ np.linalg.inv(before[frame - 1, 0])) for frame in (TAKE_OFF, LANDING)]
+    first, last = (end.to_quaternion().angle for end in ends)
+    assert (first < 1e-3) if lead == 0 else 0.1 < first < last
+
+
 def test_thrown_rigid_body_keeps_its_momentum(scene):
     rig, _body = figure(held=False)
     scene.frame_start, scene.frame_end = 1, 40
@@ -239,12 +254,75 @@ def test_unkeyed_root_and_armature_object_are_keyed(scene):
     assert ("location", 2) in keyed(rig)
 
 
+def share_action(rig):
+    other = bpy.data.objects.new("Other", rig.data).animation_data_create()
+    other.action, other.action_slot = rig.animation_data.action, rig.animation_data.action_slot
+
+
+def test_layer_keeps_cycles_ranges_and_influence_below(scene):
+    """A manual frame range and the blending of an action act otherwise once it is a strip."""
+    rig = jumper()
+    action = rig.animation_data.action
+    action.use_frame_range, action.frame_start, action.frame_end = True, 10, 14
+    for curve in curves_of(rig):
+        if "arm" in curve.data_path:
+            curve.modifiers.new("CYCLES")
+    action.update_tag()
+    for top in (None, bpy.data.actions.new("Top")):
+        if top is not None:
+            rig.animation_data.action, rig.animation_data.action_slot = top, top.slots.new("OBJECT", "Top")
+            rig.animation_data.action_blend_type, rig.animation_data.action_influence = "ADD", 0.5
+            rig.pose.bones["head"].rotation_euler = 1, 0, 0
+            rig.pose.bones["head"].keyframe_insert(EULER, frame=1)
+        rig.update_tag()
+        before = poses(rig, range(1, END + 1))
+        assert PARABOLA(use_layer=True, **TYPED) == {"FINISHED"}
+        path = centers(rig, FLIGHT)
+        assert np.abs(path - arc(path)).max() < 1e-6 * HEIGHT
+        assert np.abs(poses(rig, range(1, END + 1)) - before).max() < 1e-5
+
+
+def test_extrapolated_motion_outside_the_flight_stays(scene):
+    rig = jumper()
+    for curve in curves_of(rig):
+        curve.extrapolation = "LINEAR"
+    outside = [-5, 0, 1, END, END + 5]
+    before = poses_in_world(rig, outside)
+    assert PARABOLA(use_contacts=False, take_off=2, landing=20) == {"FINISHED"}
+    assert np.abs(poses_in_world(rig, outside) - before).max() < 1e-5
+
+
+def test_delta_transforms_of_the_object_are_refused(scene):
+    rig = jumper()
+    rig.delta_location = 1, 0, 0
+    for target in ("hold.L", "hold.R"):
+        bpy.ops.object.mode_set(mode="EDIT")
+        rig.data.edit_bones[target].parent = None
+        bpy.ops.object.mode_set(mode="POSE")
+    with pytest.raises(RuntimeError, match="Delta"):
+        PARABOLA(**TYPED)
+
+
+@pytest.mark.parametrize("operator", [PARABOLA, SPIN], ids=["parabola", "spin"])
+def test_refusal_leaves_no_results_and_no_ground(scene, operator):
+    rig = jumper()
+    bpy.ops.object.body_moments_clear_bones()
+    rig.body_moments_weight.ground = -5.0
+    scene.frame_end = 5
+    with pytest.raises(RuntimeError, match="leave the ground"):
+        operator()
+    assert "body_mass" not in rig and rig.body_moments_weight.ground == -5.0
+    assert BAKE() == {"FINISHED"} and "body_mass" in rig and rig.body_moments_weight.ground > -1.0
+
+
 REFUSALS = {
     "no gravity": (lambda rig: setattr(bpy.context.scene, "use_gravity", False), {}),
     "locked": (lambda rig: setattr(rig.pose.bones["root"], "lock_location", (False, True, False)), {}),
     "driven": (lambda rig: rig.pose.bones["root"].driver_add("location", 1), {}),
     "constrained": (lambda rig: rig.pose.bones["root"].constraints.new("LIMIT_LOCATION"), {}),
     "locked curve": (lambda rig: setattr(curves_of(rig)[0], "lock", True), {}),
+    "curve with noise": (lambda rig: curves_of(rig)[0].modifiers.new("NOISE"), {}),
+    "action of two": (lambda rig: share_action(rig), {}),
     "landing first": (lambda rig: None, {"use_contacts": False, "take_off": 20, "landing": 10}),
     "no such bone": (lambda rig: None, {"bone": "tail"}),
     "bone carries a part": (lambda rig: None, {"bone": "head"}),
