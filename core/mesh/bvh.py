@@ -222,14 +222,11 @@ class Bvh:
         above = height > 0.0
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
 
-    def nearest(
+    def distances(
         self, query_points: NDArray[np.float64], component: NDArray[np.intp], within: float = np.inf
-    ) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-        """Return the (k,) distances of places (about `origin`) from the surfaces of components, and sorted triangles.
-
-        Distances beyond `within` are infinite, and the triangle is -1.
-        """
-        nearest, closest = np.full(len(query_points), within), np.full(len(query_points), -1)
+    ) -> NDArray[np.float64]:
+        """Return the (k,) distances of places (about `origin`) from the surfaces of components; inf beyond `within`."""
+        nearest = np.full(len(query_points), np.nextafter(within, np.inf))
         pieces = _batches(np.arange(len(query_points)), self.root[component])
         while pieces:
             place, node = pieces.pop()
@@ -247,13 +244,10 @@ class Bvh:
                 triangle = np.repeat(self.first[node[leaf]], size) + segment_ranges(size)
                 at = np.repeat(place[leaf], size)
                 corners = self.corners(triangle).transpose(2, 1, 0)
-                distance = triangle_distances(query_points[at], corners)
-                np.minimum.at(nearest, at, distance)
-                is_closest = distance <= nearest[at]
-                closest[at[is_closest]] = triangle[is_closest]
+                np.minimum.at(nearest, at, triangle_distances(query_points[at], corners))
             place, child = place[~leaf], child[~leaf]
             pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
-        return np.where(closest < 0, np.inf, nearest), closest
+        return np.where(nearest <= within, nearest, np.inf)
 
 
 def intersecting_pairs(

@@ -18,14 +18,17 @@ from numpy.typing import NDArray
 
 from .disc_zernike import disc_degrees
 from .registration import MAX_FIT_RTOL, MIRROR_SHARE, Residual, RigidMatch, best_rotation
-from .symmetries import FIRST_SAMPLES, MAX_AXIS_ORDER, Distance, Symmetry
+from .symmetries import Symmetry
 
 ANGLES = 720  # at which overlaps are sampled
 MAX_CANDIDATES = 24  # rotations, the largest overlaps first, that are compared by outlines
 NEWTON_STEPS = 8
 ROUND_ANGLES = 1.0, 0.1, 0.01  # a shape that all these turns leave is round
+MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
+FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
 MIRROR = np.diag([1.0, -1.0, 1.0])  # in the line y = 0, seen from the front
 
+Distance = Callable[[NDArray], NDArray]
 Holds = Callable[[NDArray], bool]  # True if a (3, 3) map, in the plane's axes, takes the shape to itself
 
 

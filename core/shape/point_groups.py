@@ -1,26 +1,24 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The finite groups that a surface of triangles may have, by its corners, with proof on their triangles.
+"""The finite groups that a surface of triangles may have, by its corners.
 
 A corner farthest from the center is a corner in every triangulation, and a symmetry takes it to another such corner. So
 it does with a corner farthest from the line through the first. Two pairs of them fix a rotation, and a rotation with a
 mirror: whatever moments show, every symmetry is a candidate.
 
-A candidate holds if the images of all triangles are near the surface. The distance from one triangle is convex: an
-image is near if its corners are near one triangle. Other images are cut along the edges of the triangles beside them. A
-candidate is refuted by a point whose image is far from the surface. The candidates between leave a choice of groups.
+A candidate holds if images of all corners are near the surface, and each crease lies on a crease between such corners,
+or points of it and of the triangles lie on the surface. It is refuted by a point whose image is far from the surface.
+The candidates between leave a choice of groups.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.point_triangle import triangle_distances
-from ..mesh.surface_tree import SurfaceTree
+from ..mesh.bvh import Bvh, sort_components
 from ..numerics.arrays import cross_rows, lengths
 from .symmetries import Symmetry, axis_rotation
 
@@ -31,10 +29,8 @@ SKEW = np.array([0.5377, 0.6213, 0.5699])  # corners are sorted along this direc
 MAX_TRIES = 64  # corners of nearly equal height along it that are compared
 FIRST_IMAGES = 12  # images of corners that refute most candidates
 FIRST_SAMPLES = 64  # corners that refute most of the others
-ROUND_SAMPLES = 500  # corners that are turned about an axis
-MAX_PROVED = 4096  # triangles between other corners that are proved; of more, evenly many (all corners are compared)
-MAX_PIECES = 1 << 16  # of triangles, looked at in all rounds of cutting
-PIECES_PER_TRIANGLE = 64  # so many at most: if proof takes more, the misfit is that of the tolerance
+SAMPLES = 128  # corners, farthest corners and triangles that are compared if the tolerance is large
+MAX_BETWEEN = 2048  # edges and triangles between other corners that are compared; of more, evenly many
 CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
 
 
@@ -53,12 +49,28 @@ class PlacedTriangles:
         self._order = np.argsort(height, kind="stable")
         self._height = height[self._order]
         self._first = self._match(self.points)
-        self._sides, self._faces = self._face_keys(self._first)
+        self._creases = self._find_creases()
         self._witnesses = np.arange(0, len(self.points), 1 + len(self.points) // FIRST_SAMPLES)
 
     @cached_property
-    def _tree(self) -> SurfaceTree:
-        return SurfaceTree(self.points, self.triangles)
+    def _tree(self) -> Bvh:
+        whole = sort_components(self.points, self.triangles, np.zeros(len(self.triangles), np.intp), 1)
+        return Bvh(self.points, whole, np.ones(1, bool))
+
+    def _distances(self, points: NDArray, within: float) -> NDArray[np.float64]:
+        return self._tree.distances(points - self._tree.origin, np.zeros(len(points), np.intp), within)
+
+    @cached_property
+    def _samples(self) -> NDArray[np.float64]:
+        n, m = len(self.points), len(self.triangles)
+        farthest = np.argsort(lengths(self.points)[:, 0], kind="stable")[-SAMPLES:]
+        middles = self.points[self.triangles[:: 1 + m // SAMPLES]].mean(axis=1)
+        return np.concatenate([self.points[farthest], self.points[:: 1 + n // SAMPLES], middles])
+
+    def holds(self, operation: NDArray, tolerance: float) -> bool:
+        """Return whether images of a sample of the surface are within a tolerance of it."""
+        images = self._samples @ operation.T
+        return all(np.isfinite(self._distances(part, tolerance)).all() for part in (images[::10], images))
 
     def groups(self) -> list[NDArray[np.float64]] | None:
         """Return the (k, 3, 3) operations of the group, then of larger possible ones; None if there are too many.
@@ -108,10 +120,9 @@ class PlacedTriangles:
         return count if self._misfit(axis_rotation(axis, 2.0 * np.pi / count)) <= self.near else 1
 
     def is_round(self, found: Symmetry, tolerance: float) -> bool:
-        """Return whether turns about the axes of revolution leave a sample of the corners within the tolerance."""
-        points = self.points[:: 1 + len(self.points) // ROUND_SAMPLES]
+        """Return whether turns about the axes of revolution hold within the tolerance."""
         turns = [axis_rotation(axis, angle) for axis in found.revolution_axes for angle in (1.0, 0.1, 0.01)]
-        return all(np.isfinite(self._tree.distance(points @ turn.T, tolerance)).all() for turn in turns)
+        return all(self.holds(turn, tolerance) for turn in turns)
 
     def _candidates(self) -> NDArray[np.float64] | None:
         """Return (k, 3, 3) maps of corners to corners, the identity first, then by their angles; None if too many."""
@@ -144,7 +155,7 @@ class PlacedTriangles:
         operations = np.concatenate(images)
         worst = np.zeros(len(operations))
         for i in self._witnesses[:: max(1, len(self._witnesses) // FIRST_IMAGES)]:
-            worst = np.maximum(worst, self._tree.distance(operations @ self.points[i], self.far))
+            worst = np.maximum(worst, self._distances(operations @ self.points[i], self.far))
             operations, worst = operations[np.isfinite(worst)], worst[np.isfinite(worst)]
         worst[0] = -1.0  # the identity
         proper = np.linalg.det(operations) > 0.0
@@ -161,15 +172,12 @@ class PlacedTriangles:
         return self.points[np.unique(self._first[rows])]
 
     def _misfit(self, operation: NDArray) -> float:
-        """Return a bound of the distances of images from the surface; infinity if one is far from it.
-
-        Images whose proof is not complete count as a little more than near.
-        """
+        """Return the largest distance of images from the surface; infinity if one is far from it."""
         for rows in (self._witnesses, None):
             images = (self.points if rows is None else self.points[rows]) @ operation.T
             match = self._match(images)
             left = np.flatnonzero(match < 0)
-            distances = self._tree.distance(images[left], self.far)
+            distances = self._distances(images[left], self.far)
             if not np.isfinite(distances).all():
                 worst = left[np.argmax(distances)]
                 self._witnesses = np.append(self._witnesses[-FIRST_SAMPLES:], worst if rows is None else rows[worst])
@@ -177,10 +185,14 @@ class PlacedTriangles:
         level = float(distances.max(initial=0.0))
         if level > self.near:
             return level
-        faces = self._face_keys(np.where(match < 0, -1, self._first[match]), self._sides)[1]
-        new = (match[self.triangles] < 0).any(axis=1) | ~np.isin(faces, self._faces)
-        rows = np.flatnonzero(new)
-        return self._cover(images[self.triangles[rows[:: 1 + len(rows) // MAX_PROVED]]]) if len(rows) else 0.0
+        edges, codes = self._creases
+        code = self._edge_codes(np.where(match < 0, -1, self._first[match])[edges])
+        new = edges[codes.take(np.searchsorted(codes, code), mode="clip") != code]
+        ends = images[new[:: 1 + len(new) // MAX_BETWEEN]]
+        faces = self.triangles[(match[self.triangles] < 0).any(axis=1)]
+        middles = images[faces[:: 1 + len(faces) // MAX_BETWEEN]].mean(axis=1)
+        between = np.concatenate([ends.mean(axis=1), 0.7 * ends[:, 0] + 0.3 * ends[:, 1], middles])
+        return max(level, float(self._distances(between, self.far).max(initial=0.0)))
 
     def _match(self, images: NDArray) -> NDArray[np.intp]:
         """Return (n,) the first corner near each of (n, 3) points, -1 if there is none."""
@@ -198,56 +210,29 @@ class PlacedTriangles:
             at[left] += 1
         return found
 
-    def _face_keys(self, corner: NDArray[np.intp], sides: NDArray | None = None) -> tuple[NDArray, NDArray]:
-        """Return the sorted sides of the triangles, and (m,) numbers of triangles by (n,) numbered corners."""
-        low, middle, high = np.sort(corner[self.triangles], axis=1).T.astype(np.int64)
-        side = low * len(corner) + middle
-        sides = np.unique(side) if sides is None else sides
-        at = np.minimum(np.searchsorted(sides, side), len(sides) - 1)
-        return sides, np.where(sides[at] == side, at * len(corner) + high, -1)
+    def _find_creases(self) -> tuple[NDArray[np.intp], NDArray[np.int64]]:
+        """Return the (k, 2) corners of all edges but those between two triangles of a plane, and their sorted codes."""
+        place, count = self._first[self.triangles], len(self.triangles)
+        code = np.concatenate([self._edge_codes(place[:, [i, i - 1]]) for i in range(3)])
+        order = np.argsort(code, kind="stable")
+        starts = np.flatnonzero(np.diff(code[order], prepend=-1))
+        pair = starts[np.diff(starts, append=len(code)) == 2]
+        (side, triangle), (other_side, other) = (np.divmod(order[k], count) for k in (pair, pair + 1))
+        a, b, c = (self.points[self.triangles[triangle, (side + i) % 3]] for i in range(3))
+        normal = cross_rows(b - a, c - a)
+        normal /= np.maximum(lengths(normal), np.finfo(float).tiny)
+        apex = self.points[self.triangles[other, (other_side + 1) % 3]]
+        is_crease = np.ones(len(code), bool)
+        is_flat = np.abs(((apex - a) * normal).sum(axis=1)) <= self.near / 4.0
+        is_crease[order[pair[is_flat]]] = is_crease[order[pair[is_flat] + 1]] = False
+        side, triangle = np.divmod(np.flatnonzero(is_crease), count)
+        ends = np.stack([self.triangles[triangle, side], self.triangles[triangle, side - 1]], axis=1)
+        return ends, np.sort(code[is_crease])
 
-    def _cover(self, pieces: NDArray) -> float:
-        """Return 0 if (k, 3, 3) triangles are near the surface, infinity if a point is far, else more than near."""
-        work, most = len(pieces), min(MAX_PIECES, PIECES_PER_TRIANGLE * len(self.triangles))
-        while work <= most:
-            middle = pieces.mean(axis=1)
-            distance, face = self._tree.nearest(middle, self.far)
-            worst = float(distance.max())
-            if worst > self.near:
-                return worst
-            below = self._tree.corners(face)
-            left = self._farthest(pieces, below) > self.near
-            pieces, below = pieces[left], below[left]
-            normals = [cross_rows(each[:, 1] - each[:, 0], each[:, 2] - each[:, 0]) for each in (pieces, below)]
-            fat = [
-                lengths(n)[:, 0] / (np.ptp(each, axis=1) ** 2).sum(axis=1) for n, each in zip(normals, (pieces, below))
-            ]
-            normal, outside = np.where((fat[0] > fat[1])[:, None], *normals), []
-            for i in range(6):  # along three sides, then across three tips
-                a, b, c = (below[:, (i + k) % 3] for k in range(3))
-                out = cross_rows(b - a, normal) if i < 3 else _unit(a - b) + _unit(a - c)
-                out *= np.sign(((a - c) * out).sum(axis=1))[:, None]
-                height = ((pieces - a[:, None]) * _unit(out)[:, None]).sum(axis=2) - self.near / 2.0
-                pieces, rows, cut = _split(pieces, height)
-                below, normal = below[rows], normal[rows]
-                outside.append(cut)
-            rest = pieces[self._farthest(pieces, below) > self.near]
-            pieces = np.concatenate([*outside, *_quarters(rest)])
-            if not len(pieces):
-                return 0.0
-            work += len(pieces)
-        return float(np.nextafter(self.near, np.inf))
-
-    @staticmethod
-    def _farthest(pieces: NDArray, below: NDArray) -> NDArray[np.float64]:
-        """Return (k,) the largest distances of the corners of (k, 3, 3) triangles from another triangle each."""
-        return np.max([triangle_distances(pieces[:, i], below) for i in range(3)], axis=0)
-
-
-def _unit(vectors: NDArray) -> NDArray[np.float64]:
-    """Return (k, 3) vectors of length 1, or zeros."""
-    size = lengths(vectors)
-    return np.divide(vectors, size, out=np.zeros_like(vectors), where=size > 0.0)
+    def _edge_codes(self, corners: NDArray[np.intp]) -> NDArray[np.int64]:
+        """Return (k,) numbers of edges by (k, 2) numbers of corners, negative for edges with a corner -1."""
+        low, high = np.minimum(*corners.T), np.maximum(*corners.T)
+        return np.where(low < 0, -1, low * len(self.points) + high)
 
 
 def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
@@ -299,31 +284,3 @@ def _exact_group(operations: NDArray) -> NDArray[np.float64]:
         u, _, v = np.linalg.svd(sums)
         operations = u @ v
     return operations
-
-
-def _split(pieces: NDArray, height: NDArray) -> tuple[NDArray, NDArray[np.intp], NDArray]:
-    """Cut (k, 3, 3) triangles where heights of their corners are zero: the lower ones, their rows, the upper ones."""
-    above = height > 0.0
-    count = above.sum(axis=1)
-    lower, rows, upper = [pieces[count == 0]], [np.flatnonzero(count == 0)], [pieces[count == 3]]
-    for lone in (1, 2):
-        row = np.flatnonzero(count == lone)
-        first = (above[row] if lone == 1 else ~above[row]).argmax(axis=1)
-        order = (first[:, None] + np.arange(3)) % 3
-        a, b, c = pieces[row[:, None], order].transpose(1, 0, 2)
-        low, high, far = height[row[:, None], order].T[..., None]
-        d, e = a + (b - a) * (low / (low - high)), a + (c - a) * (low / (low - far))
-        tip = np.stack([a, d, e], axis=1)
-        base = np.concatenate([np.stack([d, b, c], axis=1), np.stack([d, c, e], axis=1)])
-        lower.append(base if lone == 1 else tip)
-        rows.append(np.concatenate([row, row]) if lone == 1 else row)
-        upper.append(tip if lone == 1 else base)
-    return np.concatenate(lower), np.concatenate(rows), np.concatenate(upper)
-
-
-def _quarters(pieces: NDArray) -> Iterator[NDArray]:
-    """Yield four triangles that make up each of (k, 3, 3)."""
-    middles = (pieces + np.roll(pieces, -1, axis=1)) / 2.0
-    yield middles
-    for i in range(3):
-        yield np.stack([pieces[:, i], middles[:, i], middles[:, i - 1]], axis=1)

@@ -5,8 +5,8 @@
 Moments give the candidates: a rotation takes one frame to another in which all moments, to some order, are the same
 (see `canonical_frame`), and a reflection takes a frame of the body to one of its mirror image. So every symmetry that
 the body has is a candidate; moments of higher order, or details smaller than noise, may rule some out again; the body's
-geometry decides (`confirm`). The group is named by its Schoenflies symbol: C1 has no symmetry, D2h is a box, Oh a cube,
-C∞v a body of revolution, K a ball.
+geometry decides (`point_groups`). The group is named by its Schoenflies symbol: C1 has no symmetry, D2h is a box, Oh a
+cube, C∞v a body of revolution, K a ball.
 """
 
 from __future__ import annotations
@@ -25,13 +25,9 @@ from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 from ..numerics.arguments import check_type
 
 EQUAL_OPERATION_ATOL = 1e-4  # matrices of one operation, known to noise, are equal to this
-MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
-FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
 
 # For groups by moments to sixth order, the lower groups whose bodies have the same moments to that order.
 UNDECIDED = {"Oh": "O", "Ih": "I", "D6h": "C6h, D6", "C6v": "C6", "D5h": "C5h", "D5d": "S10", "D4d": "S8"}
-
-Distance = Callable[[NDArray], NDArray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,13 +37,11 @@ class Symmetry:
     `operations`: (k, 3, 3) the finite ones, orthogonal, the identity among them.
     `revolution_axes`: (1, 3) the axis about which every rotation is a symmetry; (0, 3) none, (3, 3) all directions.
     `order`: the order of the moments it was found from, or of harmonics about an axis.
-    `tolerance`: the tolerance of the comparison of the geometry, None if there was none.
     """
 
     operations: NDArray[np.float64]
     revolution_axes: NDArray[np.float64]
     order: int
-    tolerance: float | None = None
 
     @property
     def group(self) -> str:
@@ -100,7 +94,7 @@ def symmetry(
     Returns
     -------
     Symmetry
-        Every symmetry of the body is among them; `confirm` compares them with the surface.
+        Every symmetry of the body is among them.
 
     Examples
     --------
@@ -134,67 +128,6 @@ def symmetry(
     elif len(axes) == 3:
         operations = np.array([np.eye(3)])
     return Symmetry(distinct_arrays(operations, EQUAL_OPERATION_ATOL), axes, order)
-
-
-def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
-    """Return the symmetries that the geometry has: images of (n, 3) points are within the tolerance of the surface."""
-    points = points - center
-    some = points[:: 1 + len(points) // FIRST_SAMPLES]
-
-    def holds(operation: NDArray) -> bool:
-        return all((distance(part @ operation.T + center) <= tolerance).all() for part in (some, points))
-
-    if len(candidate.revolution_axes) == 3:
-        turns = [axis_rotation(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
-        ball = all(holds(turn) for turn in turns)
-        return Symmetry(
-            np.eye(3)[None], candidate.revolution_axes if ball else np.empty((0, 3)), candidate.order, tolerance
-        )
-    operations = candidate.operations
-    if len(candidate.revolution_axes):
-        axis = candidate.revolution_axes[0]
-        if all(holds(axis_rotation(axis, angle)) for angle in (1.0, 0.1, 0.01)):
-            confirmed = [operation for operation in operations if holds(operation)]
-            return Symmetry(np.array(confirmed), candidate.revolution_axes, candidate.order, tolerance)
-        operations = _around_axis(points, axis, holds)
-    confirmed = np.array([operation for operation in operations if holds(operation)])
-    return Symmetry(confirmed, np.empty((0, 3)), candidate.order, tolerance)
-
-
-def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:
-    """Return candidates for a body with the moments of a body of revolution, but with corners: a prism of many sides.
-
-    Its mirrors and half turns take one of the points farthest from the axis to another one.
-    """
-    # The tolerance may let a turn by about the right angle pass, but not turns by several times that.
-    fold = next(
-        n
-        for n in range(MAX_AXIS_ORDER, 0, -1)
-        if all(holds(axis_rotation(axis, 2.0 * np.pi * k / n)) for k in range(1, n // 2 + 1))
-    )
-    turns = [axis_rotation(axis, 2.0 * np.pi * k / fold) for k in range(fold)]
-    across = np.eye(3) - 2.0 * np.outer(axis, axis)
-    seeds = [np.eye(3)] + [
-        operation for operation in (across, axis_rotation(axis, np.pi / fold) @ across) if holds(operation)
-    ]
-    flat = points - np.outer(points @ axis, axis)
-    radius = np.linalg.norm(flat, axis=1)
-    outer = flat[radius > (1.0 - 1e-4) * radius.max()] / radius.max()
-    outer = outer[np.unique(np.round(outer, 5), axis=0, return_index=True)[1]]
-    x = outer[0] / np.linalg.norm(outer[0])
-    across = np.stack([np.cross(axis, x), x])
-    for corner in outer[: 2 * MAX_AXIS_ORDER]:
-        half = np.arctan2(*(across @ corner)) / 2.0
-        side, middle = np.array([[np.cos(half), -np.sin(half)], [np.sin(half), np.cos(half)]]) @ across
-        flips = [
-            operation
-            for operation in (np.eye(3) - 2.0 * np.outer(side, side), 2.0 * np.outer(middle, middle) - np.eye(3))
-            if holds(operation)
-        ]
-        if flips:
-            seeds += [seed @ operation for seed in list(seeds) for operation in flips]
-            break
-    return distinct_arrays(np.array([turn @ seed for seed in seeds for turn in turns]), EQUAL_OPERATION_ATOL)
 
 
 def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:

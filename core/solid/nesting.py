@@ -114,7 +114,7 @@ def _breakthrough(
         pair = np.tile(pair, 3 * steps)
         winding, sure = tree.winding_numbers(place, other[pair], 0.0)
         reaches = np.flatnonzero(sure & ((winding != 0) == within))
-        np.maximum.at(depth, pair[reaches], tree.nearest(place[reaches], other[pair[reaches]])[0])
+        np.maximum.at(depth, pair[reaches], tree.distances(place[reaches], other[pair[reaches]]))
     return depth
 
 

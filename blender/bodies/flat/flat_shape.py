@@ -118,9 +118,11 @@ class FlatShape:
         turned = self.zernike(radius / ratio), target.zernike(radius)
         return match_flat(*turned, (self.axes, target.axes), residual, target.size)
 
-    def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
+    def find_symmetries(self, tolerance: float) -> tuple[Symmetry, Symmetry]:
         """Return the symmetry of the outline and that of the moments; `tolerance` is relative to the size."""
-        zernike, near = self.zernike(self.radius), tolerance * self.size
+        zernike, near, skin = self.zernike(self.radius), tolerance * self.size, OutlineDistance(self)
+        for _ in skin.build():
+            pass
 
         def distance(points: NDArray) -> NDArray[np.float64]:
             return skin.distance(points @ self.axes.T + self.center, within=near)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property
 from math import frexp
 from typing import Any
 
@@ -44,14 +44,14 @@ from ....core.polyhedron import polyhedron_moments
 from ....core.shape.point_groups import PlacedTriangles
 from ....core.shape.registration import Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature
-from ....core.shape.symmetries import UNDECIDED, Symmetry, confirm, symmetry
+from ....core.shape.symmetries import UNDECIDED, Symmetry, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE
 from ....core.verdict.method import Source, Verdict
 from ...settings.options import MeasureOptions
 from ..measure_object import THREADS, Measured, measure_body
-from .surface_distance import EXACT_DISTANCE, SurfaceDistance
+from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
 NOISE_FACTORS = 0.5, 1.0, 2.0  # of the level of noise, on which a unique frame does not depend
@@ -182,13 +182,11 @@ class Shape:
 
     def _confirmed_group(self, found: Symmetry) -> str | None:
         """Return the group that the surface has, or the groups that it may have; None if coordinates are too coarse."""
-        whole = join_surfaces(list(self.pieces()))
-        moved = float(np.linalg.norm(whole.coordinate_error)) / self.size
+        moved = max(float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()) / self.size
         near, far = NOISE_LEVEL + 4.0 * moved, 4.0 * NOISE_LEVEL + 16.0 * moved
         if far > MAX_MISFIT:
             return None
-        points = (whole.points.astype(np.float64) - self.center) / self.size
-        placed = PlacedTriangles(points, whole.all_triangles()[0], near, far)
+        placed = self._placed_triangles(near, far)
         is_round = len(found.revolution_axes) > 0 and placed.is_round(found, MAX_FACETS)
         if is_round and max(map(placed.turn_order, found.revolution_axes)) > MAX_AXIAL_ORDER:
             return found.group
@@ -246,13 +244,22 @@ class Shape:
         """Return the motion that lays this shape onto another one; `residual` as for `core.shape.match`."""
         return match(self.moments, target.moments, residual, target.size)
 
-    def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
+    def find_symmetries(self, tolerance: float) -> tuple[Symmetry, Symmetry]:
         """Return the symmetry of the surface and that of the moments; `tolerance` is relative to the size."""
-        moments = self.piece_moments()
         # The tolerance for moments is the same as for the surface.
-        allowed = symmetry(moments, max(NOISE_LEVEL, tolerance))
-        near = tolerance * self.size
-        return confirm(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
+        allowed = symmetry(self.piece_moments(), max(NOISE_LEVEL, tolerance))
+        placed, found = self._placed_triangles(tolerance, tolerance), allowed
+        if len(allowed.revolution_axes) and not placed.is_round(allowed, tolerance):
+            operations = (placed.groups() or [np.eye(3)[None]])[0]
+            found = Symmetry(operations, np.empty((0, 3)), allowed.order)
+        held = [placed.holds(operation, tolerance) for operation in found.operations]
+        return replace(found, operations=found.operations[held]), allowed
+
+    def _placed_triangles(self, near: float, far: float) -> PlacedTriangles:
+        """Return the triangles about the center, in units of the size."""
+        whole = join_surfaces(list(self.pieces()))
+        points = (whole.points.astype(np.float64) - self.center) / self.size
+        return PlacedTriangles(points, whole.all_triangles()[0], near, far)
 
     def points_about_center(self) -> NDArray[np.float64]:
         """Return (n, 3) corners of all faces, relative to the center."""

@@ -67,12 +67,6 @@ class SurfaceDistance:
         self._tree = BVHTree.FromPolygons(points, triangles, all_triangles=True)
         yield 1.0
 
-    def nearest(self, points: NDArray) -> NDArray[np.float64]:
-        """Return (n, 3) points of the surface that are nearest to (n, 3) points, in single precision."""
-        scaled = ((points - self._center) / self._scale).tolist()
-        found = np.array([self._tree.find_nearest(row)[0] for row in scaled], np.float64)
-        return found * self._scale + self._center
-
     def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
         """Return (n,) distances of (n, 3) points; within: a limit, of which clear cases are single precision."""
         scaled = (points - self._center) / self._scale
