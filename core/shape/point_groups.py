@@ -30,7 +30,8 @@ MAX_TRIES = 64  # corners of nearly equal height along it that are compared
 FIRST_IMAGES = 12  # images of corners that refute most candidates
 FIRST_SAMPLES = 64  # corners that refute most of the others
 SAMPLES = 128  # corners, farthest corners and triangles that are compared if the tolerance is large
-MAX_BETWEEN = 2048  # edges and triangles between other corners that are compared; of more, evenly many
+MAX_BETWEEN = 2048  # triangles between other corners that are compared; of more, evenly many
+BETWEEN = np.array([[0.5, 0.5, 0.0], [0.7, 0.3, 0.0], [0.3, 0.3, 0.4]])  # weights of corners in points between them
 CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
 
 
@@ -185,13 +186,11 @@ class PlacedTriangles:
         level = float(distances.max(initial=0.0))
         if level > self.near:
             return level
-        edges, codes = self._creases
-        code = self._edge_codes(np.where(match < 0, -1, self._first[match])[edges])
-        new = edges[codes.take(np.searchsorted(codes, code), mode="clip") != code]
-        ends = images[new[:: 1 + len(new) // MAX_BETWEEN]]
-        faces = self.triangles[(match[self.triangles] < 0).any(axis=1)]
-        middles = images[faces[:: 1 + len(faces) // MAX_BETWEEN]].mean(axis=1)
-        between = np.concatenate([ends.mean(axis=1), 0.7 * ends[:, 0] + 0.3 * ends[:, 1], middles])
+        creases, codes = self._creases
+        code = self._edge_codes(np.where(match < 0, -1, self._first[match])[creases[:, :2]])
+        new = creases[codes.take(np.searchsorted(codes, code), mode="clip") != code]
+        new = np.concatenate([new, self.triangles[(match[self.triangles] < 0).any(axis=1)]])
+        between = (BETWEEN @ images[new[:: 1 + len(new) // MAX_BETWEEN]]).reshape(-1, 3)
         return max(level, float(self._distances(between, self.far).max(initial=0.0)))
 
     def _match(self, images: NDArray) -> NDArray[np.intp]:
@@ -211,7 +210,7 @@ class PlacedTriangles:
         return found
 
     def _find_creases(self) -> tuple[NDArray[np.intp], NDArray[np.int64]]:
-        """Return the (k, 2) corners of all edges but those between two triangles of a plane, and their sorted codes."""
+        """Return (k, 3) corners of triangles that are not flush with another one at the first two, and sorted codes."""
         place, count = self._first[self.triangles], len(self.triangles)
         code = np.concatenate([self._edge_codes(place[:, [i, i - 1]]) for i in range(3)])
         order = np.argsort(code, kind="stable")
@@ -223,11 +222,13 @@ class PlacedTriangles:
         normal /= np.maximum(lengths(normal), np.finfo(float).tiny)
         apex = self.points[self.triangles[other, (other_side + 1) % 3]]
         is_crease = np.ones(len(code), bool)
+        across = cross_rows(normal, c - a)
         is_flat = np.abs(((apex - a) * normal).sum(axis=1)) <= self.near / 4.0
+        is_flat &= ((apex - a) * across).sum(axis=1) * ((b - a) * across).sum(axis=1) <= 0.0
         is_crease[order[pair[is_flat]]] = is_crease[order[pair[is_flat] + 1]] = False
         side, triangle = np.divmod(np.flatnonzero(is_crease), count)
-        ends = np.stack([self.triangles[triangle, side], self.triangles[triangle, side - 1]], axis=1)
-        return ends, np.sort(code[is_crease])
+        corners = np.stack([self.triangles[triangle, side - i] for i in range(3)], axis=1)
+        return corners, np.sort(code[is_crease])
 
     def _edge_codes(self, corners: NDArray[np.intp]) -> NDArray[np.int64]:
         """Return (k,) numbers of edges by (k, 2) numbers of corners, negative for edges with a corner -1."""
