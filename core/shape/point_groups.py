@@ -76,8 +76,7 @@ class PlacedTriangles:
     def groups(self) -> list[NDArray[np.float64]] | None:
         """Return the (k, 3, 3) operations of the group, then of larger possible ones; None if there are too many.
 
-        They are the groups at tolerances that grow from near to far, from the largest one that holds without the noise
-        of the corners that its operations were found by.
+        They are the groups at tolerances that grow from near to far.
         """
         operations = self._candidates()
         if operations is None:
@@ -103,13 +102,7 @@ class PlacedTriangles:
                 trial = _closed(operations, found[-1][0], generators, levels == np.inf)
                 if trial is not None:
                     found.append((trial, generators))
-        groups = [_exact_group(operations[mask]) for mask, _ in found]
-        for last in range(len(groups) - 1, 0, -1):
-            mask, generators = found[last]
-            exact = groups[last][np.searchsorted(np.flatnonzero(mask), generators)]
-            if all(self._misfit(each) <= self.near for each in exact):
-                return groups[last:]
-        return groups
+        return [operations[mask] for mask, _ in found]
 
     def turn_order(self, axis: NDArray) -> int:
         """Return the number of corners on the outermost ring about an axis if turns by one corner hold, or 1."""
@@ -273,15 +266,3 @@ def _closed(
                 mask[members] = True
                 cosets.append(operations[product])
     return mask
-
-
-def _exact_group(operations: NDArray) -> NDArray[np.float64]:
-    """Return the operations of a group without their noise: each is the mean of all products that give it."""
-    for _ in range(2 if len(operations) <= 128 else 0):
-        products = operations[:, None] @ operations
-        numbers = _nearest(products.reshape(-1, 3, 3), operations)
-        sums = np.zeros_like(operations)
-        np.add.at(sums, numbers, products.reshape(-1, 3, 3))
-        u, _, v = np.linalg.svd(sums)
-        operations = u @ v
-    return operations

@@ -121,8 +121,6 @@ class FlatShape:
     def find_symmetries(self, tolerance: float) -> tuple[Symmetry, Symmetry]:
         """Return the symmetry of the outline and that of the moments; `tolerance` is relative to the size."""
         zernike, near, skin = self.zernike(self.radius), tolerance * self.size, OutlineDistance(self)
-        for _ in skin.build():
-            pass
 
         def distance(points: NDArray) -> NDArray[np.float64]:
             return skin.distance(points @ self.axes.T + self.center, within=near)

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from itertools import chain
 from typing import Any, Protocol
 
@@ -34,7 +34,7 @@ class Registered(Protocol):
 
 
 class SurfaceDistance:
-    """Distances of points from a shape's surface, available after `build`.
+    """Distances of points from a shape's surface.
 
     Lengths in meters, world axes. Blender's tree of triangles keeps float32 coordinates, so its points are about the
     center and in units of the size.
@@ -57,15 +57,7 @@ class SurfaceDistance:
         ]
         points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
         self.points = points.astype(np.float64, copy=False)
-
-    def build(self) -> Iterator[float]:
-        """Build the tree in steps, some tenths of a second for a million triangles; yield the finished share."""
-        points = _as_tuples(self._corners)
-        yield 0.2
-        triangles = _as_tuples(self._triangles)
-        yield 0.4
-        self._tree = BVHTree.FromPolygons(points, triangles, all_triangles=True)
-        yield 1.0
+        self._tree = BVHTree.FromPolygons(_as_tuples(self._corners), _as_tuples(triangles), all_triangles=True)
 
     def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
         """Return (n,) distances of (n, 3) points; within: a limit, of which clear cases are single precision."""
