@@ -48,7 +48,7 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         rig = bodies.measure_rig(context, read.rig.require_armature(context.object))
-        failures = stored.rig.store(rig)
+        failures = stored.results.store_rig(rig)
         done = reports.phrase(
             "{armature}: {mass:.7g} kg in the parts of {count} bone",
             "{armature}: {mass:.7g} kg in the parts of {count} bones",
@@ -72,7 +72,7 @@ class OBJECT_OT_body_moments_clear_bones(OnArmature, Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        return report_cleared(self, context, stored.rig.clear(context.object))
+        return report_cleared(self, context, stored.results.clear_rig(context.object))
 
 
 class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):

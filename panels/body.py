@@ -99,7 +99,8 @@ def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
     _buttons(layout, context)
     if posed is not None and properties.optional(context.object, "body_mass") is not None:
         rows.remark(layout, context, "The mass is that of the rest pose. Clear Bones to take that of the posed skin")
-    for names, text in ((shown.missing, "Not measured: {objects}"), (shown.stale, "Out of date: {objects}")):
+    unmeasured = shown.missing if shown.count else ()  # of none the verdict says it
+    for names, text in ((unmeasured, "Not measured: {objects}"), (shown.stale, "Out of date: {objects}")):
         if names:
             rows.remark(layout, context, text, icon="FILE_REFRESH", objects=names)
     remedies.lines(layout, context, [*(Group(found) for found in shown.findings), *shown.groups])

@@ -8,8 +8,7 @@ from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, UILayout, UIList
 
 from ..blender.session import displayed
-from ..blender.session.displayed import Trust, drawn
-from ..blender.session.stored.listing import SortBy, listed_masses, listing
+from ..blender.session.displayed import SortBy, Trust, drawn, listed_masses, listing
 from ..blender.write.units import Units
 from . import rows
 from .places import in_both_places

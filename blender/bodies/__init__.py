@@ -26,4 +26,5 @@ __getattr__, __dir__, __all__ = lazy_names(
     object_transform="fourier",
     register_surfaces="shape.surface_distance",
     rig="rig",
+    section_of="flat.flat",
 )

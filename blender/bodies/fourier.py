@@ -19,7 +19,6 @@ from ...core.fourier.instances import FOURIER_RTOL, BodyTransform
 from ...core.fourier.polygon import RegionTransform
 from ...core.fourier.wave_vectors import APPROXIMATE, FrequencyGrid, Spectrum
 from ...core.measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
-from ...core.measurement.settings import Settings
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
@@ -30,7 +29,7 @@ from ..settings.density import density_field
 from ..settings.options import MeasureOptions, object_settings
 from .findings import DISPLAY_MESH_NEEDED, FOURIER_APPROXIMATE, FOURIER_NO_EXTENT, FOURIER_OF_UNIFORM_DENSITY
 from .flat.flat import area_findings, flat_region
-from .mesh.mesh import mesh_body
+from .mesh import mesh_body
 
 
 @dataclass(frozen=True)
@@ -86,8 +85,10 @@ def object_transform(
     try:
         body = mesh_body(reading, unit, shell=shell, union=resolved.overlap == "union", threads=resolved.threads)
         if area or shell:
-            if shell and not area:
-                _require_thin(resolved)
+            if shell and not area and resolved.wall != "thin":
+                raise ReadError(WALL_UNSUPPORTED, quantity="The Fourier transform")
+            if shell and not area and not resolved.thickness > 0.0:
+                raise ReadError(ZERO_QUANTITY, quantity="thickness")
             parts = [(part.surface, to_si(part.matrices, unit)) for part in reading.parts]
             of, total = Measure.AREA, body.area.total
         else:
@@ -139,13 +140,6 @@ def flat_transform(
         q = q(float(np.ptp(region.used, axis=0).max()))
     transform = RegionTransform(region.points - at[:2], region.edges, q, region.rounded, region.stored)
     return ObjectTransform(obj.name, transform, findings, arrays={"axes": plane.axes[:, :2].T, "origin": origin})
-
-
-def _require_thin(settings: Settings) -> None:
-    if settings.wall != "thin":
-        raise ReadError(WALL_UNSUPPORTED, quantity="The Fourier transform")
-    if not settings.thickness > 0.0:
-        raise ReadError(ZERO_QUANTITY, quantity="thickness")
 
 
 def _extent(parts: list[tuple[Surface, NDArray]]) -> float:

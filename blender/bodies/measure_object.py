@@ -22,15 +22,13 @@ from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method
 from ..settings.options import AS_SET, MeasureOptions
-from . import nurbs, wire
+from . import grid, mesh, nurbs, wire
 from .assembly.given import point_measurement, read_point, with_given
-from .flat import region
-from .grids import grid
-from .mesh import mesh
+from .flat import flat
 from .request import Request, measurement_of
 
 THREADS = os.cpu_count() or 1  # for long measurements
-KINDS = (grid, wire, region, mesh, nurbs)
+KINDS = (grid, wire, flat, mesh, nurbs)
 
 
 @dataclass(frozen=True, eq=False)

@@ -39,7 +39,7 @@ from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
 from .findings import DISPLAY_MESH_NEEDED, WALL_CREASES, ZERO_SCALE
-from .mesh.mesh import mesh_body
+from .mesh import mesh_body
 from .request import Request
 
 MEASURED_AS = frozenset({"solid", "shell"})
@@ -67,8 +67,10 @@ class PatchBody(Body):
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments of the volume and of the area (None without `area`) to an order."""
-        volumes = [sum_of_images(_moments_to_order(measure, order), matrices) for _, measure, matrices in self.pieces]
-        areas = []
+        volumes, areas = [], []
+        for _, measure, matrices in self.pieces:
+            own = volume_moments(measure.patches, order, measure.volume.about)[0]
+            volumes.append(sum_of_images(extend_input_error(own, measure.volume), matrices))
         for part, measure, matrices in self.pieces if area else ():
             of_part = area_moments(_patches(part), order, measure.area.about)[0]
             areas.extend(_image_areas(part, extend_input_error(of_part, measure.area), matrices))
@@ -192,11 +194,6 @@ def _split_parts(reading: Reading) -> tuple[list[Part], Reading]:
 def _source(reading: Reading) -> Source:
     """Return the source of the measurement: NURBS if all parts are patches, else polygons."""
     return Source.NURBS if all(part.splines for part in reading.parts) else Source.POLYGONS
-
-
-def _moments_to_order(measure: PatchIntegrals, order: int) -> Moments:
-    """Return the moments of the volume to another order."""
-    return extend_input_error(volume_moments(measure.patches, order, measure.volume.about)[0], measure.volume)
 
 
 def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:

@@ -49,18 +49,14 @@ class Request:
         opened: ExitStack | None = None,
     ) -> Request:
         """Return the request for an object; `unit` is in meters per Blender unit, by default the scene's."""
-        settings = object_settings(obj, _scene(depsgraph), given, unit)
+        scene = bpy.context.scene if depsgraph is None else depsgraph.scene
+        settings = object_settings(obj, scene, given, unit)
         return cls(settings, given, obj, depsgraph, opened or ExitStack())
 
     @property
     def scene(self) -> bpy.types.Scene:
         """The scene, whose defaults apply to the object."""
-        return _scene(self.depsgraph)
-
-    @property
-    def accepted(self) -> frozenset[str]:
-        """The codes of findings that were accepted for the object."""
-        return frozenset() if self.obj is None else accepted_codes(self.obj)
+        return bpy.context.scene if self.depsgraph is None else self.depsgraph.scene
 
     @cached_property
     def density(self) -> DensityField | None:
@@ -85,13 +81,9 @@ class Request:
         return reading
 
 
-def _scene(depsgraph: bpy.types.Depsgraph | None) -> bpy.types.Scene:
-    return bpy.context.scene if depsgraph is None else depsgraph.scene
-
-
 def measurement_of(reading: Reading, body: Body, request: Request) -> Measurement:
     """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown moments."""
     transform = "" if request.obj is None else transform_key(request.obj)
     measurement = measure_reading(reading, body, request.settings, transform)
-    accepted = request.accepted
+    accepted = frozenset() if request.obj is None else accepted_codes(request.obj)
     return replace(measurement, findings=with_acceptance(measurement.findings, accepted)) if accepted else measurement

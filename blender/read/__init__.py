@@ -4,4 +4,4 @@
 
 from ...core.lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(__name__, vdb="grids.vdb")
+__getattr__, __dir__, __all__ = lazy_names(__name__)

@@ -13,6 +13,7 @@ from ...core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY
 from ...core.bodies.reading import attribute_to_source
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, finding
+from .curves import is_round
 from .findings import (
     DISPLAY_MESH_FOR_MODIFIERS,
     DISPLAY_MESH_FOR_WEIGHTS,
@@ -42,9 +43,7 @@ from .findings import (
     VIEWPORT_ONLY_MEMBERS,
 )
 from .instances import InstanceCollector, shows_itself, visible_objects
-from .nurbs.curves import is_round
-from .nurbs.deformation import spline_modifiers
-from .nurbs.splines import nonpositive_weights
+from .splines import nonpositive_weights, spline_modifiers
 from .visibility import SURFACE_TYPES, blends_keys, hidden_reason, instanced_by_parent, measurable, metaball_families
 
 
@@ -88,8 +87,9 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
         family_members = _family(obj, depsgraph)[1:]
         if family_members:
             yield finding(METABALL_FAMILY, objects=_names(family_members))
-    if gathered.drawn:
-        yield from _polygons(obj, gathered.drawn)
+    for source in gathered.drawn:
+        if source.type == "META" or (source.type in {"CURVE", "FONT"} and is_round(source)):
+            yield attribute_to_source(finding(DRAWN_AS_POLYGONS), source.name, obj.name)
     yield from _mode_findings(obj)
     exact = {evaluated.original for evaluated, splines in gathered.splines.items() if splines}
     for source in (obj, *[source for source in gathered.sources if source != obj]):
@@ -147,13 +147,6 @@ def _node_errors(obj) -> Iterator[Finding]:
 def _family(obj, depsgraph) -> list:
     families = metaball_families(depsgraph.view_layer)
     return next((family for family in families if obj in family), [obj])
-
-
-def _polygons(obj, drawn) -> Iterator[Finding]:
-    """Yield findings about the polygons of curves, text and metaballs."""
-    for source in drawn:
-        if source.type == "META" or (source.type in {"CURVE", "FONT"} and is_round(source)):
-            yield attribute_to_source(finding(DRAWN_AS_POLYGONS), source.name, obj.name)
 
 
 def _mode_findings(obj) -> Iterator[Finding]:

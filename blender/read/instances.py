@@ -21,7 +21,7 @@ from ...core.mesh.surface import Surface
 from ...core.verdict.finding import MeasureError, ReadError
 from .findings import INSTANCES_OF_HIDDEN_OBJECT, NON_FINITE_INSTANCES
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
-from .nurbs.splines import spline_reading
+from .splines import spline_reading
 from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, edit_modifiers, evaluated_geometry
 
 

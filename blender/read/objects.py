@@ -15,25 +15,21 @@ from ...core.numerics.rotations import rotation_matrix
 from ...core.nurbs.findings import NON_POSITIVE_WEIGHTS
 from ...core.solid.findings import NON_FINITE_VERTICES
 from ...core.verdict.finding import ReadError, finding
+from .curves import read_curves
 from .decisions import reading_findings, why_empty
 from .findings import NON_FINITE_TRANSFORM, ONLY_CURVES_ARE_WIRES
 from .instances import InstanceCollector
-from .nurbs.curves import read_curves
-from .nurbs.deformation import is_deformed
-from .nurbs.splines import nonpositive_weights, spline_reading
+from .splines import is_deformed, nonpositive_weights, spline_reading
 from .visibility import evaluated_geometry, require_kind, why_not_evaluated
 
 
 def read_object(
     obj, depsgraph, *, materials: bool = False, attribute: str | None = None, edges: bool = True
 ) -> Reading:
-    """Read an object, original or evaluated, as it is in the up-to-date viewport `depsgraph`.
+    """Read an object, original or evaluated, as it is in the up-to-date viewport `depsgraph`, or raise ReadError.
 
-    materials: read the materials of its faces, too. attribute: name of a float attribute on vertices to
-    read. edges: read the edges that prove surfaces closed.
-
-    Raises ReadError if the object's kind has no surface, Blender has not evaluated it, it shows no
-    face, or coordinates or transforms are not finite.
+    materials: read the materials of its faces, too. attribute: name of a float attribute on vertices to read. edges:
+    read the edges that prove surfaces closed.
     """
     obj = obj.original
     require_kind(obj)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import bpy
 import numpy as np
@@ -22,6 +23,7 @@ from ...core.numerics.rotations import polar_rotation
 from ...core.nurbs.curve import Curve
 from ...core.solid.findings import NON_FINITE_VERTICES
 from ...core.verdict.finding import Finding, ReadError, finding
+from .curves import read_curves, text_curves
 from .findings import (
     FLAT_OF_TYPE,
     MODIFIERS_LEFT_OUT,
@@ -36,7 +38,6 @@ from .findings import (
     SECTION_TEXT_ON_CURVE,
 )
 from .mesh import from_edit_mesh, mesh_surface
-from .nurbs.curves import read_curves, text_curves
 from .objects import locate, read_object
 from .visibility import SECTION_TYPES
 
@@ -75,7 +76,7 @@ def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | Non
         raise ReadError(FLAT_OF_TYPE, subject=obj.name)
     if selected and obj.type == "MESH" and obj.data.is_editmode:
         return _selected_faces(obj, depsgraph)
-    if obj.type in {"CURVE", "FONT"} and not _has_modifiers(obj):
+    if obj.type in {"CURVE", "FONT"} and not any(modifier.show_viewport for modifier in obj.modifiers):
         return _outlines(obj, depsgraph, resolution)
     reading = read_object(obj, depsgraph, edges=False)
     findings = list(reading.findings)
@@ -83,17 +84,7 @@ def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | Non
         findings.append(finding(SECTION_MODIFIED_FILL))
     surface = reading.join()
     triangles, faces = surface.all_triangles()
-    return SectionReading(
-        obj.name,
-        "All Faces",
-        surface.points,
-        triangles,
-        faces,
-        float(np.linalg.norm(surface.coordinate_error)),
-        _axes(reading),
-        reading.location,
-        findings=findings,
-    )
+    return _section("All Faces", surface, triangles, faces, reading, findings=findings)
 
 
 def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64]]:
@@ -104,13 +95,16 @@ def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64
     return curves, place.matrix
 
 
-def _has_modifiers(obj) -> bool:
-    return any(modifier.show_viewport for modifier in obj.modifiers)
-
-
-def _axes(reading: Reading) -> NDArray[np.float64]:
-    shortest = np.sqrt((reading.matrix[:, :3] ** 2).sum(axis=0)).min()
-    return polar_rotation(reading.matrix[None])[0][0] if shortest < ZERO_SCALE else reading.rotation
+def _section(
+    description: str, surface: Surface, triangles: NDArray, faces: NDArray, place: Reading, **more: Any
+) -> SectionReading:
+    """Return the reading of (m, 3) triangles of a surface, and the (m,) face of each; more: further fields."""
+    shortest = np.sqrt((place.matrix[:, :3] ** 2).sum(axis=0)).min()
+    axes = polar_rotation(place.matrix[None])[0][0] if shortest < ZERO_SCALE else place.rotation
+    error = float(np.linalg.norm(surface.coordinate_error))
+    return SectionReading(
+        place.name, description, surface.points, triangles, faces, error, axes, place.location, **more
+    )
 
 
 def _selected_faces(obj, depsgraph) -> SectionReading:
@@ -131,17 +125,8 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     acting = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
     findings = [finding(MODIFIERS_LEFT_OUT, modifiers=acting)] if acting else []
     count = int(np.count_nonzero(chosen))
-    return SectionReading(
-        obj.name,
-        "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count),
-        surface.points,
-        triangles,
-        faces[inside],
-        float(np.linalg.norm(surface.coordinate_error)),
-        _axes(place),
-        place.location,
-        findings=findings,
-    )
+    description = "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count)
+    return _section(description, surface, triangles, faces[inside], place, findings=findings)
 
 
 def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
@@ -173,20 +158,8 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
             ab, ac = b - a, c - a
             drawn = float(np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum() / 2.0 * np.sqrt(facing @ facing))
     _require_finite(obj, surface.points)
-    return SectionReading(
-        obj.name,
-        "Text" if obj.type == "FONT" else "Curve",
-        surface.points,
-        triangles,
-        faces,
-        float(np.linalg.norm(surface.coordinate_error)),
-        _axes(place),
-        place.location,
-        loops,
-        facing,
-        drawn,
-        findings,
-    )
+    more = {"loops": loops, "facing": facing, "drawn_area": drawn, "findings": findings}
+    return _section("Text" if obj.type == "FONT" else "Curve", surface, triangles, faces, place, **more)
 
 
 def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
@@ -194,7 +167,7 @@ def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
         yield finding(SECTION_SPLINES_OPEN, count=open_splines)
     if obj.data.fill_mode == "NONE":
         yield finding(SECTION_NOT_FILLED)
-    if not _is_curved(obj):
+    if obj.type != "FONT" and all(spline.type == "POLY" for spline in obj.data.splines):
         return
     yield finding(DRAWN_AS_POLYGONS)
     shown, rendered = obj.data.resolution_u, obj.data.render_resolution_u
@@ -248,10 +221,6 @@ def _fill_area(obj, depsgraph) -> Surface | None:
         return mesh_surface(mesh, edges=False) if mesh is not None and len(mesh.polygons) else None
     finally:
         evaluated.to_mesh_clear()
-
-
-def _is_curved(obj) -> bool:
-    return obj.type == "FONT" or any(spline.type != "POLY" for spline in obj.data.splines)
 
 
 def _require_finite(obj, points: NDArray) -> None:

@@ -50,7 +50,7 @@ def measurable(obj) -> bool:
         # A wire needs no surface, and closed curves bound one for a shell.
         settings = getattr(obj, "body_moments", None)
         return _curve_has_surface(obj) or (settings is not None and settings.kind != "SOLID")
-    return obj.type in SURFACE_TYPES or obj.type == "VOLUME" or _has_nodes(obj)
+    return obj.type in {*SURFACE_TYPES, "VOLUME"} or any(modifier.type == "NODES" for modifier in obj.modifiers)
 
 
 def shows_flat_region(obj) -> bool:
@@ -176,10 +176,6 @@ def edit_modifiers(obj) -> list:
 def blends_keys(obj) -> bool:
     """Return whether Edit Mode shows the object's mesh with all of its shape keys, not just the edited one."""
     return obj.data.shape_keys is not None and obj.use_shape_key_edit_mode
-
-
-def _has_nodes(obj) -> bool:
-    return any(modifier.type == "NODES" for modifier in obj.modifiers)
 
 
 def _curve_has_surface(obj) -> bool:

@@ -24,7 +24,7 @@ from ...core.numerics.rotations import polar_rotation, quaternion
 from ...core.robots.model import Pose, Shape
 from ..read.mesh import mesh_surface
 from ..settings.given import COLLIDER
-from .made_collections import made_collection
+from .changes import made_collection
 
 SEGMENTS, RINGS = 32, 17  # odd, so that no ring lies on the equator
 COLLECTION = "body_moments_colliders"  # ID property of the collection

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Empties at the principal frames of objects."""
+"""Empties at the principal frames of objects, and the moving of empties whose children stay."""
 
 from __future__ import annotations
 
@@ -10,16 +10,19 @@ import bpy
 import numpy as np
 from bpy.types import Context, Depsgraph, Object
 from mathutils import Matrix
+from numpy.typing import NDArray
 
 from ...core.verdict.finding import EditRefusedError
 from ..read.findings import SCALE_ZERO_AXIS
-from .changes import SceneChange, ancestors, dependents, independent_rounds, run_change, run_together
-from .findings import FOLLOWS_MOVED, TRANSFORM_CONSTRAINED
+from ..read.tracking import tracking_paused
+from .changes import SceneChange, ancestors, dependents, independent_rounds, require_editable, run_change, run_together
+from .findings import CHILD_NOT_HELD, FOLLOWS_MOVED, TRANSFORM_CONSTRAINED
 from .snap_targets import SnapTarget, targets_in_turn
 from .transforms import TransformChannels, basis, world
 
 OBJECT_KEY = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
 RESTORED_PROPERTIES = ("parent", "parent_type", "parent_bone", "empty_display_size")
+PLACE_RTOL = 4e-6  # rounding of places in float32 matrices
 
 
 def place_empties(
@@ -141,3 +144,42 @@ def _is_there(empty: Object, body: SnapTarget) -> bool:
     now = world(empty)
     off = np.abs(now[:3, 3] - body.center).max()
     return bool(off <= 1e-6 * body.size + 1e-6 * np.abs(body.center).max() and body.is_principal(now[:3, :3]))
+
+
+def move_parent(context: Context, empty: Object, center: Sequence[float]) -> None:
+    """Put an empty at a point while its children stay; raise EditRefusedError if constraints or locks prevent it."""
+    require_editable(empty)
+    children = [child for child in empty.children if child.parent_type == "OBJECT"]
+    saved = TransformChannels(empty)
+    inverses = {child: child.matrix_parent_inverse.copy() for child in children}
+    places = {child: world(child) for child in empty.children_recursive}
+    was = world(empty)
+    size = float(np.abs([place[:3, 3] - center for place in places.values()]).max())
+    tolerance = PLACE_RTOL * max(size, float(np.abs(center).max()))
+    with tracking_paused():
+        try:
+            target = was.copy()
+            target[:3, 3] = center
+            empty.matrix_world = Matrix(target)
+            context.view_layer.update()
+            change = np.linalg.solve(world(empty), was)
+            for child in children:
+                child.matrix_parent_inverse = Matrix(change @ np.array(inverses[child], np.float64))
+            context.view_layer.update()
+            moved = [child for child, place in places.items() if not _is_at(child, place, tolerance)]
+            if np.abs(world(empty)[:3, 3] - center).max() > tolerance:
+                raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location", subject=empty.name)
+            if moved:
+                raise EditRefusedError(CHILD_NOT_HELD, subject=empty.name, object=moved[0].name)
+        except BaseException:
+            for child, inverse in inverses.items():
+                child.matrix_parent_inverse = inverse
+            saved.restore()
+            context.view_layer.update()
+            raise
+
+
+def _is_at(obj: Object, place: NDArray, tolerance: float) -> bool:
+    """Return whether an object is at a place: within `tolerance`, and with equal rotation and scale to rounding."""
+    off = np.abs(world(obj) - place)
+    return bool(off[:, 3].max() <= tolerance and off[:, :3].max() <= PLACE_RTOL * np.abs(place[:, :3]).max())

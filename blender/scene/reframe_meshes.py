@@ -183,28 +183,13 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
 
 def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[list[int]]:
     """Return groups of indices of changes that move any point within `reach` to almost the same place, to `within`."""
-    # Equal changes have nearly equal weighted sums, so that only neighbors after a sort by sums are compared.
-    limit, weights = np.array(within), np.cos(np.arange(12.0)).reshape(3, 4)  # for entries no larger than 1
-    weights[:, :3] *= reach.min()
-    weights[:, 3] /= 3.0
-    sums = np.einsum("nij,ij->n", changes[:, :3], weights)
-    order = np.argsort(sums, kind="stable")
-    sums_in_order = sums[order]
-    margin = limit + 1e-12 * np.abs(changes[:, :3] * weights).sum(axis=(1, 2)).max()  # plus the rounding of sums
-    starts = np.searchsorted(sums_in_order, sums - margin).tolist()
-    ends = np.searchsorted(sums_in_order, sums + margin, side="right").tolist()
-    groups: list[list[int]] = []
-    is_left = np.ones(len(changes), bool)
-    for first, (start, end) in enumerate(zip(starts, ends)):
-        if not is_left[first]:
-            continue
-        near = order[start:end]
-        near = np.sort(near[is_left[near]])
-        if len(near) > 1:
-            far = largest_move(changes[near] - changes[first], reach[first])
-            near = near[(far <= limit[first]) | (near == first)]
-        is_left[near] = False
-        groups.append(near.tolist())
+    groups, left = [], np.arange(len(changes))
+    while len(left):
+        first = left[0]
+        is_near = largest_move(changes[left] - changes[first], reach[first]) <= within[first]
+        is_near[0] = True
+        groups.append(left[is_near].tolist())
+        left = left[~is_near]
     return groups
 
 

@@ -17,8 +17,8 @@ from ...core.mesh.surface import join_surfaces
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError
 from ..bodies.rig import BonePart, Rig
+from .changes import MadeCollection
 from .findings import RIGID_BODY_MASS_TOO_SMALL
-from .made_collections import MadeCollection
 from .rigid_world import MIN_MASS, add_joint, add_rigid_bodies, require_rigid_world
 
 CENTER_OF = "center_of_mass_of"  # ID property of the made objects: the armature object

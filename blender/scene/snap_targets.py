@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Targets of snapping operators: the place of a body, in Blender units, and the new frames for its object.
+"""Targets of snapping operators: the place of a body, in Blender units, the new frames for its object, and matches.
 
 Coordinates in float32 do not fix the directions of nearly equal moments: when a body is measured again, they turn by
 about the rounding divided by the gap between the moments. Whether axes are principal is therefore decided by the
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from bpy.types import Context, Object
@@ -20,6 +21,7 @@ from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.plain_body import EQUAL_AXES
 from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
 from ...core.numerics.float32 import shortest_decimal
+from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict.finding import EditRefusedError, Finding
 from ...core.verdict.method import Verdict
 from ..bodies.measure_object import Measured, measure_body
@@ -27,8 +29,13 @@ from ..bodies.stacks.many import measured_in_turn
 from ..bodies.stacks.stack import Stacked
 from ..settings.options import MeasureOptions
 from . import reframe
-from .findings import OPEN_OBJECT
+from .changes import ancestors
+from .findings import FOLLOWS_MOVED, MIRROR_IMAGE, OPEN_OBJECT
 from .transforms import world
+
+if TYPE_CHECKING:
+    from ..bodies.flat.flat_shape import FlatShape
+    from ..bodies.shape.shape import Shape
 
 POSE = MeasureOptions(pose=True)
 MAX_DIRECTION_NOISE = 1e-3  # rounding in float32 of directions fixed by moments of higher order
@@ -160,4 +167,38 @@ def align_to_world(context: Context, obj: Object, order: str, at_origin: bool, s
     target[:3, :3] = turn @ target[:3, :3]
     target[:3, 3] = goal + turn @ (target[:3, 3] - body.center)
     reframe.move(context, reframe.Plan(obj, target, body.size, move_only=aligned))
+    return True
+
+
+def require_matchable(context: Context, obj: Object) -> None:
+    """Raise EditRefusedError if the object cannot be laid onto the active one."""
+    reframe.check_movable(obj)
+    if obj in ancestors(context.object):
+        raise EditRefusedError(FOLLOWS_MOVED, follower=context.object.name, target=obj.name)
+
+
+def plan_match(
+    context: Context, obj: Object, shape: Shape | FlatShape, target: Shape | FlatShape, match: RigidMatch
+) -> reframe.Plan:
+    """Return the plan that lays the object onto the target; raise EditRefusedError for a mirror image."""
+    if match.is_mirror_image:
+        raise EditRefusedError(MIRROR_IMAGE)
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    matrix = world(obj)
+    matrix[:3, :3] = match.rotation @ matrix[:3, :3]
+    matrix[:3, 3] = (target.center + match.rotation @ (matrix[:3, 3] * unit - shape.center)) / unit
+    return reframe.Plan(obj, matrix, shape.size / unit, move_only=False)
+
+
+def is_copy(match: RigidMatch, size: float) -> bool:
+    """Return whether the surfaces of a match lie on each other, by a tolerance relative to the body's size."""
+    return match.max_distance <= MAX_FIT_RTOL * size
+
+
+def move_to_match(context: Context, plan: reframe.Plan) -> bool:
+    """Carry out a plan; return False if the object was in place already."""
+    off = np.abs(plan.target - world(plan.obj))
+    if off[:, :3].max() <= 1e-7 and off[:, 3].max() <= reframe.location_tolerance(plan.obj, plan.size):
+        return False
+    reframe.move(context, plan)
     return True

@@ -1,15 +1,19 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The displayed numbers of objects, and the trust in them: panels, list and overlay ask here. Loads no numpy."""
+"""The displayed numbers of objects, and the trust in them: panels, list and overlay ask here. Loads no numpy.
+
+The order of the list is cached until Blender reports a change.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import NamedTuple
 
 import bpy
-from bpy.types import ID, Context, Object, PoseBone, Scene
+from bpy.types import ID, Context, Object, PoseBone, Scene, ViewLayer
 
 from ...core.inertia.plain_body import PlainBody, add_bodies
 from ...core.lazy import loaded_module
@@ -21,6 +25,7 @@ from ...core.verdict.sentences import Group, grouped
 from .. import read
 from ..read.fingerprint import has_transform
 from ..write import properties
+from ..write.units import Units
 from . import live
 from .live import following
 from .live.following import Lag, LiveResult
@@ -31,6 +36,8 @@ from .tracking.stamps import Stale, of_results
 
 ASSEMBLY = Method(Verdict.ASSEMBLY)
 BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
+Listing = tuple[list[bool], list[int]]  # for each object its visibility in the list, and its line
+RANKS = {verdict: rank for rank, verdict in enumerate(Trust)}
 
 
 class Displayed(NamedTuple):
@@ -62,8 +69,8 @@ class Total:
     """Selected objects as one body.
 
     count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names of objects without
-    results; stale, doubtful: names of objects with outdated or untrustworthy results; findings: caveats about the sum;
-    trust: the least of any object; groups: the objects' own findings.
+    results; stale: names of objects with outdated results; findings: caveats about the sum; trust: the least of any
+    object; groups: the objects' own findings.
     """
 
     count: int
@@ -72,7 +79,6 @@ class Total:
     numbers: PlainBody | None
     missing: tuple[str, ...]
     stale: tuple[str, ...]
-    doubtful: tuple[str, ...]
     findings: tuple[Finding, ...]
     trust: Trust | None
     groups: tuple[Group, ...]
@@ -86,10 +92,7 @@ _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
 
 
 def displayed(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an original object: posed, live or stored; None if there are none.
-
-    scene: sets the unit scale.
-    """
+    """Return the displayed numbers of an original object: posed, live or stored; None if there are none."""
     weighed = _weighed(obj, scene) if obj.type == "ARMATURE" else None
     if weighed is not None:
         return weighed
@@ -117,10 +120,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an original object at its current place, or of a character in its current pose.
-
-    None if there are no numbers, or the mass is 0.
-    """
+    """Return the numbers of an original object at its place, or of a character in its pose; None without a mass."""
     return all_drawn([obj], scene)[0]
 
 
@@ -179,10 +179,7 @@ def forget_drawn(data: ID | None = None) -> None:
 
 
 def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
-    """Return the numbers of a pose bone's part at the bone's current place, or None if there are none.
-
-    bone: of an original armature object.
-    """
+    """Return the numbers of an original armature's bone at the bone's current place, or None if there are none."""
     armature, own = bone.id_data, properties.stored(bone)
     if own is None:
         return None
@@ -260,10 +257,7 @@ def _sum(context: Context) -> Total:
             parts[obj] = shown
     worlds = [shown.world for shown in parts.values()]
     alone = next((world for world in worlds if world.mass > 0.0), None)
-    stale, doubtful = (
-        tuple(obj.name for obj, shown in parts.items() if shown.trust == trust)
-        for trust in (Trust.OUT_OF_DATE, Trust.DOUBTFUL)
-    )
+    stale = tuple(obj.name for obj, shown in parts.items() if shown.trust == Trust.OUT_OF_DATE)
     return Total(
         len(parts),
         sum(world.volume for world in worlds),
@@ -271,11 +265,61 @@ def _sum(context: Context) -> Total:
         add_bodies(worlds) if len(worlds) > 1 else alone,
         tuple(missing),
         stale,
-        doubtful,
         (
             *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
-            *read.total_caveats.total_caveats(parts, context.view_layer),
+            *read.assembly.total_caveats(parts, context.view_layer),
         ),
         max((shown.trust for shown in parts.values()), key=tuple(Trust).index, default=None),
         tuple(grouped((obj.name_full, found) for obj, shown in parts.items() for found in shown.findings)),
     )
+
+
+class SortBy(StrEnum):
+    """Sort key of the lines."""
+
+    NAME = "NAME"
+    MASS = "MASS"  # the heaviest first
+    VERDICT = "VERDICT"  # the least trustworthy first
+
+
+_masses: SessionCache[tuple[tuple, dict[int, str]]] = SessionCache()  # by scene: the last query, and its answer
+_listings: SessionCache[tuple[tuple, Listing]] = SessionCache()  # by scene: the last query, and its answer
+
+
+def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
+    """Return two lists over a view layer's objects: whether each is listed, and its line, warnings first on request."""
+    key = (handlers.generation(), view_layer.name, name, sort_by, warnings_first)
+    return current_value(
+        _listings, scene, key, lambda: _listing(scene, view_layer, name.lower(), sort_by, warnings_first)
+    )
+
+
+def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
+    """Return texts of the masses of a view layer's measured objects by session uid, with common unit and decimals."""
+    units = Units.from_settings(scene.unit_settings)
+
+    def list_masses() -> dict[int, str]:
+        objects = list(view_layer.objects)
+        masses = {obj: body.world.mass for obj, body in zip(objects, all_drawn(objects, scene)) if body is not None}
+        return dict(zip([obj.session_uid for obj in masses], units.texts("mass", list(masses.values()))))
+
+    return current_value(_masses, scene, (handlers.generation(), view_layer.name, units), list_masses)
+
+
+def _listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
+    objects = list(view_layer.objects)
+    all_bodies = zip(objects, all_drawn(objects, scene))
+    bodies = [body if name in obj.name.lower() else None for obj, body in all_bodies]
+    order = sorted(range(len(objects)), key=lambda i: _rank(objects[i], bodies[i], sort_by, warnings_first))
+    lines = [0] * len(objects)
+    for line, i in enumerate(order):
+        lines[i] = line
+    return [body is not None for body in bodies], lines
+
+
+def _rank(obj: Object, body: Displayed | None, sort_by: SortBy, warnings_first: bool) -> tuple:
+    if body is None:
+        return (True,)
+    by = {SortBy.MASS: -body.world.mass, SortBy.VERDICT: -RANKS[body.trust]}
+    is_first = warnings_first and body.trust in (Trust.OUT_OF_DATE, Trust.DOUBTFUL)
+    return (False, not is_first, by.get(sort_by, 0.0), obj.name.lower(), obj.name)

@@ -13,12 +13,11 @@ from typing import NamedTuple
 from bpy.types import Depsgraph, Object
 
 from ...core.shape.library import UNDECIDED_HANDEDNESS, Entry, classify, rank, read_library
-from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
+from ...core.shape.registration import MAX_FIT_RTOL
 from ...core.shape.signatures import Likeness, Signature, similarity
 from ...core.verdict.finding import Finding
 from ..bodies.flat.flat_shape import FlatShape, body_or_flat, comparable_shape_of, distance_from
-from ..bodies.shape.shape import surface_shape_of
-from ..bodies.shape.stack_signature import signed_in_turn
+from ..bodies.shape.shape import signed_in_turn, surface_shape_of
 from ..bodies.shape.surface_distance import register_surfaces
 
 DESCRIPTOR_ORDER = 12  # ample to separate parts, in a fourth of the time of order 20
@@ -46,7 +45,7 @@ class SimilarSearch:
     def __init__(self, obj: Object, depsgraph: Depsgraph):
         self._obj, self._depsgraph = obj, depsgraph
         self._objects: dict[Entry, Object] = {}
-        self._mirror_images: dict[Entry, bool | None] = {}  # only if the signatures leave it open
+        self._mirror_images: dict[Entry, bool | None] = {}  # None if the surfaces leave it open, too
 
     def measure(self) -> Iterator[float]:
         """Measure the wanted object, in steps. Raises MeasureError if it has no signature."""
@@ -78,7 +77,8 @@ class SimilarSearch:
                 skin_compared = distance_from(shape)
                 yield 0.9
                 match = register_surfaces(shape, wanted_shape, skin_compared, skin, 1.0 / likeness.scale)
-                self._mirror_images[entry] = _is_mirror_image(match, wanted_shape.size)
+                is_copy = match.max_distance <= MAX_FIT_RTOL * wanted_shape.size
+                self._mirror_images[entry] = False if is_copy else True if match.is_mirror_image else None
             self._objects[entry] = obj
 
         return compare
@@ -104,8 +104,3 @@ class SimilarSearch:
 def _match(entry: Entry, likeness: Likeness, scaled: bool, mirrored: bool, obj: Object | None = None) -> Match:
     verdict, distance = classify(likeness).value, likeness.distance(scaled, mirrored)
     return Match(entry.name, entry.file, verdict, distance, likeness.scale, obj)
-
-
-def _is_mirror_image(match: RigidMatch, size: float) -> bool | None:
-    """Return whether the surfaces show the match to be a mirror image, or None if they do not decide it."""
-    return False if match.max_distance <= MAX_FIT_RTOL * size else True if match.is_mirror_image else None

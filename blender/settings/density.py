@@ -120,7 +120,6 @@ def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Sce
     """Return the settings and materials behind the density, as a text; "" for one value, a given mass or a wire.
 
     used: the full names of the materials that the last measurement met, beside the ones in the object's slots.
-    scene: its default density counts if the object has none.
     """
     settings = obj.body_moments
     given = GivenPart.from_settings(settings, 1.0).key if settings.mass_from == "MASS" else ""

@@ -8,7 +8,6 @@ SI units, world axes. It holds a `core.flat.section.Section` with its descriptio
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache
 from math import degrees
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -109,20 +108,9 @@ def stored(obj: bpy.types.Object) -> StoredSection | None:
         return None
     values = dict(zip(LENGTHS, numbers))
     positive = *values["area"], *values["second"][:2], *values["reach"]
-    return _from_keys(numbers, words) if all([value > 0.0 for value in positive]) else None
-
-
-def clear(obj: bpy.types.Object) -> bool:
-    """Remove the section; return whether there was one."""
-    if KEY not in obj:
-        return False
-    del obj[KEY]
-    return True
-
-
-@lru_cache(maxsize=64)
-def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> StoredSection:
-    values, (what, named, findings, fingerprint) = dict(zip(LENGTHS, numbers)), words
+    if not all([value > 0.0 for value in positive]):
+        return None
+    what, named, findings, fingerprint = words
     axes, (off,), (outlines, holes) = values["axes"], values["off"], values["counts"]
     loaded = core.flat.section_properties  # when there is a section to read
     section = loaded.Section(
@@ -138,6 +126,14 @@ def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -
         dict(zip(BOUND_KEYS, values["input"])),
     )
     return StoredSection(section, what, findings_in(findings), fingerprint, values["unit"][0])
+
+
+def clear(obj: bpy.types.Object) -> bool:
+    """Remove the section; return whether there was one."""
+    if KEY not in obj:
+        return False
+    del obj[KEY]
+    return True
 
 
 def text(name: str, section: StoredSection, outdated: str | None = None) -> str:

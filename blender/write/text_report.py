@@ -27,13 +27,6 @@ from .units import INDENT, clean, report_line, report_number, report_vector, rou
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
 
 
-def report_text(
-    context: Any, objects: Sequence[Any], outdated: Collection[str] = (), caveats: Sequence[Finding] = ()
-) -> str:
-    """Return a report of results stored on objects, in the scene's frame; outdated: names; caveats: about the total."""
-    return text(stored_document(context, objects, outdated, caveats))
-
-
 def stored_document(
     context: Any,
     objects: Sequence[Any],
@@ -42,7 +35,10 @@ def stored_document(
     file: str | None = None,
     blender: str | None = None,
 ) -> dict[str, Any]:
-    """Return the document of the results stored on `objects`; see `report_text`. Their health is not stored."""
+    """Return the document of the results stored on objects, in the scene's frame; their health is not stored.
+
+    outdated: names. caveats: about the total.
+    """
     scene = context.scene
     unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
     entries, bodies, errors = [], [], []

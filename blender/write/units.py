@@ -47,10 +47,6 @@ MASSES = {
 }
 BASES = {"METRIC": ("METERS", "KILOGRAMS"), "IMPERIAL": ("FEET", "POUNDS")}
 # Choices of an adaptive unit. Hundredweights and stones are for people who ask for them.
-ADAPTIVE_LENGTHS = {
-    "METRIC": ("KILOMETERS", "METERS", "CENTIMETERS", "MILLIMETERS", "MICROMETERS"),
-    "IMPERIAL": ("MILES", "FEET", "INCHES", "THOU"),
-}
 ADAPTIVE_MASSES = {
     "METRIC": ("TONNES", "KILOGRAMS", "GRAMS", "MILLIGRAMS"),
     "IMPERIAL": ("TONNES", "POUNDS", "OUNCES"),
@@ -155,7 +151,7 @@ class Units(NamedTuple):
         table = LENGTHS[self.system]
         if self.length != "ADAPTIVE":
             return table[self.length]
-        return _fitting_unit([table[key] for key in ADAPTIVE_LENGTHS[self.system]], value, table[BASES[self.system][0]])
+        return _fitting_unit([*table.values()], value, table[BASES[self.system][0]])
 
     def _mass(self, value: float) -> tuple[float, str]:
         table = MASSES[self.system]

@@ -19,7 +19,7 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ...blender.scene.findings import SURFACES_ROUNDED
-from ...blender.scene.surface_objects import surface_data
+from ...blender.scene.imports import surface_data
 from ...core.cad.obj import UPRIGHT
 from ...core.cad.surfaces import revolved_solid
 from ...core.streams.findings import FILE_UNREADABLE

@@ -17,7 +17,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ...blender.scene.surface_objects import show_bodies
+from ...blender.scene.imports import show_bodies
 from ...core.cad.findings import FACES_NOT_READ
 from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_surfaces

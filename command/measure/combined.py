@@ -20,7 +20,7 @@ from ...blender.bodies.assembly.assembly import Assembly, measure_assembly
 from ...blender.bodies.rig import Rig, measure_rig
 from ...blender.read.assembly import Root, is_assembly, settings_of
 from ...blender.session.stored import assembly as stored_assembly
-from ...blender.session.stored import rig as stored_rig
+from ...blender.session.stored import results
 from ...blender.settings.options import MeasureOptions
 from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
@@ -61,7 +61,7 @@ class Combined:
             work = partial(stored_assembly.store, bpy.context, assembly)
             yield from _tried(assembly.measurement.name, work, internal)
         for rig in self.rigs:
-            yield from _tried(rig.armature.name, partial(stored_rig.store, rig), internal)
+            yield from _tried(rig.armature.name, partial(results.store_rig, rig), internal)
 
 
 def measure_combined(options: MeasureOptions, internal: Internal, assets: bool = False) -> Combined:

@@ -11,7 +11,7 @@ from typing import Any
 
 import bpy
 
-from ...blender.read.total_caveats import left_out_reasons
+from ...blender.read.assembly import left_out_reasons
 from ...blender.read.visibility import measurable, measurable_objects
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.settings.given import shows_collection

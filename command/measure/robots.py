@@ -16,8 +16,7 @@ from typing import Any
 
 import bpy
 
-from ...blender.read.robots import object_candidate
-from ...blender.session.robots import SceneLinks, bone_links, collection_links, jointed_robot
+from ...blender.session.robots import SceneLinks, bone_links, collection_links, jointed_robot, object_candidate
 from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.measurement.measurement import Measurement

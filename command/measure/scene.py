@@ -15,7 +15,7 @@ import bpy
 from ...blender import session
 from ...blender.bodies.measure_object import Measured
 from ...blender.bodies.stacks.stack import Stacked
-from ...blender.read.total_caveats import operands_of, total_caveats
+from ...blender.read.assembly import operands_of, total_caveats
 from ...blender.read.tracking import tracking_paused
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import properties as settings

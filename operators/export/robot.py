@@ -15,7 +15,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy.types import Context, FileHandler, Menu, Object, Operator, UILayout
 from bpy_extras.io_utils import ExportHelper
 
-from ...blender import read, session
+from ...blender import session
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.robots import write
@@ -137,7 +137,7 @@ class GeometryExport(RobotExport):
         if is_own or has_colliders or any(joint.free for joint in made.robot.joints):
             return super()._export(context, made, path)
         made.findings.extend(write.texts.check(made.robot, self.FORMAT))
-        sheared = read.robots.sheared_objects([obj for held in made.members.values() for obj in held])
+        sheared = session.robots.sheared_objects([obj for held in made.members.values() for obj in held])
         if sheared:
             made.findings.append(finding(ROBOT_SCALED, count=len(sheared), links=sheared))
         return self._export_over(made, path)
@@ -162,12 +162,12 @@ class UsdExport(GeometryExport):
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
         robot, findings, usd = made.robot, made.findings, write.usd
-        paths = {label: read.robots.usd_path(held[0], usd.identifier) for label, held in made.members.items()}
+        paths = {label: session.robots.usd_path(held[0], usd.identifier) for label, held in made.members.items()}
         alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
         if alike:
             raise EditRefusedError(ROBOT_NAMES_ALIKE, names=alike)
         geometry = path.with_name(path.stem + "_geometry.usdc")
-        options = {"selected_objects_only": self.use_selection, "root_prim_path": "/" + read.robots.USD_ROOT}
+        options = {"selected_objects_only": self.use_selection, "root_prim_path": "/" + session.robots.USD_ROOT}
         self._run_exporter("wm.usd_export", geometry, options)
         scaled = [link.name for link in robot.roots if min(link.scale) < 0.0]
         if scaled:

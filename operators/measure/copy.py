@@ -66,7 +66,7 @@ def selected_document(context: Context) -> dict[str, Any]:
     outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
     counted = [obj for obj in objects if properties.is_stored(obj)]
     caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
-    caveats += read.total_caveats.total_caveats(counted, context.view_layer)
+    caveats += read.assembly.total_caveats(counted, context.view_layer)
     version = ".".join(map(str, bpy.app.version))
     return write.text_report.stored_document(context, objects, outdated, caveats, bpy.data.filepath or None, version)
 
@@ -102,7 +102,7 @@ def _reference(context: Context) -> Copied | str | Finding:
     result = None if obj is None or not properties.is_stored(obj) else stored.reference.referred(obj, scene)
     if obj is None or result is None or isinstance(result, Finding):
         return result or MEASURE_FIRST
-    choice = read.reference.ReferenceChoice.from_settings(scene.body_moments_reference)
+    choice = stored.reference.ReferenceChoice.from_settings(scene.body_moments_reference)
     return reference_text(obj.name, choice, result), reports.phrase("Copied the report of {count} object", count=1)
 
 

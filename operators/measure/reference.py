@@ -16,7 +16,7 @@ from ...core.inertia.plain_body import tensor_rows
 from .. import selection
 
 if TYPE_CHECKING:
-    from ...blender.read.reference import ReferenceChoice
+    from ...blender.session.stored.reference import ReferenceChoice
     from ...core.inertia.reference import ReferredInertia
 
 POINTS = 2  # points of an axis

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, Operator
 
+from ...blender import bodies
 from ...blender.read.visibility import SECTION_TYPES
 from ...blender.session import stored
 from ...blender.session.stored import outcome
@@ -37,10 +38,10 @@ class OBJECT_OT_body_moments_measure_section(Operator):
 
         def measure(obj: Object) -> None:
             properties.require_storable(obj)
-            sections.append((obj, stored.sections.section_of(obj, depsgraph)))
+            sections.append((obj, bodies.section_of(obj, depsgraph)))
 
         measured, failures = selection.apply_to_all(_objects_with_sections(context), measure)
-        stored.sections.store_sections(context, sections)
+        stored.results.store_sections(context, sections)
         selection.redraw(context)
         warned = [obj.name for obj, found in sections if of_severity(found[2], Severity.WARNING, Severity.ERROR)]
         if len(measured) == 1:

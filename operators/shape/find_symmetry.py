@@ -104,7 +104,7 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
     def _finish(self, context: Context) -> set[str]:
         """Store the symmetries of all objects at the end, so that a canceled search leaves none behind."""
         for obj, shape, found_symmetry, allowed in self._results:
-            stored.symmetry.store_symmetry(obj, shape, found_symmetry, allowed, self.tolerance)
+            stored.results.store_symmetry(obj, shape, found_symmetry, allowed, self.tolerance)
         # Blender reports the stored symmetry as a change of the object.
         staleness.mark_stamps(
             context, [(obj, stamp) for obj, *_ in self._results if (stamp := stamps.of_symmetry(obj))]

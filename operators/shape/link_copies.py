@@ -15,7 +15,7 @@ from ...blender.write import reports
 from .. import selection
 
 if TYPE_CHECKING:
-    from ...blender.scene.copies.find import Copies
+    from ...blender.scene.copies import Copies
 
 MAX_LISTED = 10  # groups that the dialog lists
 NOTHING = "There are no copies."

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from body_moments.blender.read.grids.vdb import openvdb
+from body_moments.blender.read.vdb import openvdb
 
 GRIDS = {"f4": "FloatGrid", "f8": "DoubleGrid", "i4": "Int32Grid", "i8": "Int64Grid", "b1": "BoolGrid"}
 

@@ -92,7 +92,7 @@ def test_the_zip_holds_the_add_on_and_nothing_else(archive):
     }
     manual = {name for name in names if name.startswith("manual/")}
     assert names - manual == top | expected
-    assert {PurePosixPath(name).suffix for name in manual} == {".html", ".png", ".json", ".cff", ".js", ".css"}
+    assert {PurePosixPath(name).suffix for name in manual} == {".html", ".png", ".webp", ".json", ".cff", ".js", ".css"}
     assert {PurePosixPath(name).suffix for name in expected} == {".py", ".po"}
 
 

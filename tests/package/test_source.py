@@ -161,7 +161,7 @@ def test_no_file_names_a_machine_or_a_registry():
     hosts = ("pypi" + ".org", "pythonhosted" + ".org", "debian" + ".org", "npmjs" + ".org")
     patterns = [r"(?<![\w.~}])/(?:home|root|work|Users)/\w", r"[A-Z]:\\Users\\", *map(re.escape, hosts)]
     pattern = re.compile("|".join(patterns))
-    binary = (".png", ".ply", ".blend", ".npz", ".npy", ".zip", ".gz", ".glb", ".fbx")
+    binary = (".png", ".webp", ".gif", ".ply", ".blend", ".npz", ".npy", ".zip", ".gz", ".glb", ".fbx")
     assert_none(
         [
             "{}:{}: {}".format(name(path), number, match.group())

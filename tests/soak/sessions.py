@@ -16,7 +16,7 @@ from collections import Counter
 import bmesh
 import bpy
 import numpy as np
-from body_moments.blender.read.shapes import MAX_DIGESTED_FACES
+from body_moments.blender.read.mesh import MAX_DIGESTED_FACES
 from body_moments.blender.session import displayed
 from body_moments.blender.session.live import following, live
 from body_moments.blender.session.tracking import handlers, staleness

@@ -263,15 +263,15 @@ class Window:
 
     # eyes
 
-    def picture(self, name: str) -> Path:
-        """A picture of the screen, kept in the folder of artefacts."""
-        path = self.artefacts / f"{name}.png"
-        subprocess.run(["scrot", "-o", str(path)], env=self.environment, check=True, timeout=240)
+    def picture(self, name: str, form: str = "webp") -> Path:
+        """A picture of the screen, kept in the folder of artefacts; a .png has every pixel as it is."""
+        path = self.artefacts / f"{name}.{form}"
+        subprocess.run(["scrot", "-o", "-q", "85", str(path)], env=self.environment, check=True, timeout=240)
         return path
 
     def pixels(self, name: str) -> np.ndarray:
         """A picture as (height, width, 3) bytes, from the top, read by Blender itself."""
-        path = self.picture(name)
+        path = self.picture(name, "png")
         array = self.mailbox / "pixels.npy"
         self.ask(
             f"import numpy as np\nimage = bpy.data.images.load({str(path)!r})\n"

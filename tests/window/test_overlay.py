@@ -20,7 +20,7 @@ def center_color(window, name="overlay"):
     window.point_at_view()
     window.redraw()
     window.get("True")
-    path = window.picture(name)
+    path = window.picture(name, "png")
     return window.ask(
         "from bpy_extras.view3d_utils import location_3d_to_region_2d as project\n"
         "cube, region = bpy.data.objects['Cube'], regions['WINDOW']\n"

@@ -53,8 +53,7 @@ from ..findings import (
     UNION_LACKS,
 )
 from ..request import Request
-from .polynomial_mass import polynomial_mass_result
-from .voxel_filled import filled_by_volume
+from .fields import filled_by_volume, polynomial_mass_result
 
 MAX_NAMED = 8  # materials in the note on the source of the density
 
@@ -163,8 +162,8 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
             parts += weighed
             by_part.append((reading.parts[i].source_object_name, findings))
     findings = [*face_densities.missing_note(), *findings_by_part(by_part, reading.name)]
-    health = body.health
-    if not shell and health.nested_components + health.overlapping_components and face_densities.has_several:
+    health, densities = body.health, np.concatenate(face_densities.values)
+    if not shell and health.nested_components + health.overlapping_components and np.ptp(densities):
         findings.append(finding(OVERLAPPING_DENSITIES))
     return _Weighed(
         to_mass_moments(sum_moments(parts), _thickness(request)),
@@ -203,10 +202,6 @@ class _FaceDensities:
     @property
     def names(self) -> tuple[str, ...]:
         return tuple(material.name_full for material in self.materials)
-
-    @property
-    def has_several(self) -> bool:
-        return len({value for values in self.values for value in np.unique(values).tolist()}) > 1
 
     def missing_note(self) -> Iterator[Finding]:
         """Yield a finding about faces without a material density, which have the object's density."""

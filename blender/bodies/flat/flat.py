@@ -3,36 +3,46 @@
 """Flat shapes: selected faces, flat meshes, 2-D curves and text as regions of their own plane, seen from the front.
 
 Faces point to the front, curves and text have it at their own +z. Only curves that Blender gives have exact moments.
+The region that closed curves bound is also measured as a sheet, from control points instead of polygons.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
+from typing import ClassVar
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
 from ....core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE
+from ....core.bodies.mesh_body import extend_input_error
+from ....core.bodies.reading import Reading
 from ....core.flat.findings import SECTION_NOT_FLAT
 from ....core.flat.polygon import find_defects, orient_loops
 from ....core.flat.regions import plane_positions, region_moments
-from ....core.flat.section import fit_plane, project, projection_rounding, region
-from ....core.flat.section_properties import Plane
+from ....core.flat.section import fit_plane, measure_section, project, projection_rounding, region
+from ....core.flat.section_properties import Plane, Section
 from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
+from ....core.measurement.body import Body
 from ....core.measurement.findings import NO_VOLUME
 from ....core.moments.exponents import monomials
-from ....core.moments.moments import Measure, Moments
+from ....core.moments.moments import Measure, Moments, monomial_count
 from ....core.numerics.float32 import shortest_decimal
 from ....core.nurbs.curve import Curve
-from ....core.nurbs.curve_moments import plane_moments
+from ....core.nurbs.curve_moments import length_moments, plane_moments
 from ....core.nurbs.flat_face import planar_region
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ....core.verdict.health import MeshHealth
+from ....core.verdict.method import Method, Source, Verdict
 from ....core.verdict.tolerances import NEGLIGIBLE
-from ...read.findings import FLAT_OF_TYPE, RENDER_DIFFERS, SECTION_EXTRUDED
+from ...read.findings import FLAT_OF_TYPE, RENDER_DIFFERS, SECTION_EXTRUDED, SECTION_NOT_FILLED
+from ...read.objects import read_lines
 from ...read.section import SectionReading, read_outline_curves, read_section
+from ...read.visibility import shows_flat_region
 from ..findings import (
+    CURVE_FILL_MEASURED,
     OUTLINES_CROSS,
     SECTION_FACES_OVERLAP,
     SECTION_FACES_REVERSED,
@@ -40,13 +50,16 @@ from ..findings import (
     SECTION_OVERLAP_UNCHECKED,
     SECTION_PROJECTED,
 )
-from ..wire import curves_in_world
+from ..request import Request
+from ..wire import DEGREE, curves_in_world
 
 FILL_AREA_RTOL = 1e-4  # if Blender's fill and the outlines differ by more, the fill is wrong
 # Codes of refusals: that an object is no body; and that it is not flat either, so that the first refusal is shown.
 NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
 NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, FLAT_OF_TYPE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
+MeasuredSection = tuple[Section, str, tuple[Finding, ...]]
+MEASURED_AS = frozenset({"shell"})
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,6 +136,13 @@ def flat_region(
     drawn = {DRAWN_AS_POLYGONS, RENDER_DIFFERS}
     kept = [one for one in found.findings if one.code not in drawn]
     return replace(found, curves=curves, stored=max(stored, found.stored), findings=tuple(kept))
+
+
+def section_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredSection:
+    """Return an object's section (SI, world axes), a description of the measured part, and the findings."""
+    found = flat_region(obj, depsgraph, exact=False)
+    section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
+    return section, found.description, (*found.findings, *area_findings(found, section.area))
 
 
 def clearer_refusal(no_body: MeasureError, not_flat: MeasureError) -> MeasureError:
@@ -217,3 +237,74 @@ def _curve_moments(curves: tuple[Curve, ...], order: int, rounded: float, stored
         # the curves sweep over no more than their control polygons are long
         bounds[positions] = known[positions] + way * (sum(lengths) + 2.0 * way * len(corners)) * size
     return Moments(raw, about, Measure.AREA, rounding, moved)
+
+
+@dataclass
+class RegionReading(Reading):
+    """A curve object, and the region that its curves bound.
+
+    `boundary`: in the world, m; holes run against the outline. `normal`: (3,) normal of the curves' plane.
+    `stored`: largest effect of float32 on the points, m.
+    """
+
+    boundary: tuple[Curve, ...] = ()
+    normal: NDArray[np.float64] = field(kw_only=True)
+    stored: float = field(kw_only=True)
+
+
+@dataclass(frozen=True, eq=False)
+class RegionBody(Body):
+    """A flat region without thickness of its own."""
+
+    any_order: ClassVar[bool] = True
+
+    boundary: tuple[Curve, ...] = ()
+    normal: NDArray[np.float64] = field(kw_only=True)
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
+        """Return zero moments of the volume, and the moments of the area."""
+        volume = Moments(np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME)
+        of_region = plane_moments(self.boundary, self.normal, order, self.area.about)
+        return volume, extend_input_error(of_region, self.area)
+
+
+def read(request: Request) -> RegionReading | None:
+    """Return the flat region that a curve object bounds as a thin shell of one density, or None for other objects."""
+    obj, options = request.obj, request.settings
+    if obj.type != "CURVE" or options.wall != "thin":
+        return None
+    if request.density is not None or not shows_flat_region(obj):
+        return None
+    reading = read_lines(obj, request.depsgraph)
+    is_filled = obj.data.dimensions == "2D" and obj.data.fill_mode != "NONE"
+    if not is_filled:
+        reading.findings.append(finding(SECTION_NOT_FILLED))
+    try:
+        curves, stored = curves_in_world(reading.curves, reading.matrix, request.settings.unit)
+        boundary, normal = planar_region(curves, stored)
+    except MeasureError as error:
+        if not is_filled:
+            raise
+        request.findings.append(finding(CURVE_FILL_MEASURED, cause=error.finding.as_record()))
+        return None
+    common = {entry.name: getattr(reading, entry.name) for entry in fields(Reading)}
+    return RegionReading(**common, boundary=tuple(boundary), normal=normal, stored=stored)
+
+
+def body(reading: RegionReading, request: Request) -> Body:
+    """Return the flat region, without its holes, as a sheet."""
+    curves = list(reading.boundary)
+    area = plane_moments(curves, reading.normal)
+    boundary_length = length_moments(curves, 0).total
+    reach = max(float(np.abs(curve.points - area.about).max()) for curve in curves)
+    area = replace(area, input_error=2.0 * reading.stored * boundary_length * reach**DEGREE)
+    return RegionBody(
+        Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME),
+        area,
+        MeshHealth(closed=False, components=len(curves)),
+        Method(Verdict.SHELL, Source.NURBS),
+        (),
+        estimated=True,
+        boundary=tuple(curves),
+        normal=reading.normal,
+    )

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TypeVar
 
@@ -29,7 +29,7 @@ from ....core.shape.symmetries import Symmetry
 from ....core.verdict.finding import MeasureError, ReadError
 from ...read.fingerprint import matrix_hash, settings_hash
 from ..shape.shape import Shape, surface_shape_of
-from ..shape.surface_distance import EXACT_DISTANCE, SURFACE_SAMPLES, SurfaceDistance
+from ..shape.surface_distance import EXACT_DISTANCE, SURFACE_SAMPLES, SurfaceDistance, thinned
 from .flat import NO_BODY, FlatRegion, clearer_refusal, flat_region
 
 # curves and text are read with this resolution, because shapes must not depend on the drawn one
@@ -90,15 +90,7 @@ class FlatShape:
         degree = monomials(moments.order).sum(axis=1)
         scaled = Moments(moments.raw / scale ** (degree + 2.0), np.zeros(3), moments.measure)
         found = flat_signature(scaled, self.radius / scale)
-        return Signature(
-            found.size * scale,
-            found.invariants,
-            found.zernike,
-            found.fourier,
-            found.chirality,
-            found.error,
-            found.dimension,
-        )
+        return replace(found, size=found.size * scale)
 
     def pieces(self) -> Iterator[Surface]:
         """Yield one wall along the outline, one `size` high on either side: as far from points as the outline."""
@@ -139,12 +131,8 @@ class OutlineDistance(SurfaceDistance):
         ends = shape.region.points[shape.region.edges] - shape.moments.about[:2]
         middles = ends.mean(axis=1)
         far = np.argsort((shape.corners**2).sum(axis=1), kind="stable")[-SURFACE_SAMPLES // 10 :]
-        flat = np.concatenate([shape.corners[far], _thinned(shape.corners), _thinned(middles)])
+        flat = np.concatenate([shape.corners[far], thinned(shape.corners), thinned(middles)])
         self.points = np.insert(flat, 2, 0.0, axis=1) @ shape.axes.T + shape.center
-
-
-def _thinned(points: NDArray) -> NDArray[np.float64]:
-    return points[np.linspace(0, len(points) - 1, min(len(points), SURFACE_SAMPLES // 2)).astype(int)]
 
 
 def distance_from(shape: Shape | FlatShape) -> SurfaceDistance:

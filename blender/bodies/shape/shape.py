@@ -7,7 +7,7 @@ All three need moments of higher order than a measurement has, of the same body:
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import frexp
@@ -39,11 +39,16 @@ from ....core.measurement.body import Body
 from ....core.measurement.findings import WALL_UNSUPPORTED
 from ....core.measurement.measurement import Measurement
 from ....core.mesh.surface import Surface, join_surfaces
+from ....core.mesh.surface_stack import TriangleStack
+from ....core.moments.affine_maps import are_similarities
 from ....core.moments.moments import Moments
+from ....core.numerics.arrays import segment_starts
 from ....core.polyhedron import polyhedron_moments
+from ....core.polyhedron.any_order import extend_small_moments
+from ....core.polyhedron.third_order_small import small_moments
 from ....core.shape.point_groups import PlacedTriangles
 from ....core.shape.registration import Residual, RigidMatch, match
-from ....core.shape.signatures import Signature, signature
+from ....core.shape.signatures import Signature, signature, signatures
 from ....core.shape.symmetries import UNDECIDED, Symmetry, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ....core.verdict.finding import Finding, ReadError, finding
@@ -51,6 +56,8 @@ from ....core.verdict.findings import OBJECT_TOO_LARGE
 from ....core.verdict.method import Source, Verdict
 from ...settings.options import MeasureOptions
 from ..measure_object import THREADS, Measured, measure_body
+from ..stacks.many import measured_in_turn
+from ..stacks.stack import MeasuredStack, Stacked
 from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
@@ -85,8 +92,8 @@ class Shape:
 
     @property
     def is_display_mesh(self) -> bool:
-        """True if the pieces are the display mesh of something smooth."""
-        return is_display_mesh(self.measurement)
+        """True if the pieces are the display mesh of something smooth, whose moments differ a little."""
+        return self.measurement.method.source == Source.NURBS
 
     @property
     def center(self) -> NDArray[np.float64]:
@@ -111,7 +118,7 @@ class Shape:
 
     def piece_moments(self) -> Moments:
         """Return moments like `moments`, but of the polygons, which replace a smooth surface in comparisons."""
-        if not is_display_mesh(self.measurement):
+        if not self.is_display_mesh:
             return self.moments
         volume, area = polyhedron_moments(
             self.pieces(),
@@ -265,16 +272,9 @@ class Shape:
         """Return (n, 3) corners of all faces, relative to the center."""
         points = []
         for piece in self.pieces():
-            triangles = piece.all_triangles()[0]
-            used = np.zeros(len(piece.points), bool)
-            used[triangles] = True
-            points.append(piece.points[used] - self.center)
+            users = np.bincount(piece.all_triangles()[0].ravel(), minlength=len(piece.points))
+            points.append(piece.points[users > 0] - self.center)
         return np.concatenate(points)
-
-
-def is_display_mesh(measurement: Measurement) -> bool:
-    """Return whether a body's pieces are the display mesh of something smooth, whose moments differ a little."""
-    return measurement.method.source == Source.NURBS
 
 
 class NoShapeError(ReadError):
@@ -318,3 +318,82 @@ def _shape_of_measured(measured: Measured, threads: int) -> Shape:
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
         raise NoShapeError(SHAPE_FAR_FROM_ORIGIN, measurement)
     return shape
+
+
+def signed_in_turn(
+    objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, order: int
+) -> Callable[[bpy.types.Object], Signature | Shape]:
+    """Return a function from an object to its signature, or to its `Shape` if it was measured outside a stack."""
+    measured = measured_in_turn(objects, depsgraph, SURFACE_OPTIONS)
+    known: dict[MeasuredStack, list[Signature | None]] = {}
+
+    def signed(obj: bpy.types.Object) -> Signature | Shape:
+        outcome = measured(obj)
+        if not isinstance(outcome, Stacked):
+            return surface_shape(outcome)
+        if outcome.stack not in known:
+            known.clear()
+            known[outcome.stack] = stack_signatures(outcome.stack, order)
+        return known[outcome.stack][outcome.index] or surface_shape_of(obj, depsgraph)
+
+    return signed
+
+
+def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]:
+    """Return the signatures of a stack's members; None for repaired, distant and ill-conditioned members."""
+    found: list[Signature | None] = [None] * len(stack.members)
+    linear = np.array([member.matrix[:3, :3] for member in stack.members])
+    is_even, determinant = are_similarities(linear), np.linalg.det(linear)
+    solids = next((member.shape.solids for member in stack.members if member.shape.solids is not None), None)
+    if solids is None:
+        return found
+    # A body is a shape in its own coordinates, or the unevenly mapped shape of a single object.
+    body_of: dict[tuple[int, int], int] = {}
+    rows, maps, of_member = [], [], {}
+    for i, member in enumerate(stack.members):
+        if member.shape.solids is None:
+            continue
+        key = (member.shape.row, -1 if is_even[i] else i)
+        if key not in body_of:
+            body_of[key] = len(rows)
+            rows.append(member.shape.row)
+            maps.append(np.eye(3) if is_even[i] else linear[i])
+        of_member[i] = body_of[key]
+    volume = solids.volume.at(np.array(rows))
+    centers = volume.about + volume.raw[:, 1:4] / volume.raw[:, :1]
+    of_bodies, scale = _signatures(solids.caps.triangles, np.array(rows), np.array(maps), centers, order)
+    reach = np.finfo(np.float64).eps * np.abs(stack.mass_properties.center).max(axis=1)
+    for i, body in of_member.items():
+        own = of_bodies[body]
+        mapped = 1.0 if is_even[i] else abs(determinant[i])
+        size = float(scale[body] * own.size * np.cbrt(stack.stretch[i] / mapped))
+        if own.error > MAX_DESCRIPTOR_ERROR or reach[i] > EXACT_DISTANCE / 2.0 * size:
+            continue
+        is_mirrored = bool(is_even[i] and determinant[i] < 0.0)
+        found[i] = replace(own, size=size, chirality=-own.chirality if is_mirrored else own.chirality)
+    return found
+
+
+def _signatures(
+    stack: TriangleStack, rows: NDArray[np.intp], maps: NDArray, centers: NDArray, order: int
+) -> tuple[list[Signature], NDArray[np.float64]]:
+    """Return the signatures of linearly mapped surfaces, each scaled to about unit size, and the (k,) scales."""
+    points, triangles, first = [], [], 0
+    for row, linear, center in zip(rows.tolist(), maps, centers):
+        start, begin = stack.first_point[row], stack.first_triangle[row]
+        own = (stack.points[start : start + stack.point_counts[row]] - center) @ linear.T
+        corners = stack.triangles[begin : begin + stack.triangle_counts[row]] - start + first
+        points.append(own)
+        triangles.append(corners[:, ::-1] if np.linalg.det(linear) < 0.0 else corners)
+        first += len(own)
+    counts, point_counts = stack.triangle_counts[rows], stack.point_counts[rows]
+    starts = segment_starts(point_counts)
+    places = np.concatenate(points)
+    radius = np.sqrt(np.maximum.reduceat((places * places).sum(axis=1), starts))
+    scale = 2.0 ** np.frexp(radius)[1]  # a power of two rounds nothing
+    places /= np.repeat(scale, point_counts)[:, None]
+    reach, nothing = np.maximum.reduceat(np.abs(places), starts), np.zeros((len(rows), 3))
+    joined = np.concatenate(triangles)
+    volume = small_moments(places, joined, counts, nothing, reach, nothing, area=False, area_moments=False)[0]
+    volume = extend_small_moments(volume, order, places, joined, counts, reach)
+    return signatures(volume, radius / scale), scale

@@ -4,33 +4,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from itertools import chain
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
 from ....core.mesh.point_triangle import triangle_distances
-from ....core.mesh.surface import Surface, join_surfaces
+from ....core.mesh.surface import join_surfaces
 from ....core.shape.registration import RigidMatch
+
+if TYPE_CHECKING:
+    from ..flat.flat_shape import FlatShape
+    from .shape import Shape
 
 # Relative to the size: distances between these two are wrong for thin triangles in single precision.
 EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
 SURFACE_SAMPLES = 1500  # points of a surface whose distances from another surface are found
 POINTS_PER_BATCH = 64  # points whose distances are found at once
-
-
-class Registered(Protocol):
-    """A shape that can be laid onto shapes of its kind: a `Shape` or a `FlatShape`."""
-
-    @property
-    def center(self) -> NDArray[np.float64]: ...
-    @property
-    def size(self) -> float: ...
-    def pieces(self) -> Iterable[Surface]: ...
-    def match(self, target: Any, residual: Callable[[NDArray, int | None], NDArray[np.float64]], /) -> RigidMatch: ...
 
 
 class SurfaceDistance:
@@ -40,22 +32,15 @@ class SurfaceDistance:
     center and in units of the size.
     """
 
-    def __init__(self, shape: Registered):
+    def __init__(self, shape: Shape | FlatShape):
         whole = join_surfaces(list(shape.pieces()))
         self._center, self._scale = shape.center, shape.size
         self._triangles = triangles = whole.all_triangles()[0]
         self._corners = (whole.points - self._center) / self._scale
-        is_used = np.zeros(len(whole.points), bool)
-        is_used[triangles] = True
-        used = np.flatnonzero(is_used)
-        pick = np.linspace(0, len(used) - 1, min(len(used), SURFACE_SAMPLES // 2)).astype(int)
-        middles = whole.points[
-            triangles[np.linspace(0, len(triangles) - 1, min(len(triangles), SURFACE_SAMPLES // 2)).astype(int)]
-        ].mean(axis=1)
-        far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1), kind="stable")[
-            -SURFACE_SAMPLES // 10 :
-        ]
-        points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
+        used = whole.points[np.bincount(triangles.ravel(), minlength=len(whole.points)) > 0]
+        middles = whole.points[thinned(triangles)].mean(axis=1)
+        far = np.argsort(((used - self._center) ** 2).sum(axis=1), kind="stable")[-SURFACE_SAMPLES // 10 :]
+        points = np.concatenate([used[far], thinned(used), middles])
         self.points = points.astype(np.float64, copy=False)
         self._tree = BVHTree.FromPolygons(_as_tuples(self._corners), _as_tuples(triangles), all_triangles=True)
 
@@ -80,19 +65,27 @@ class SurfaceDistance:
         return distances * self._scale
 
 
+def thinned(rows: NDArray) -> NDArray:
+    """Return evenly chosen rows of an array, no more than half of SURFACE_SAMPLES."""
+    return rows[np.linspace(0, len(rows) - 1, min(len(rows), SURFACE_SAMPLES // 2)).astype(int)]
+
+
 def _as_tuples(array: NDArray) -> list[tuple]:
     """Return the rows as tuples, because the garbage collector visits lists again and again."""
     return list(zip(*array.T.tolist()))
 
 
 def register_surfaces(
-    source: Registered,
-    target: Registered,
+    source: Any,
+    target: Any,
     source_skin: SurfaceDistance,
     target_skin: SurfaceDistance,
     scale: float = 1.0,
 ) -> RigidMatch:
-    """Return the motion that lays a scaled shape onto another one, minimizing the distances of their surfaces."""
+    """Return the motion that lays a scaled shape (`Shape` or `FlatShape`) onto another one of its kind.
+
+    It minimizes the distances of their surfaces.
+    """
 
     def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:
         source_points, target_points = (

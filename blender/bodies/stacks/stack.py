@@ -33,7 +33,8 @@ from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, mea
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
 from ....core.verdict.method import Method, Verdict
-from ...read.shapes import surface_digest, transform_keys
+from ...read.fingerprint import transform_key
+from ...read.mesh import surface_digest
 from ...settings.accepted import accepted_codes, with_acceptance
 
 METHODS = {verdict: Method(verdict) for verdict in Verdict}
@@ -173,10 +174,6 @@ class MeasuredStack:
         )
         return np.array(bounds).transpose(2, 0, 1)
 
-    def in_object_frames(self) -> MassProperties:
-        """Return the mass properties, each in the frame of its object."""
-        return self.mass_properties.in_frame(self.rotation, self.location)
-
     def measurement(self, i: int) -> Measurement:
         """Return the measurement of one member."""
         obj, shape, volume, density = self.members[i].obj, self.members[i].shape, self.volume.at(i), self.density[i]
@@ -245,7 +242,6 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     members, matrices, which = _chosen(members, usable), matrices[usable], which[usable]
     if not members:
         return None
-    keys = transform_keys(matrices)
     matrices[:, :3] *= unit
     volume = _placed(own.at(which), matrices)
     area = _areas(own_area.at(which), matrices, members)
@@ -262,7 +258,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     if not len(rows):
         return None
     if len(rows) < len(members):  # the others are refused by themselves
-        members, keys = _chosen(members, rows), [keys[i] for i in rows.tolist()]
+        members = _chosen(members, rows)
         which, matrices, density, from_mass = which[rows], matrices[rows], density[rows], from_mass[rows]
         volume, area = volume.at(rows), area.at(rows)
     rotation = rotation_matrix([member.quaternion for member in members])
@@ -299,7 +295,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
         volume.raw[:, 0] / own.raw[which, 0],
         rotation,
         np.array([member.location for member in members]) * unit,
-        [fingerprint(numbers, key, member.digest) for numbers, key, member in zip(geometry, keys, members)],
+        [fingerprint(numbers, transform_key(each.obj), each.digest) for numbers, each in zip(geometry, members)],
         [_findings(*each) for each in zip(members, find_large_bounds(volume, area, properties))],
     )
 

@@ -299,7 +299,7 @@ def keep(armature: Object, known: Character, ground: float, rig: Rig | None) -> 
     if rig is None:
         return
     try:
-        stored.rig.store(rig)
+        stored.results.store_rig(rig)
     except EditRefusedError:
         _characters[armature] = properties.fingerprint(armature), known
         handlers.count_change(armature)

@@ -4,7 +4,7 @@
 
 Nothing is written to any data. A moving object is not measured again: its numbers are mapped to its new place. An
 object that deforms during playback or posing gets volume and center at once, in a light pass over its faces
-(moving_surface.py), within the budget of a redraw. Full numbers come from a timer, never from a handler: at once if
+(`MovingSurface`), within the budget of a redraw. Full numbers come from a timer, never from a handler: at once if
 they take no longer than the budget, else when updates and frames have ceased. Until then the panel says that the
 numbers lag. B-spline patches are tracked (core/nurbs/tracked_solid.py). Only seconds of this thread count, so that
 other work on a busy machine makes no numbers lag.
@@ -23,28 +23,32 @@ import numpy as np
 from bpy.types import Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
-from ....core.bodies.reading import float64_matrix
+from ....core.bodies.mesh_body import MeshBody
+from ....core.bodies.reading import Reading, float64_matrix
 from ....core.inertia.mass_properties import affine_image
 from ....core.inertia.plain_body import PlainBody
 from ....core.measurement.body import Body
 from ....core.measurement.measurement import Measurement
+from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_singular
 from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
 from ....core.nurbs.patch import Patch
 from ....core.nurbs.tracked_solid import TrackedSolid
+from ....core.polyhedron.integration import volume_and_center
 from ....core.verdict import internal_error
-from ....core.verdict.finding import MeasureError
+from ....core.verdict.finding import MeasureError, ReadError
 from ....core.verdict.method import Method, Source, Verdict
-from ...bodies.measure_object import measure_body
+from ...bodies.measure_object import Measured, measure_body
 from ...bodies.request import Request, measurement_of
 from ...read.fingerprint import has_transform, settings_hash, transform_key
+from ...read.mesh import mesh_points
 from ...read.objects import read_patches
+from ...read.visibility import evaluated_geometry
 from ...settings.options import MeasureOptions, object_settings
 from ...settings.preferences import preferences
 from ..tracking import handlers, updates
 from .following import LiveResult, followed
-from .moving_surface import MovingSurface
 
 BUDGET = 0.01  # s per redraw, if there are no preferences
 MAX_PASS = 5.0  # limit for the first pass of a redraw, in budgets
@@ -52,6 +56,7 @@ RETRY = 0.7  # factor for the remembered time of a skipped pass, so that it is t
 IDLE = 0.25  # s without an update before measurements that take longer than the budget
 POLL = 0.1  # s between two checks whether these can begin
 _last_event = 0.0  # time of the last update
+FOLLOWED = {Verdict.EXACT, Verdict.CAPPED, Verdict.REORIENTED}
 
 
 @dataclass(eq=False)
@@ -218,8 +223,9 @@ def note_updates(events: handlers.Updates) -> None:
     if changed and not bpy.app.is_job_running("RENDER"):
         _follow_at_once(events, set(changed))
     others = events.collections or events.moved or events.reshaped
-    if changed or moved or others and any(current.shows_others for current in followed):
-        _schedule(0.0)
+    is_due = changed or moved or others and any(current.shows_others for current in followed)
+    if is_due and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.register(_tick)
 
 
 def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
@@ -238,15 +244,6 @@ def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
         budget, is_first = budget - current.pass_seconds, False
 
 
-def _schedule(seconds: float) -> None:
-    if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
-        bpy.app.timers.register(_tick, first_interval=seconds)
-
-
-def _is_playing() -> bool:
-    return any(window.screen.is_animation_playing for window in bpy.context.window_manager.windows)
-
-
 def _tick() -> float | None:
     if not len(followed):  # none is any more, or the add-on is disabled
         return None
@@ -255,7 +252,8 @@ def _tick() -> float | None:
     layer = bpy.context.view_layer
     depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
     due = [obj for obj in layer.objects if obj in followed and _is_due(obj)]
-    budget, idle = _budget(), time.monotonic() - _last_event >= IDLE and not _is_playing()
+    is_playing = any(window.screen.is_animation_playing for window in bpy.context.window_manager.windows)
+    budget, idle = _budget(), time.monotonic() - _last_event >= IDLE and not is_playing
     waiting = False
     for seconds, obj in sorted(((_seconds(obj), obj) for obj in due), key=itemgetter(0)):
         if (seconds <= budget or idle) and not _is_stroking(obj):
@@ -292,3 +290,56 @@ def _is_due(obj: Object) -> bool:
         is_edited = updates.last_edit(obj).number > current.number
         current.is_pending = is_edited or not has_transform(obj, current.transform)
     return current.is_pending
+
+
+@dataclass(frozen=True, eq=False)
+class MovingSurface:
+    """A body whose points move while its faces stay the same.
+
+    surface: its faces, in the object's own coordinates.
+    corners: (c,) vertices of all corners of the mesh that was read.
+    """
+
+    surface: Surface
+    corners: NDArray[np.integer]
+
+    @classmethod
+    def from_measured(cls, measured: Measured) -> MovingSurface | None:
+        """Return the faces of a measured body, or None unless it is one exact or repaired mesh in its own place."""
+        reading, body, method = measured.reading, measured.body, measured.measurement.method
+        if (
+            not isinstance(reading, Reading)
+            or not isinstance(body, MeshBody)
+            or measured.measurement.kind != "solid"
+            or body.mass is not None
+            or method.source != Source.POLYGONS
+            or method.verdict not in FOLLOWED
+            or len(reading.parts) != 1
+            or len(body.solids) != 1
+        ):
+            return None
+        (part,), ((solid, _matrices),) = reading.parts, body.solids
+        read, surface = part.surface, solid.repaired_surface
+        if (
+            part.source_object_name not in ("", reading.name)
+            or len(part.matrices) != 1
+            or not np.array_equal(part.matrices[0], reading.matrix)
+            or read.corner_vertices is None
+            or not np.array_equal(surface.points, read.points)
+        ):
+            return None
+        return cls(surface, read.corner_vertices)
+
+    def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]] | None:
+        """Return the object's current volume and (3,) center, in its own coordinates; None if it shows other faces."""
+        if obj.type != "MESH" or obj.mode not in {"OBJECT", "POSE", "WEIGHT_PAINT"} or obj.data.is_editmode:
+            return None
+        try:
+            geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
+        except ReadError:
+            return None
+        points = None if geometry.mesh is None else mesh_points(geometry.mesh, self.corners)
+        if points is None or len(points) != len(self.surface.points):
+            return None
+        volume, center = volume_and_center(Surface(points, self.surface.triangles, quads=self.surface.quads))
+        return (volume, center) if volume > 0.0 and np.isfinite(center).all() else None

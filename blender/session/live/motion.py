@@ -24,7 +24,7 @@ from ....core.statics.mixes import Mixes, fit_mixes, sample_count
 from ....core.verdict.finding import EditRefusedError
 from ....core.verdict.method import Method, Verdict
 from ...bodies.measure_object import measure_body
-from ...bodies.mesh.hull import object_hull
+from ...bodies.mesh import object_hull
 from ...read.objects import read_object
 from ...scene.findings import OPEN_OBJECT
 from ...settings.options import object_settings

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stored results of an assembly: on it, on all assemblies in it, on measured objects; its tree."""
+"""The stored results of an assembly: on it, on its assemblies and measured objects; its tree and bill of masses."""
 
 from __future__ import annotations
 
@@ -9,15 +9,18 @@ from contextlib import contextmanager
 from math import dist, hypot
 
 import bpy
+import numpy as np
 from bpy.types import Context, Object, PropertyGroup
 from mathutils import Matrix
 
-from ....core.inertia.plain_body import PlainBody, add_bodies
+from ....core.inertia.plain_body import TENSOR, PlainBody, add_bodies
+from ....core.measurement.builder import find_properties
+from ....core.measurement.documents import table
 from ....core.measurement.settings import digest
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity
-from ....core.verdict.sentences import of_severity
+from ....core.verdict.sentences import of_severity, sentence
 from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement
 from ...bodies.findings import ASSEMBLY_MASS_GIVEN
 from ...bodies.measure_object import Measured
@@ -28,6 +31,12 @@ from ..tracking import handlers, staleness, stamps
 from . import reference, results
 
 SAME_RTOL = 1e-5  # relative to mass and radius of gyration: other coordinates of the same body may change as much
+COLUMNS = (
+    *("level", "name", "type", "counted", "method", "mass", "share", "density", "volume", "area"),
+    *(f"center_of_mass_{axis}" for axis in "xyz"),
+    *(f"inertia_{name}" for name, *_ in TENSOR),
+    *("principal_moment_1", "principal_moment_2", "principal_moment_3", "notes", "warnings", "left_out"),
+)
 
 
 def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
@@ -181,3 +190,39 @@ def _row_findings(part: MemberBody) -> list[Finding]:
     if part.measurement is not None:
         return of_severity(part.measurement.findings, Severity.WARNING, Severity.ERROR)
     return list(part.findings)
+
+
+def bill_csv(root: MemberBody, mass: float) -> list[str]:
+    """Return the lines of the bill of an assembly with this mass, kg, as CSV: the header, then its rows.
+
+    SI units; the inertia of a member is about its own center of mass, along the world axes.
+    """
+    members = _tree(root, 0, 1.0, True)
+    return list(table(COLUMNS, (_bill_row(part, mass, level, counted) for level, part, _, counted in members)))
+
+
+def _bill_row(part: MemberBody, mass: float, level: int, counted: bool) -> dict[str, object]:
+    """Return the row of a member; level: number of assemblies around it."""
+    moments, measurement = part.mass, part.measurement
+    findings = part.findings if measurement is None else measurement.findings
+    row: dict[str, object] = {
+        "level": level,
+        "name": part.member.name,
+        "type": part.member.kind.value.lower(),
+        "counted": counted and moments is not None,
+        "method": "" if measurement is None else str(measurement.method),
+        "notes": [sentence(found) for found in of_severity(findings, Severity.NOTE)],
+        "warnings": [sentence(found) for found in of_severity(findings, Severity.WARNING, Severity.ERROR)],
+    }
+    reason = part.member.left_out or part.refusal
+    if reason is not None:
+        row["left_out"] = sentence(reason)
+    if moments is not None:
+        whole, volume = find_properties(moments, np.eye(3)), part.volume[0]
+        row |= {"mass": whole.mass, "volume": volume, "area": part.area[0]}
+        row |= {"share": moments.total / mass} if counted else {}
+        row |= {"density": moments.total / volume} if volume else {}
+        row |= {f"center_of_mass_{axis}": float(value) for axis, value in zip("xyz", whole.center)}
+        row |= {f"inertia_{name}": float(whole.inertia[i, j]) for name, i, j in TENSOR}
+        row |= {f"principal_moment_{k}": float(value) for k, value in enumerate(whole.principal.moments, start=1)}
+    return row

@@ -51,7 +51,11 @@ def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Findin
 def follow_density(obj: Object, scene: Scene) -> None:
     """Update stored results if the settings change them by a factor alone; else leave them out of date."""
     stamp = stamps.of_results(obj)
-    if stamp is None or stamp.version != VERSION or "body_density_from" in obj or not _can_store(obj):
+    if stamp is None or stamp.version != VERSION or "body_density_from" in obj:
+        return
+    try:
+        properties.require_storable(obj)
+    except EditRefusedError:
         return
     numbers = properties.stored(obj)
     if numbers is None:
@@ -87,14 +91,6 @@ def follow_density(obj: Object, scene: Scene) -> None:
     staleness.replace_stamp(obj, stamp.text)
     if "body_reference" in obj:
         stored.reference.follow(obj, scene, stored.reference.stored_choice(obj))
-
-
-def _can_store(obj: Object) -> bool:
-    try:
-        properties.require_storable(obj)
-    except EditRefusedError:
-        return False
-    return True
 
 
 def _findings(obj: Object, scene: Scene) -> list[Finding]:

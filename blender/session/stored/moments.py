@@ -30,13 +30,13 @@ from ....core.verdict.finding import Finding, MeasureError, ReadError
 from ...bodies.flat.flat import area_findings, clearer_refusal, flat_region
 from ...bodies.measure_object import THREADS, measure_object
 from ...read.fingerprint import matrix_hash, settings_hash
-from ...read.reference import ReferenceChoice
 from ...settings.options import MeasureOptions
 from ...write.units import number
 from ..findings import INVARIANTS_ORDER, MASS_MOMENTS_UNKNOWN, MOMENTS_OF_AREA_ONLY
 from ..tracking import staleness, stamps, updates
 from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp
+from .reference import ReferenceChoice
 
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
 HU_ORDER = 3  # order of Hu's invariants

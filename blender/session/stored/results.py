@@ -1,22 +1,37 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Storing of measurements on objects; also caches what the panel's sliders need."""
+"""Storing of results on objects: measurements, with what the panel's sliders need, bones, symmetries and sections."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import groupby
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from bpy.types import Context, Object, Scene
 
+from ....core.measurement.settings import fingerprint
+from ....core.numerics.float32 import shortest_decimal
+from ....core.verdict import internal_error
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import MeasuredStack, Stacked
+from ...read.fingerprint import matrix_hash, scale_hash, settings_hash
 from ...settings.density import is_density_unset
-from ...write import properties
-from ..tracking import staleness
+from ...write import properties, section
+from ..tracking import armatures, staleness, stamps
 from . import density, faults, reference, sliders
+
+if TYPE_CHECKING:
+    from ....core.shape.symmetries import Symmetry
+    from ....core.verdict.finding import Finding
+    from ...bodies.flat.flat import MeasuredSection
+    from ...bodies.flat.flat_shape import FlatShape
+    from ...bodies.rig import Rig
+    from ...bodies.shape.shape import Shape
+
+MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fine prism
 
 
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
@@ -71,7 +86,7 @@ def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterat
             findings[i] = density.with_default_note(findings[i], "density")
     refusals = properties.store_stack(
         objects,
-        part.in_object_frames(),
+        part.mass_properties.in_frame(part.rotation, part.location),
         part.density,
         part.volume.raw[:, 0],
         part.area.raw[:, 0],
@@ -87,3 +102,67 @@ def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterat
             if obj in about:
                 reference.follow(obj, scene, about[obj])
         yield obj, refusal
+
+
+def store_symmetry(
+    obj: Object, shape: Shape | FlatShape, confirmed: Symmetry, allowed: Symmetry, tolerance: float
+) -> None:
+    """Store the symmetry that the surface confirms, and the group that the moments allow, on an object."""
+    stored = obj.body_moments_symmetry
+    stored.group, stored.compatible, stored.tolerance = confirmed.group, allowed.group, tolerance
+    stored.of_display_mesh = shape.is_display_mesh
+    stored.fingerprint = stamps.Stamp.parse(shape.fingerprint)._replace(transform=scale_hash(obj)).text
+    stored.elements.clear()
+    turn = shape.rotation.T
+    for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:
+        local = turn @ direction  # of a line: its largest component is positive
+        element = stored.elements.add()
+        element.kind, element.order = kind, order
+        element.direction = local if local[np.argmax(np.abs(local))] > 0.0 else -local
+
+
+def _elements(found: Symmetry) -> list[tuple[str, int, np.ndarray]]:
+    axes = [("AXIS", order, axis) for axis, order in found.axes]
+    if len(found.revolution_axes) == 1:
+        axes = [("ROUND", 0, found.revolution_axes[0])]
+    return [*axes, *(("PLANE", 0, normal) for normal in found.planes)]
+
+
+def store_sections(context: Context, sections: Sequence[tuple[Object, MeasuredSection]]) -> None:
+    """Store sections on their objects."""
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    for obj, (found, description, findings) in sections:
+        parts = (found.plane.origin, found.plane.axes.ravel(), found.second, found.centroid)
+        numbers = np.concatenate([*parts, [found.area, found.perimeter]])
+        mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
+        section.store(obj, found, description, findings, mark, unit)
+    staleness.mark_stamps(context, [(obj, stamp) for obj, _ in sections if (stamp := stamps.of_section(obj))])
+
+
+def store_rig(rig: Rig) -> list[tuple[str, Finding]]:
+    """Store the results of all bones and the whole, or raise EditRefusedError; return bones without, and reasons."""
+    armature = rig.armature
+    properties.store(armature, rig.measurement)
+    parts = {part.name: part for part in rig.parts}
+    failures: list[tuple[str, Finding]] = []
+    for bone in armature.pose.bones:
+        part = parts.get(bone.name)
+        if part is None or part.measurement is None:
+            properties.clear(bone)
+            if part is not None and part.refusal is not None:
+                failures.append((bone.name, part.refusal))
+            continue
+        try:
+            properties.store(bone, part.measurement)
+        except Exception as error:
+            failures.append((bone.name, internal_error.finding_of(error)))
+    armatures.watch(armature, rig.objects)
+    staleness.mark_object(armature)
+    return failures
+
+
+def clear_rig(armature: Object) -> bool:
+    """Remove the results of all bones and of the whole, or raise EditRefusedError; return whether there were any."""
+    properties.require_storable(armature)
+    cleared = [properties.clear(owner) for owner in (armature, *armature.pose.bones)]
+    return any(cleared)

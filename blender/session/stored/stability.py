@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stability of objects: their convex hulls are remembered, so that the support polygon follows every move.
+"""Stability of objects on the ground: their support, their resting poses, and how they are laid on it.
 
-A hull is computed on request, and holds until the geometry changes; support and poses follow its place and center.
+A convex hull is computed on request, and holds until the geometry changes; support and poses follow its place and
+center.
 """
 
 from __future__ import annotations
@@ -11,19 +12,28 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
-from bpy.types import Depsgraph, Object, Scene
+from bpy.types import Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
+from ....core.inertia.plain_body import frame_about
 from ....core.mesh.hulls import ConvexHull
 from ....core.numerics.rotations import rotation_matrix
+from ....core.statics.findings import NO_STABLE_POSE
 from ....core.statics.resting import RestingPoses, resting_poses
 from ....core.statics.support import CONTACT_RTOL, Support, find_support
-from ....core.verdict.finding import Finding, MeasureError
-from ...bodies.mesh.hull import object_hull
+from ....core.verdict.finding import EditRefusedError, Finding, MeasureError
+from ....core.verdict.method import Verdict
+from ...bodies.measure_object import measure_body
+from ...bodies.mesh import MAX_CORNERS, object_hull
+from ...scene import reframe
+from ...scene.findings import OPEN_OBJECT
+from ...scene.transforms import world
+from ...write import properties, reports
 from ..displayed import drawn
 from ..tracking import handlers, staleness, stamps, updates
 from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp
+from . import results
 
 SAME_SHAPE_RTOL = 1e-5  # relative to scales and centers: a turned object's float32 matrices change as much
 
@@ -86,14 +96,11 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
             matrix = np.array(obj.matrix_world, np.float64)
             points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
             center = np.array(body.world.center) / body.unit
-            remembered.support = find_support(points, center, down(scene), _tolerance(points, remembered.hull, matrix))
+            # Relative to the extent, the height up to which points touch the ground; it exceeds the hull's gap.
+            gap = remembered.hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
+            tolerance = max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
+            remembered.support = find_support(points, center, down(scene), tolerance)
     return remembered.support
-
-
-def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
-    """Return the height, relative to the extent, up to which points touch the ground; it exceeds the hull's gap."""
-    gap = hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
-    return max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
 
 
 def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | None:
@@ -124,3 +131,75 @@ def frame(obj: Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return location, (3,), and rotation, (3, 3), of an object: the frame of `poses`."""
     location, rotation, _scale = obj.matrix_world.decompose()
     return np.array(location, np.float64), rotation_matrix(rotation)
+
+
+def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[str]:
+    """Compute and remember an object's convex hull, measuring it if needed; return texts about decisions."""
+    depsgraph = context.evaluated_depsgraph_get()
+    if properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
+        result = measure_body(obj, depsgraph)
+        if result.measurement.method.verdict == Verdict.OPEN:
+            raise EditRefusedError(OPEN_OBJECT)
+        results.store(obj, result, context.scene)
+        measured.append(obj)
+    hull = compute(obj, depsgraph)
+    extent = float(np.ptp(hull.points, axis=0).max())
+    if len(hull.points) >= MAX_CORNERS:
+        text = (
+            "“{object}” is finely divided: its convex hull is taken with {corners} corners, to {share:percent} of its "
+            "size"
+        )
+        return [reports.phrase(text, object=obj.name, corners=len(hull.points), share=hull.gap / extent)]
+    return []
+
+
+def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: list[str]) -> bool:
+    """Lay the object on the ground, on its likeliest pose `pose` or the nearest (0); return whether it had to move."""
+    reframe.check_movable(obj)
+    measured: list[Object] = []
+    notes += check_stability(context, obj, measured)
+    staleness.mark_up_to_date(context, measured)
+    resting, body = poses(obj, context.scene), drawn(obj, context.scene)
+    if resting is None:  # its stored numbers are damaged
+        raise EditRefusedError(NO_STABLE_POSE)
+    if isinstance(resting, Finding):
+        raise EditRefusedError(resting.code, **resting.values)
+    assert body is not None  # the poses belong to it
+    gravity = down(context.scene)
+    _, rotation = frame(obj)
+    normals = resting.normals @ rotation.T
+    place = (pose - 1) % len(normals) if pose else int((normals @ gravity).argmax())
+    turn = _shortest_turn(normals[place], gravity)
+    center, size = np.array(body.world.center) / body.unit, max(body.world.gyration) / body.unit
+    target = world(obj)
+    target[:3, :3] = turn @ target[:3, :3]
+    target[:3, 3] = center + turn @ (target[:3, 3] - center)
+    target[:3, 3] += (_ground(context, obj, ground, center, gravity) - resting.heights[place]) * gravity
+    off = np.abs(target - world(obj))
+    is_turned = off[:, :3].max() > 1e-6 * np.abs(target[:, :3]).max()
+    is_moved = is_turned or off[:, 3].max() > reframe.location_tolerance(obj, size)
+    if is_moved:
+        reframe.move(context, reframe.Plan(obj, target, size, move_only=False))
+    return bool(is_moved)
+
+
+def _ground(context: Context, obj: Object, ground: str, center: NDArray, gravity: NDArray) -> float:
+    """Return the distance from the center down to the ground, in Blender's units."""
+    if ground == "LOWEST":
+        found = support(obj, context.scene)
+        assert found is not None  # it is known as its poses are
+        return found.height
+    point = np.array(context.scene.cursor.location, np.float64) if ground == "CURSOR" else np.zeros(3)
+    return float((point - center) @ gravity)
+
+
+def _shortest_turn(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the (3, 3) rotation by the smallest angle from one (3,) unit vector to another."""
+    middle = start + end
+    length = np.linalg.norm(middle)
+    if length < 1e-8:
+        middle = np.array(frame_about(start.tolist())[0])
+        return 2.0 * np.outer(middle, middle) - np.eye(3)
+    middle /= length
+    # Two half turns: about `start`, then about the direction between the two.
+    return (2.0 * np.outer(middle, middle) - np.eye(3)) @ (2.0 * np.outer(start, start) - np.eye(3))

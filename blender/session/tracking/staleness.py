@@ -142,7 +142,10 @@ CHECKS = {
         (Stale.TRANSFORM, _has_transform),
     ),
     Kind.SECTION: ((Stale.UNIT_SCALE, _has_unit), (Stale.GEOMETRY, _has_geometry), (Stale.TRANSFORM, _has_matrix)),
-    Kind.SYMMETRY: ((Stale.GEOMETRY, _has_geometry), (Stale.SCALE, _has_scale)),
+    Kind.SYMMETRY: (
+        (Stale.GEOMETRY, _has_geometry),
+        (Stale.SCALE, _has_scale),
+    ),
     Kind.ASSEMBLY: ((Stale.MEMBERS, _has_structure), (Stale.MEMBER, _has_members), (Stale.TRANSFORM, _has_matrix)),
     Kind.BONES: ((Stale.GEOMETRY, _is_unedited), (Stale.BONES, _has_structure)),
     Kind.MOMENTS: ((Stale.SETTINGS, _has_settings), (Stale.GEOMETRY, _has_geometry), (Stale.TRANSFORM, _has_matrix)),
@@ -171,8 +174,7 @@ def mark_up_to_date(
 ) -> None:
     """Mark freshly stored results of objects as up to date, after evaluating what storing has tagged.
 
-    objects: objects of the context's view layer with results stored or removed.
-    shapes: the `surface_digest` of freshly read objects.
+    objects: with results stored or removed. shapes: the `surface_digest` of freshly read ones.
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
@@ -258,7 +260,7 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
         return
     carried = stamps.with_geometry(obj)
     if shape is None and any([text in _shapes for text in carried]) and (depsgraph := updates.depsgraph_of(last)):
-        shape = read.shapes.shape_digest(obj, depsgraph)
+        shape = read.mesh.shape_digest(obj, depsgraph)
     for text, kind in carried.items():
         if shape is not None and text in _shapes:
             set_edited(obj, text, shape != _shapes[text])
@@ -272,7 +274,7 @@ def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: byte
     varies = obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
         return
-    shape = shape or read.shapes.shape_digest(obj, depsgraph)
+    shape = shape or read.mesh.shape_digest(obj, depsgraph)
     if shape is not None:  # else the digest of an equal object with the same stamp still holds
         _shapes[stamp.text] = shape
 

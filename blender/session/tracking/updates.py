@@ -110,12 +110,8 @@ def note_updates(updates: handlers.Updates) -> None:
         of_settings = changed_settings.intersection(reshaped)
         _returns.update(dict.fromkeys(of_settings, stamp))
         reshaped = [uid for uid in reshaped if uid not in of_settings]
-    for stamps, uids in (
-        (_edits, reshaped),
-        (_edits, updates.collections),
-        (_moves, updates.moved),
-    ):
-        stamps.update(dict.fromkeys(uids, stamp))
+    _edits.update(dict.fromkeys([*reshaped, *updates.collections], stamp))
+    _moves.update(dict.fromkeys(updates.moved, stamp))
 
 
 def _edited_by_undo(updates: handlers.Updates) -> set[int]:

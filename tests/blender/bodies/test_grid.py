@@ -6,9 +6,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
-from body_moments.blender.read.grids import sample_grid, vdb
-from body_moments.blender.read.grids import volume as volume_module
-from body_moments.blender.read.grids.volume import volume_reading
+from body_moments.blender.read import vdb, volume
+from body_moments.blender.read.volume import volume_reading
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
@@ -43,7 +42,7 @@ def dense(reading) -> np.ndarray:
 
 
 def by_nodes(monkeypatch):
-    monkeypatch.setattr(volume_module, "openvdb", lambda: None)
+    monkeypatch.setattr(volume, "openvdb", lambda: None)
 
 
 def random_values(dtype, shape=(9, 20, 33), seed=0):
@@ -99,7 +98,7 @@ def test_sampling_by_nodes_gives_the_same_bits(tmp_path, monkeypatch, dtype, mat
             measure(obj)
         return
     with volume_reading(obj, depsgraph()) as reading:
-        assert isinstance(reading.blocks.__self__, sample_grid.SampledGrid)
+        assert isinstance(reading.blocks.__self__, volume.SampledGrid)
         second = dense(reading)
         assert reading.background == 0
         start = low - reading.low

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
-from body_moments.blender.bodies.shape.shape import surface_shape_of
-from body_moments.blender.bodies.shape.stack_signature import signed_in_turn
+from body_moments.blender.bodies.shape.shape import signed_in_turn, surface_shape_of
 from body_moments.core.shape.signatures import Signature, similarity
 from body_moments.core.verdict.finding import MeasureError
 

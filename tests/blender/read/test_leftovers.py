@@ -8,9 +8,9 @@ import pytest
 from body_moments.blender.bodies.flat.flat import flat_region
 from body_moments.blender.bodies.flat.flat_shape import flat_shape_of
 from body_moments.blender.bodies.measure_object import measure_object
-from body_moments.blender.bodies.mesh.hull import object_hull
+from body_moments.blender.bodies.mesh import object_hull
 from body_moments.blender.bodies.shape.shape import shape_of
-from body_moments.blender.read.grids import volume
+from body_moments.blender.read import volume
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.verdict.finding import MeasureError
 

@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.read.nurbs import splines
+from body_moments.blender.read import splines
 from body_moments.core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from body_moments.core.nurbs.patch import Patch
 

@@ -6,7 +6,7 @@ measured are their volumes."""
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.scene.surface_objects import import_bodies
+from body_moments.blender.scene.imports import import_bodies
 from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.blender_knots import display_parameters

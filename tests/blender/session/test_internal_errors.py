@@ -16,7 +16,7 @@ from body_moments.blender.bodies import measure_object as measure
 from body_moments.blender.bodies import request
 from body_moments.blender.bodies.stacks import many
 from body_moments.blender.scene import empties, reframe
-from body_moments.blender.session.stored import outcome, sections
+from body_moments.blender.session.stored import outcome
 from body_moments.blender.write import properties, section
 from body_moments.operators import batch
 from body_moments.operators.measure.measure_selected import OBJECT_OT_body_moments_measure
@@ -86,7 +86,7 @@ def test_the_error_of_one_object_ends_no_other(name, error, monkeypatch, reporte
     bodies = three(flat=name == "section")
     before = [state(body) for body in bodies]
     if name == "section":
-        plant(monkeypatch, error, "b", module=sections, function="section_of")
+        plant(monkeypatch, error, "b", module=body_moments.blender.bodies, function="section_of")
     else:
         plant(monkeypatch, error, "b")
     assert OPERATORS[name]() == {"FINISHED"}

@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.blender.session import displayed
-from body_moments.blender.session.stored.listing import SortBy, listed_masses, listing
+from body_moments.blender.session.displayed import SortBy, listed_masses, listing
 
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.objects import add, mesh_body, only, strip_mesh

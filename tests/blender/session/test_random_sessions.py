@@ -5,15 +5,15 @@
 import pytest
 
 pytest.importorskip("bpy")
-from body_moments.blender.read import shapes
+from body_moments.blender.read import mesh
 
 from tests.soak import sessions
 
 pytestmark = pytest.mark.usefixtures("scene")
 
 
-@pytest.mark.parametrize("max_faces", [shapes.MAX_DIGESTED_FACES, 0])
+@pytest.mark.parametrize("max_faces", [mesh.MAX_DIGESTED_FACES, 0])
 def test_random_sessions_lose_nothing_and_show_nothing_wrong(max_faces, monkeypatch):
-    monkeypatch.setattr(shapes, "MAX_DIGESTED_FACES", max_faces)
+    monkeypatch.setattr(mesh, "MAX_DIGESTED_FACES", max_faces)
     monkeypatch.setattr(sessions, "STEPS", 30)
     sessions.run(12.0, 1)

@@ -351,7 +351,7 @@ def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
     obj[key] = value
     update()
     shown()
-    text = text_report.report_text(bpy.context, [obj, good])
+    text = text_report.text(text_report.stored_document(bpy.context, [obj, good]))
     assert (str(finding("no_stored_results")) in text) == (key in ("body_mass", "body_volume", "body_inertia"))
 
 

@@ -184,7 +184,7 @@ def test_wall_slider_keeps_unkeyed_values():
 
 @pytest.mark.parametrize("frame, subframe", [(7, 0.25), (-3, 0.0)])
 def test_voxel_sampling_keeps_unkeyed_values_and_frame(monkeypatch, frame, subframe):
-    monkeypatch.setattr("body_moments.blender.read.grids.volume.openvdb", lambda: None)
+    monkeypatch.setattr("body_moments.blender.read.volume.openvdb", lambda: None)
     bpy.context.scene.frame_set(frame, subframe=subframe)
     cube = linked(bpy.data.objects.new("Cube", mesh_body()))
     cube.modifiers.new("Solidify", "SOLIDIFY").thickness = 0.01

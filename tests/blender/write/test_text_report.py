@@ -23,7 +23,7 @@ def stored(*objects):
     depsgraph = bpy.context.evaluated_depsgraph_get()
     for obj in objects:
         store(obj, measure_object(obj, depsgraph))
-    return text_report.report_text(bpy.context, list(bpy.context.scene.objects))
+    return text_report.text(text_report.stored_document(bpy.context, list(bpy.context.scene.objects)))
 
 
 def line(text, label, number=0):
@@ -76,7 +76,7 @@ def test_objects_without_or_with_damaged_results_are_named():
     objects["B"]["body_inertia"] = "gone"
     objects["C"]["body_center_of_mass"] = [1.0, 2.0]
     objects["D"]["body_mass"] = "heavy"
-    text = text_report.report_text(bpy.context, list(objects.values()))
+    text = text_report.text(text_report.stored_document(bpy.context, list(objects.values())))
     for name in "BCDE":
         assert f"  {name}: {sentence('no_stored_results')}" in text
     assert "\nA\n" in text and "Total" not in text

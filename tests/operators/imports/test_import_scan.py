@@ -6,8 +6,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
-from body_moments.blender.read.grids import vdb
-from body_moments.blender.read.grids.volume import volume_reading
+from body_moments.blender.read import vdb
+from body_moments.blender.read.volume import volume_reading
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.bodies.array_file import ArrayOptions, measure_array
 from body_moments.core.density import grid_moments

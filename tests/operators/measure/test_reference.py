@@ -6,9 +6,9 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.read.reference import ReferenceChoice
 from body_moments.blender.session.stored import moments as moments_table
 from body_moments.blender.session.stored import reference
+from body_moments.blender.session.stored.reference import ReferenceChoice
 from body_moments.blender.session.tracking.staleness import stale_reason
 from body_moments.core.inertia.plain_body import tensor_rows
 from body_moments.core.verdict.finding import Finding

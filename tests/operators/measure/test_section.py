@@ -59,10 +59,10 @@ def text_of(body):
 
 
 def section_of(obj):
-    from body_moments.blender.session.stored import sections
+    from body_moments.blender import bodies
 
     bpy.context.view_layer.update()
-    return sections.section_of(obj, bpy.context.evaluated_depsgraph_get())
+    return bodies.section_of(obj, bpy.context.evaluated_depsgraph_get())
 
 
 def refused(obj, code, **values):

@@ -1,0 +1,270 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The mass moments of a body whose density is a function of the place: a polynomial, or a Volume object's grid.
+
+No polynomial may be negative in the body. A solid and the Volume object that fills it keep their places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.bodies.findings import (
+    DENSITY_FROM_GRID,
+    GRID_DENSITY,
+    GRID_EMPTY,
+    GRID_IS_LEVEL_SET,
+    GRID_TOO_LARGE,
+    MASS_OVERFLOW,
+)
+from ....core.bodies.instances import group_by_similarity
+from ....core.bodies.mesh_body import MAX_MASS_MOMENT, MeshBody
+from ....core.bodies.reading import Reading, attribute_to_source, to_si
+from ....core.density.grid_options import GridOptions
+from ....core.density.grid_values import density_function, empty_background_note
+from ....core.density.polynomial_mass import find_negative_point, local_coordinates, polynomial_mass_of_images
+from ....core.density.voxel_fill import MAX_VOXELS, inside_moments
+from ....core.measurement.settings import Settings
+from ....core.mesh.surface import Surface
+from ....core.moments.affine_maps import translation_matrices
+from ....core.moments.moments import Measure, Moments
+from ....core.numerics.rotations import polar_rotation
+from ....core.polyhedron import polyhedron_moments
+from ....core.solid.measure import SolidIntegrals
+from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ....core.verdict.method import Method, Source, Verdict
+from ....core.verdict.tolerances import NEGLIGIBLE
+from ...read.findings import OBJECT_UNREADABLE, VOLUME_WITHOUT_GRIDS
+from ...read.tracking import tracking_paused
+from ...read.volume import VolumeReading, volume_reading
+from ...settings.density import DensityField
+from ..findings import (
+    DENSITY_GRID_ELSEWHERE,
+    DENSITY_NEGATIVE,
+    DENSITY_POSSIBLY_NEGATIVE,
+    OPEN_SURFACE_OF_GRID,
+    OUTSIDE_GRID,
+    SHEARED_DENSITY_AXES,
+    UNION_LACKS,
+)
+from ..request import Request
+
+MAX_CHECKED_INSTANCES = 50  # different places of a surface in which the sign of the density is checked
+MAX_OUTSIDE_SHARE = 1e-9  # of the volume: a smaller share outside the grid is rounding
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """A surface with (k, 4, 4) `matrices` to the world, and `fields` to the coordinates of the density, in meters.
+
+    about: the point that an open surface is closed to.
+    """
+
+    surface: Surface
+    matrices: NDArray[np.float64]
+    fields: NDArray[np.float64]
+    about: NDArray[np.float64] | None = None
+
+
+def polynomial_mass_result(
+    reading: Reading, body: MeshBody, density: DensityField, settings: Settings, order: int
+) -> tuple[list[Moments], list[Finding]]:
+    """Return the mass moments of all parts to an order (of a shell per meter of thickness), and the findings."""
+    polynomial, findings, unit, shell = density.polynomial, [], settings.unit, settings.kind == "shell"
+    assert polynomial is not None
+    pieces = list(
+        _sheet_pieces(reading, density.in_world, unit)
+        if shell
+        else _solid_pieces(reading, body, density.in_world, unit)
+    )
+    if not density.in_world and any(polar_rotation(part.matrices)[1].any() for part in reading.parts):
+        findings.append(finding(SHEARED_DENSITY_AXES))
+    findings += _negative_density_note(density, pieces, shell)
+    parts = []
+    order += polynomial.degree
+    for piece in pieces:
+        volume, area = polyhedron_moments(
+            piece.surface,
+            order,
+            area_order=order if shell else None,
+            about=piece.about,
+            exact=True,
+            threads=settings.threads,
+            allow_open=True,
+        )
+        moments = volume if area is None else area
+        parts.append(polynomial_mass_of_images(moments, polynomial, piece.matrices, piece.fields))
+    return parts, findings
+
+
+def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float) -> Iterator[_Piece]:
+    """Yield the repaired surfaces around the body."""
+    if body.method.verdict == Verdict.UNION:
+        if reading.instance_count > 1 and not in_world:
+            raise ReadError(UNION_LACKS, data="object coordinates")
+        solid, matrices = body.solids[0]
+        place = to_si(reading.parts[0].matrices, unit)
+        yield _Piece(
+            solid.repaired_surface, matrices, matrices if in_world else _to_local(place) @ matrices, solid.volume.about
+        )
+        return
+    for solid, matrices in body.solids:
+        yield _Piece(
+            solid.repaired_surface, matrices, matrices if in_world else local_coordinates(matrices), solid.volume.about
+        )
+
+
+def _to_local(matrices: NDArray) -> NDArray[np.float64]:
+    """Return (k, 4, 4) maps from world coordinates, in meters, to coordinates along the axes of each place."""
+    axes = polar_rotation(matrices)[0].transpose(0, 2, 1)
+    to_own = translation_matrices(-(axes @ matrices[:, :3, 3, None])[..., 0])
+    to_own[:, :3, :3] = axes
+    return to_own
+
+
+def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
+    """Yield the surfaces before repair; unevenly stretched images become surfaces of their own."""
+    for part in reading.parts:
+        matrices = to_si(part.matrices, unit)
+        fields, axes = local_coordinates(matrices), polar_rotation(matrices)[0]
+        for surface, image_matrices, which in group_by_similarity(part.surface, matrices):
+            to_local = fields[which]
+            if surface is not part.surface:  # mapped already: only the turn is left
+                to_local = translation_matrices(np.zeros((len(which), 3)))
+                to_local[:, :3, :3] = axes[which].transpose(0, 2, 1)
+            yield _Piece(surface, image_matrices, image_matrices if in_world else to_local)
+
+
+def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: bool) -> list[Finding]:
+    """Return a finding if the density may be negative in the body; raise ReadError if it is negative."""
+    polynomial = density.polynomial
+    assert polynomial is not None
+    corners = np.array(list(product((0.0, 1.0), repeat=3)))
+    boxes = []
+    for piece in pieces:
+        low, high = piece.surface.box
+        box = low + corners * (high - low)
+        boxes.append(np.einsum("kij,nj->kni", piece.fields[:, :3, :3], box) + piece.fields[:, None, :3, 3])
+    boxes = np.concatenate(boxes)
+    if polynomial.lower_bound(boxes.min(axis=(0, 1)), boxes.max(axis=(0, 1))) >= 0.0:
+        return []
+    is_doubtful = False
+    for piece in pieces:
+        triangles = piece.surface.all_triangles()[0]
+        points = piece.surface.points.astype(np.float64)
+        fields = piece.fields[np.unique(np.float32(piece.fields), axis=0, return_index=True)[1]]
+        is_doubtful |= len(fields) > MAX_CHECKED_INSTANCES
+        for field in fields[:MAX_CHECKED_INSTANCES]:
+            worst, is_undecided = find_negative_point(
+                polynomial, points @ field[:3, :3].T + field[:3, 3], triangles, not shell
+            )
+            if worst is not None:
+                value, place = worst
+                point = [float(x) for x in place]
+                raise ReadError(DENSITY_NEGATIVE, density=float(value), point=point, frame=density.frame)
+            is_doubtful |= is_undecided
+    return [finding(DENSITY_POSSIBLY_NEGATIVE)] if is_doubtful else []
+
+
+def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
+    """Return the solid with the density of the Volume object that its settings name, or raise MeasureError."""
+    name, source = request.obj.name, request.obj.body_moments.density_volume
+    grid = GridOptions.from_settings(source.body_moments)
+    try:
+        with tracking_paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
+            if volume is None:
+                raise ReadError(VOLUME_WITHOUT_GRIDS)
+            filled = voxel_filled_body(body, volume, grid, request.settings.unit, name, order)
+            origin = finding(DENSITY_FROM_GRID, grid=volume.grid).of_sources([source.name])
+            return replace(filled, density_from=origin)
+    except MeasureError as error:
+        if error.subject == name:  # the error is about the solid already
+            raise
+        raise ReadError(OBJECT_UNREADABLE, subject=name, object=source.name, cause=error.finding.as_record()) from error
+
+
+def voxel_filled_body(
+    body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int
+) -> MeshBody:
+    """Return the body of the object `name` with mass moments to an order, from the grid's densities inside it."""
+    names = {"grid": reading.grid, "object": reading.name}
+    options.needs_even_samples(reading.grid)
+    if body.method.verdict == Verdict.OPEN:
+        raise ReadError(OPEN_SURFACE_OF_GRID, subject=name)
+    if reading.level_set:
+        raise ReadError(GRID_IS_LEVEL_SET, subject=name, **names)
+    shift = np.eye(4)
+    shift[:3, 3] = reading.low - 0.5  # from corners of voxels, not from their centers
+    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ shift
+    if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
+        raise ReadError(GRID_EMPTY, subject=name, **names)
+    inverse = np.linalg.inv(matrix)
+    triangles = np.concatenate(
+        [_corners(solid, inverse @ place) for solid, matrices in body.solids for place in matrices]
+    )
+    low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(np.int64)
+    high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
+    if np.prod((high - low).astype(float)) > MAX_VOXELS:
+        raise ReadError(GRID_TOO_LARGE, subject=name, **names, samples=(high - low).tolist())
+    moments, volume = inside_moments(triangles - low, _box_densities(reading, options, low, high), order)
+    volume *= abs(np.linalg.det(matrix[:3, :3]))
+    shift[:3, 3] = low
+    mass = replace(replace(moments, measure=Measure.VOLUME).transform(matrix @ shift), measure=Measure.MASS)
+    mass = replace(mass, input_error=_input_error(body, mass))
+    if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
+        raise ReadError(MASS_OVERFLOW)
+    if not mass.total > mass.rounding_error[0]:
+        raise ReadError(DENSITY_GRID_ELSEWHERE, subject=name, **names)
+    meaning = options._replace(spline_order=1).meaning()
+    findings = [
+        finding(GRID_DENSITY, samples=list(reading.shape), cause=meaning.as_record()).of_sources([reading.name]),
+        *empty_background_note(options, reading.background),
+    ]
+    outside = float(1.0 - volume / body.volume.total)
+    if outside > MAX_OUTSIDE_SHARE:
+        findings.append(finding(OUTSIDE_GRID, slight=outside < NEGLIGIBLE, share=outside))
+    return replace(
+        body,
+        mass=mass,
+        method=Method(body.method.verdict, Source.GRID),
+        estimated=True,
+        findings=(
+            *body.findings,
+            *findings,
+            *(attribute_to_source(result, reading.name, name) for result in reading.findings),
+        ),
+    )
+
+
+def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
+    """Return (n, 3, 3) triangles of the measured surface, in the grid's coordinates, outward."""
+    surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
+    return surface.points[surface.all_triangles()[0]].astype(np.float64, copy=False)
+
+
+def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
+    """Return the densities, kg/m³, of the voxels from index `low` up to, but without, `high`."""
+    to_densities = density_function(options, reading.background)
+    densities = np.zeros(high - low)
+    for start, block in reading.blocks():
+        start = np.array(start)
+        begin, end = np.maximum(start, low), np.minimum(start + block.shape, high)
+        if (begin < end).all():
+            in_block = tuple(slice(a, b) for a, b in zip(begin - start, end - start))
+            densities[tuple(slice(a, b) for a, b in zip(begin - low, end - low))] = to_densities(
+                block[in_block].astype(np.float64)
+            )
+    return densities
+
+
+def _input_error(body: MeshBody, mass: Moments) -> NDArray[np.float64]:
+    """Return the solid's input error, scaled by the ratio of largest moments or of totals, whichever is larger."""
+    solid = body.volume if mass.order <= body.volume.order else body.moments(mass.order, False)[0]
+    solid = solid.about_point(mass.about).truncate(mass.order)
+    scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)
+    return solid.input_error * max(scale, mass.total / solid.total)

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bodies of voxel grids: densities, or the solid that a level set bounds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.bodies.density_grid import Samples, density_body
+from ...core.bodies.findings import (
+    DENSITY_FROM_GRID,
+    GRID_AS_SHELL,
+    GRID_DENSITY,
+    GRID_EMPTY,
+    GRID_IS_LEVEL_SET,
+    GRID_TOO_LARGE,
+    SAMPLES_POSITIONED,
+)
+from ...core.bodies.mesh_body import MeshBody
+from ...core.bodies.reading import Part, to_si
+from ...core.bodies.threshold import MAX_SAMPLES, ThresholdGrid, threshold_grid_body
+from ...core.density.grid_options import GridOptions
+from ...core.density.grid_values import sample_positions
+from ...core.density.spline_grid import Blocks
+from ...core.measurement.body import Body
+from ...core.measurement.settings import Settings
+from ...core.moments.exponents import KNOWN_ORDER
+from ...core.scans.positions import AXES, Positions
+from ...core.verdict.finding import ReadError, finding
+from ...core.verdict.method import Method, Source
+from ..read.tracking import tracking_paused
+from ..read.volume import VolumeReading, volume_reading
+from ..settings.density import density_key, grid_key
+from .findings import GRID_IS_NOT_LEVEL_SET, LEVEL_SET_MEASURED
+from .mesh import mesh_body
+from .request import Request
+
+MEASURED_AS = frozenset({"solid", "shell", "wire"})  # shells and wires are refused
+
+
+def read(request: Request) -> VolumeReading | None:
+    """Return the grid that an object shows; None if it shows polygons, or no volume."""
+    obj = request.obj
+    if obj.type != "VOLUME" and "NODES" not in [modifier.type for modifier in obj.modifiers]:
+        return None
+    with ExitStack() as opened:
+        opened.enter_context(tracking_paused())
+        reading = opened.enter_context(volume_reading(obj, request.depsgraph, obj.body_moments.grid))
+        if reading is None:
+            return None
+        if request.settings.kind != "solid":
+            raise ReadError(GRID_AS_SHELL)
+        request.opened.push(opened.pop_all())
+    return reading
+
+
+def body(reading: VolumeReading, request: Request) -> Body:
+    """Return the body of one grid, or raise MeasureError if there is none."""
+    obj, density = request.obj, request.given.density
+    made = _grid_body(reading, GridOptions.from_settings(obj.body_moments, density), request.settings)
+    key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, (), request.scene)
+    source = None if made.mass is None else finding(DENSITY_FROM_GRID, grid=reading.grid)
+    return replace(made, density_from=source, density_key=key)
+
+
+def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings) -> Body:
+    """Return the body of one grid, with its mass moments to an order. Raises MeasureError if the grid has no body."""
+    unit, order = settings.unit, KNOWN_ORDER if settings.order is None else settings.order
+    if options.threshold is not None:
+        options.needs_even_samples(reading.grid)
+        return threshold_grid_body(threshold_grid(reading, unit), options, order=order)
+    if options.solid:
+        return _solid(reading, unit, settings.threads)
+    if reading.level_set:
+        raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
+    positions = sample_positions(options, reading.grid, reading.low, reading.shape)
+    first = np.eye(4)
+    first[:3, 3] = [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
+    shape = [count if row is None else len(row) for count, row in zip(reading.shape, positions)]
+    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
+    density = finding(GRID_DENSITY, samples=list(reading.shape), cause=options.meaning().as_record())
+    axes = [axis for axis, row in zip(AXES, positions) if row is not None]
+    findings = (density, finding(SAMPLES_POSITIONED, axes=axes)) if axes else (density,)
+    samples = Samples(_whole_axes(reading, positions), shape, matrix, options, reading.background, positions=positions)
+    return density_body(samples, findings, order=order)
+
+
+def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
+    """Return the blocks of a grid, from the start of an axis if it has positions (outer samples need neighbors)."""
+    offset = [0 if row is None else int(low) for low, row in zip(reading.low, positions)]
+
+    def blocks() -> Iterator[tuple[tuple[int, int, int], NDArray]]:
+        for (i, j, k), block in reading.blocks():
+            yield (i + offset[0], j + offset[1], k + offset[2]), block
+
+    return blocks if any(offset) else reading.blocks
+
+
+def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
+    """Return the body inside a level set, by its polygons."""
+    if reading.level_set is False:
+        raise ReadError(GRID_IS_NOT_LEVEL_SET, grid=reading.grid)
+    surface = reading.polygons()
+    if not len(surface.quads):
+        raise ReadError(GRID_EMPTY, grid=reading.grid)
+    shown = replace(reading, parts=[Part(surface, reading.matrix[None])], findings=[])
+    bounded = mesh_body(shown, unit, shell=False, union=False, threads=threads)
+    measured = finding(LEVEL_SET_MEASURED, grid=reading.grid, polygons=len(surface.quads))
+    method = Method(bounded.method.verdict, Source.GRID)
+    return replace(bounded, method=method, findings=(measured, *bounded.findings))
+
+
+def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
+    """Return the values of a grid as one array, or raise ReadError if it is a level set or too large."""
+    if reading.level_set:
+        raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
+    if np.prod(reading.shape, dtype=np.float64) > MAX_SAMPLES:
+        raise ReadError(GRID_TOO_LARGE, grid=reading.grid, samples=list(reading.shape))
+    values = np.full(reading.shape, reading.background, np.float32)
+    for (i, j, k), block in reading.blocks():
+        if block.dtype.itemsize > 4:
+            values = values.astype(np.float64, copy=False)
+        values[i : i + block.shape[0], j : j + block.shape[1], k : k + block.shape[2]] = block
+    first = np.eye(4)
+    first[:3, 3] = reading.low
+    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
+    return ThresholdGrid(reading.grid, values, matrix, float(reading.background))

@@ -1,0 +1,168 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The body bounded by polygons, with all its instances: each surface is measured once and mapped to its places.
+
+Overlapping shells are united by Blender's own exact Boolean. The convex hull has the possible contacts with the ground.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+from bpy.types import Depsgraph, Object
+from numpy.typing import NDArray
+
+from ...core.bodies.instances import singular_instances_message
+from ...core.bodies.mesh_body import MeshBody, triangle_count
+from ...core.bodies.polygons import drawn_names, of_drawn, sum_of_instances
+from ...core.bodies.reading import Reading
+from ...core.bodies.wall import find_walls
+from ...core.measurement.body import Body
+from ...core.mesh.hulls import ConvexHull, convex_hull
+from ...core.mesh.surface import Surface, join_surfaces
+from ...core.solid.findings import HOLES_CAPPED, INVERTED_COMPONENTS
+from ...core.solid.measure import measure_solid
+from ...core.verdict.finding import EditRefusedError, ReadError, finding
+from ...core.verdict.findings import FLIPPED_FACES
+from ...core.verdict.method import Method, Verdict
+from ..read.findings import SCALE_ZERO_AXIS
+from ..read.mesh import mesh_surface
+from ..read.objects import read_object
+from ..read.visibility import shows_flat_region
+from .density.varying_density import weigh
+from .findings import DISPLAY_MESH_NEEDED, OPEN_COMPONENTS_UNITED, UNION_BY_BOOLEAN, UNION_FAILED, ZERO_SCALE
+from .request import Request
+
+MEASURED_AS = frozenset({"solid", "shell"})
+
+REPAIRS = {HOLES_CAPPED, FLIPPED_FACES, INVERTED_COMPONENTS}  # reported of bodies before they are united
+HULL_RTOL = 1e-6  # relative to the extent: points that are outside by less are left out
+NOISE = 4.0  # half ulps of float32 coordinates by which flat faces may be uneven
+MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
+
+
+def read(request: Request) -> Reading | None:
+    """Return the polygons that an object shows, or None if it has NURBS patches of one density (see `nurbs.py`)."""
+    reading, density, obj = request.surfaces, request.density, request.obj
+    if reading.has_patches:
+        if density is None:
+            return None
+        reading.findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a varying density"))
+    elif density is not None and request.settings.kind == "shell" and obj.type == "CURVE" and shows_flat_region(obj):
+        reading.findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a varying density"))
+    return reading
+
+
+def body(reading: Reading, request: Request) -> Body:
+    """Return the body that polygons bound, weighed and with walls as set, or raise MeasureError."""
+    settings = request.settings
+    shell = settings.kind == "shell"
+    made = mesh_body(reading, settings.unit, shell=shell, union=settings.overlap == "union", threads=settings.threads)
+    if request.density is not None:
+        made = weigh(reading, made, request)
+    if shell and settings.wall != "thin":
+        return find_walls(reading, made, settings.wall).body(settings.thickness)
+    return made
+
+
+def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
+    """Return the body bounded by an object's surfaces, united first if `union`, or with `shell` their sheets."""
+    if shell:
+        return sum_of_instances(reading, unit, True, threads)
+    flat = reading.singular_instance_count
+    if flat == reading.instance_count:
+        raise ReadError(ZERO_SCALE)
+    made = _boolean_union(reading, unit, threads) if union else sum_of_instances(reading, unit, False, threads)
+    return replace(made, findings=(singular_instances_message(reading), *made.findings)) if flat else made
+
+
+def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
+    """Return the body of all parts in their places; parts with a volume are united by Blender's exact Boolean."""
+    before = sum_of_instances(reading, unit, False, threads)
+    if not before.volume.total > 0.0:
+        return before
+    repaired = [
+        solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
+        for solid, matrices in before.solids
+        for matrix in matrices
+    ]
+    surface = union_surface(join_surfaces(repaired))
+    solid = measure_solid(surface, threads=threads) if triangle_count(surface) else None
+    if solid is None or solid.method == Verdict.OPEN:
+        raise ReadError(UNION_FAILED)
+    findings = [finding(UNION_BY_BOOLEAN)]
+    verdict = before.method.verdict
+    if verdict == Verdict.OPEN:
+        findings.append(finding(OPEN_COMPONENTS_UNITED))
+    findings += [result for result in before.findings if result.code in REPAIRS]
+    findings += of_drawn(solid.findings, reading.parts, drawn_names(reading))
+    return replace(
+        before,
+        volume=solid.volume,
+        area=solid.area,
+        method=Method(Verdict.UNION),
+        findings=tuple(findings),
+        face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
+        solids=((solid, np.eye(4)[None]),),
+        _known={},
+    )
+
+
+def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
+    """Return the convex hull of an object with its instances, in its own coordinates, or raise MeasureError."""
+    reading = read_object(obj, depsgraph, edges=False)
+    if reading.is_singular:
+        raise EditRefusedError(SCALE_ZERO_AXIS)
+    to_local = np.linalg.inv(reading.matrix)
+    points, noise = [], 0.0
+    for part in reading.parts:
+        corners = _used_points(part.surface)
+        if len(part.matrices) > 1:
+            corners = convex_hull(corners, HULL_RTOL, MAX_CORNERS).points
+        for matrix in to_local @ part.matrices:
+            points.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
+            noise = max(noise, float((np.abs(matrix[:3, :3]) @ part.surface.coordinate_error).max()))
+    joined = np.concatenate(points)
+    extent = float(np.ptp(joined, axis=0).max())
+    return convex_hull(joined, max(HULL_RTOL, NOISE * noise / (extent or np.inf)), MAX_CORNERS)
+
+
+def _used_points(surface: Surface) -> NDArray[np.float64]:
+    """Return the points that are corners of faces."""
+    users = np.bincount(surface.all_triangles()[0].ravel(), minlength=len(surface.points))
+    return surface.points[users > 0].astype(np.float64)
+
+
+def union_surface(surface: Surface) -> Surface:
+    """Return the surface around the union of all shells, in float32; measured about their middle at unit size."""
+    points, faces = surface.points.astype(np.float64), surface.all_triangles()[0]
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    scale = 2.0 ** np.ceil(np.log2(np.abs(points - middle).max()))  # a power of two rounds nothing
+
+    made = []
+    try:
+        mesh = bpy.data.meshes.new("")
+        made.append(mesh)
+        mesh.from_pydata((points - middle) / scale, [], faces)
+        body = bpy.data.objects.new(mesh.name, mesh)
+        made.append(body)
+        nothing = bpy.data.collections.new("")  # with no operand the solver still unites the object with itself
+        made.append(nothing)
+        scene = bpy.data.scenes.new("")
+        made.append(scene)
+        scene.collection.objects.link(body)
+        boolean = body.modifiers.new("", "BOOLEAN")
+        boolean.operation, boolean.solver, boolean.use_self = "UNION", "EXACT", True
+        boolean.operand_type, boolean.collection = "COLLECTION", nothing
+        scene.view_layers[0].update()
+        depsgraph = scene.view_layers[0].depsgraph
+        evaluated = body.evaluated_get(depsgraph)
+        united = mesh_surface(evaluated.to_mesh())
+        evaluated.to_mesh_clear()
+    finally:
+        bpy.data.batch_remove(made)
+    # Blender rounds the points to float32 before its boolean and after it, and the points themselves were rounded once.
+    united = united.transform(scale * np.eye(3), middle)
+    return replace(united, displacement=2.0 * united.coordinate_error + surface.coordinate_error)

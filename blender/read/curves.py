@@ -1,0 +1,229 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The splines of a curve object as B-spline curves: Bézier, NURBS, Catmull-Rom and straight splines.
+
+Blender gives evaluated curves without a surface; of beveled curves it gives the mesh, so that the splines are read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.numerics.bspline import SplineSpace
+from ...core.nurbs.blender_knots import blender_space
+from ...core.nurbs.curve import Curve
+from ...core.nurbs.findings import NON_FINITE_CONTROL_POINTS
+from ...core.verdict.finding import Finding, ReadError, finding
+from .findings import CURVE_MEASURED_WHOLE, NO_CURVE, SPLINES_LEFT_OUT, UNKNOWN_KNOTS
+from .splines import deform, is_deformed, spline_modifiers, weighted_points
+from .visibility import evaluated_geometry
+
+STRAIGHT_RTOL = 1e-6  # relative to a spline's length: float32 may bend a straight line by as much
+TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # curve types by their number in a geometry set
+CUSTOM_KNOTS_MODE = 4  # the mode of custom knots, which no flags describe
+# steps per point, then tolerances: relative to the length, and for each step to the largest coordinate
+STEPS_PER_POINT, SAME_LENGTH_RTOL, AGREEMENT_RTOL = 8, 1e-4, 1e-7
+
+
+def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
+    """Return the curves of an evaluated curve object in its own coordinates, and the findings, or raise ReadError."""
+    obj = obj.original
+    geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its curves
+    shown = geometry.curves
+    evaluated = obj.evaluated_get(depsgraph)
+    findings = []
+    if shown is not None:
+        curves = list(_shown_curves(shown, obj.name))
+    else:
+        curves = list(_spline_curves(evaluated, depsgraph))
+        if spline_modifiers(obj)[1]:
+            findings.append(finding(CURVE_MEASURED_WHOLE, ignored="the modifiers that work on its mesh"))
+        if (obj.data.bevel_factor_start, obj.data.bevel_factor_end) != (0.0, 1.0):
+            findings.append(finding(CURVE_MEASURED_WHOLE, ignored="the start and end of its bevel"))
+    usable = [curve for curve in curves if curve is not None]
+    if len(usable) < len(curves):
+        findings.append(finding(SPLINES_LEFT_OUT, count=len(curves) - len(usable), total=len(curves)))
+    if not usable:
+        raise ReadError(NO_CURVE, subject=obj.name)
+    return usable, findings
+
+
+def text_curves(obj, depsgraph) -> list[Curve]:
+    """Return the outlines of a text object as curves of its font, in its own coordinates, or raise ReadError."""
+    try:
+        curves = [_curve(*_kind(spline), _control_points(spline), None) for spline in obj.to_curve(depsgraph).splines]
+    finally:
+        obj.to_curve_clear()
+    known = [curve for curve in curves if curve is not None]
+    if not known or len(known) < len(curves):
+        raise ReadError(NO_CURVE, subject=obj.name)
+    return known
+
+
+def is_round(obj) -> bool:
+    """Return whether the polygons of a curve or text object stand for a curved shape."""
+    curve = obj.data
+    if obj.type == "FONT" or (curve.bevel_mode != "OBJECT" and curve.bevel_depth and curve.bevel_resolution):
+        return True
+    shapes = [curve.bevel_object if curve.bevel_mode == "OBJECT" else None, curve.taper_object]
+    return not all(
+        _is_straight(spline) for data in (curve, *(other.data for other in shapes if other)) for spline in data.splines
+    )
+
+
+def _is_straight(spline) -> bool:
+    """Return whether a spline is straight between its points."""
+    if spline.type == "POLY" or (spline.type == "NURBS" and spline.order_u == 2):
+        return True
+    pieces = _control_points(spline)[None]
+    if spline.type == "BEZIER":
+        knots = pieces.reshape(-1, 3, 3)
+        after = np.roll(knots, -1, axis=0)
+        pieces = np.concatenate([knots[:, 1:], after[:, :2]], axis=1)[: None if spline.use_cyclic_u else -1]
+    arms = pieces - pieces[:, :1]
+    lengths = np.linalg.norm(arms, axis=2)
+    if not lengths.any():
+        return True
+    longest = np.take_along_axis(arms, lengths.argmax(axis=1)[:, None, None], axis=1)
+    beside = np.linalg.norm(np.cross(arms, longest), axis=2)
+    return bool((beside <= STRAIGHT_RTOL * lengths.max(axis=1, keepdims=True) ** 2).all())
+
+
+def _kind(spline) -> tuple[str, bool, int, bool, bool]:
+    return spline.type, spline.use_cyclic_u, spline.order_u, spline.use_bezier_u, spline.use_endpoint_u
+
+
+def _control_points(spline) -> NDArray[np.float64]:
+    """Return (n, 3) points in Blender's order; a Bézier point counts as left handle, point and right handle."""
+    if spline.type != "BEZIER":
+        return weighted_points(spline)[:, :3].astype(np.float64)
+    coordinates = np.empty((3, 3 * len(spline.bezier_points)), np.float32)
+    for row, name in zip(coordinates, ("handle_left", "co", "handle_right")):
+        spline.bezier_points.foreach_get(name, row)
+    return coordinates.reshape(3, -1, 3).swapaxes(0, 1).reshape(-1, 3).astype(np.float64)
+
+
+def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
+    """Yield the splines as curves, moved by shape keys and hooks; None for each spline that is too short."""
+    name, splines = evaluated.original.name, list(evaluated.data.splines)
+    if not splines:
+        return
+    control_points = [_control_points(spline) for spline in splines]
+    points = np.concatenate(control_points)
+    if is_deformed(evaluated):
+        points = deform(evaluated, points, depsgraph)
+    _require_finite(points, name)
+    start = 0
+    for spline, row in zip(splines, control_points):
+        weights = weighted_points(spline)[:, 3].astype(np.float64)  # Bézier splines have none and need none
+        if spline.type == "NURBS" and not _has_known_knots(spline, _curve(*_kind(spline), row, weights)):
+            raise ReadError(UNKNOWN_KNOTS, subject=name)
+        yield _curve(*_kind(spline), points[start : start + len(row)], weights)
+        start += len(row)
+
+
+def _has_known_knots(spline, curve: Curve | None) -> bool:
+    """Return whether a spline's knots follow from its settings: then Blender finds the same length."""
+    if curve is None:
+        return True
+    low, high = curve.space.domain
+    steps = (
+        STEPS_PER_POINT * len(spline.points) if spline.use_cyclic_u else STEPS_PER_POINT * (len(spline.points) - 1) - 1
+    )
+    points = curve.evaluate(low + (high - low) * np.arange(steps + 1) / steps)
+    length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
+    unsure = SAME_LENGTH_RTOL * length + AGREEMENT_RTOL * steps * float(np.abs(points).max())
+    return bool(abs(spline.calc_length(resolution=STEPS_PER_POINT) - length) <= unsure)
+
+
+def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
+    """Yield the curves of a geometry set; None for each curve that is too short."""
+    count = len(curves.points)
+    positions, left, right = (
+        _values(curves, attribute, "vector", (count, 3)) for attribute in ("position", "handle_left", "handle_right")
+    )
+    weights = _values(curves, "nurbs_weight", "value", (count, 1), 1.0)[:, 0]
+    types, cyclic, orders, knots = (
+        _values(curves, attribute, "value", (len(curves.curves), 1), *default)[:, 0].astype(int).tolist()
+        for attribute, *default in (("curve_type",), ("cyclic",), ("nurbs_order", 4.0), ("knots_mode",))
+    )
+    _require_finite(positions, name)
+    for number, curve in enumerate(curves.curves):
+        of_curve = slice(curve.first_point_index, curve.first_point_index + curve.points_length)
+        kind, points = TYPES[types[number]], positions[of_curve]
+        if kind == "NURBS" and knots[number] == CUSTOM_KNOTS_MODE:
+            raise ReadError(UNKNOWN_KNOTS, subject=name)
+        if kind == "CATMULL_ROM":
+            arms = _catmull_rom(points, bool(cyclic[number]))
+            kind, points = "BEZIER", np.stack([points - arms, points, points + arms], axis=1).reshape(-1, 3)
+        elif kind == "BEZIER":
+            points = np.stack([left[of_curve], points, right[of_curve]], axis=1).reshape(-1, 3)
+            _require_finite(points, name)
+        yield _curve(
+            kind,
+            bool(cyclic[number]),
+            orders[number],
+            bool(knots[number] & 2),
+            bool(knots[number] & 1),
+            points,
+            weights[of_curve],
+        )
+
+
+def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
+    """Return (n, 3) offsets to the handles of the equal Bézier curve: a sixth of the way from neighbor to neighbor."""
+    around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic else "edge")
+    return (around[2:] - around[:-2]) / 6.0
+
+
+def _values(curves, name: str, item: str, shape: tuple[int, int], default: float = 0.0) -> NDArray[np.float64]:
+    """Return an attribute of the points or the curves as an array, filled with the default if there is none."""
+    if name not in curves.attributes:
+        return np.full(shape, default)
+    attribute = curves.attributes[name]
+    kind = {"BOOLEAN": bool, "FLOAT": np.float32, "FLOAT_VECTOR": np.float32}.get(attribute.data_type, np.int32)
+    values = np.empty(shape, kind)
+    attribute.data.foreach_get(item, values.reshape(-1))
+    return values.astype(np.float64)
+
+
+def _require_finite(positions: NDArray, name: str) -> None:
+    if not np.isfinite(positions).all():
+        raise ReadError(NON_FINITE_CONTROL_POINTS, subject=name)
+
+
+def _curve(
+    kind: str,
+    cyclic: bool,
+    order: int,
+    bezier: bool,
+    endpoint: bool,
+    points: NDArray[np.float64],
+    weights: NDArray | None,
+) -> Curve | None:
+    """Return a spline as a curve, None if too short; `points` are (n, 3), three for each point of a Bézier curve."""
+    if kind == "NURBS":
+        space = blender_space(len(points), order, cyclic, bezier, endpoint)
+        return None if space is None else Curve(space, points, weights)
+    if kind == "BEZIER":
+        knots = points.reshape(-1, 3, 3)
+        if cyclic:
+            knots = np.concatenate([knots, knots[:1]])
+        points, order = knots.reshape(-1, 3)[1:-1], 4
+    else:
+        points, order = np.concatenate([points, points[:1]]) if cyclic else points, 2
+    pieces = (len(points) - 1) // (order - 1)
+    if pieces < 1:
+        return None
+    return Curve(SplineSpace(tuple(_join_knots(pieces, order)), order, len(points)), points)
+
+
+def _join_knots(pieces: int, order: int) -> Iterator[float]:
+    """Yield the knots of a chain of Bézier pieces."""
+    yield 0.0
+    for piece in range(pieces + 1):
+        yield from (float(piece),) * (order - 1)
+    yield float(pieces)

@@ -1,0 +1,112 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A grid of a volume, read by Blender's openvdb module in blocks, without the empty space.
+
+An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side; the depth of a value shows if its node of 128 exists.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator
+from itertools import product
+from types import ModuleType
+from typing import cast
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.bodies.findings import GRID_TOO_LARGE
+from ...core.mesh.surface import Surface
+from ...core.verdict.finding import ReadError
+from .findings import GRID_FAR_FROM_ORIGIN, GRID_FRUSTUM, GRID_TYPE, GRID_UNREADABLE
+
+NODE_VOXELS = 128  # voxels along a side of the blocks that are read
+ROOT_VOXELS = 4096  # along a side of the largest nodes
+MAX_ROOTS = 100_000
+MAX_INDEX = 1 << 29  # above this index the module fails silently
+DTYPES = {"float": np.float32, "double": np.float64, "int32": np.int32, "int64": np.int64, "bool": np.bool_}
+
+
+def openvdb() -> ModuleType | None:
+    """Return the module, or None if this Blender has none."""
+    if hasattr(bpy.utils, "expose_bundled_modules"):
+        bpy.utils.expose_bundled_modules()
+    for name in ("openvdb", "pyopenvdb"):
+        try:
+            return importlib.import_module(name)
+        except ImportError:
+            continue
+    return None
+
+
+class VdbGrid:
+    """A grid of a .vdb file.
+
+    low, shape: (3,) the box of its active voxels, in voxels. background: value of all other voxels. level_set: true if
+    the file marks the grid as one. to_object: (4, 4) from voxels. Raises ReadError if the grid cannot be measured.
+    """
+
+    def __init__(self, path: str, name: str) -> None:
+        module = cast("ModuleType", openvdb())  # callers have checked that there is a module
+        try:
+            self._grid = module.read(path, name)
+        except (RuntimeError, KeyError, TypeError, OSError) as error:
+            raise ReadError(GRID_UNREADABLE, grid=name, error=str(error).rstrip(".")) from error
+        dtype = DTYPES.get(self._grid.valueTypeName)
+        if dtype is None:
+            raise ReadError(GRID_TYPE, grid=name)
+        self._dtype = dtype
+        transform = self._grid.transform
+        if not transform.isLinear:
+            raise ReadError(GRID_FRUSTUM, grid=name)
+        self.background = float(self._grid.background)
+        self.level_set = self._grid.gridClass == "level set"
+        corner = np.array(transform.indexToWorld((0, 0, 0)), np.float64)
+        self.to_object = np.eye(4)
+        self.to_object[:3, 3] = corner
+        for axis in range(3):
+            step = [0, 0, 0]
+            step[axis] = 1
+            self.to_object[:3, axis] = np.array(transform.indexToWorld(tuple(step)), np.float64) - corner
+        low, high = (np.array(end, np.int64) for end in self._grid.evalActiveVoxelBoundingBox())
+        if self._grid.activeVoxelCount() == 0:
+            low, high = np.zeros(3, np.int64), np.full(3, -1)
+        self.low, self.shape = low, high - low + 1
+        if np.prod(high // ROOT_VOXELS - low // ROOT_VOXELS + 1.0) > MAX_ROOTS:
+            raise ReadError(GRID_TOO_LARGE, grid=name, samples=self.shape.tolist())
+        if np.abs([low, high]).max() > MAX_INDEX:
+            raise ReadError(GRID_FAR_FROM_ORIGIN, grid=name)
+
+    def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
+        """Yield the stored voxels, as blocks, each with its offset in the box."""
+        values = self._grid.getConstAccessor()
+        end = self.low + self.shape
+        for first in _cells(self.low, end, ROOT_VOXELS):
+            depth = values.getValueDepth(first)
+            if depth < 1 and values.getValue(first) == self._grid.background:
+                continue
+            start = np.array(first)
+            for corner in _cells(np.maximum(start, self.low), np.minimum(start + ROOT_VOXELS, end), NODE_VOXELS):
+                if values.getValueDepth(corner) < 2 and values.getValue(corner) == self._grid.background:
+                    continue
+                begin = np.maximum(corner, self.low)
+                array = np.zeros(np.minimum(np.array(corner) + NODE_VOXELS, end) - begin, self._dtype)
+                self._grid.copyToArray(array, ijk=tuple(begin.tolist()))
+                used = array != self._dtype(self._grid.background)
+                if used.any():  # a node may be empty but for a corner
+                    along = [np.flatnonzero(used.any(axis=others)) for others in ((1, 2), (0, 2), (0, 1))]
+                    offset = begin - self.low + [where[0] for where in along]
+                    yield tuple(offset.tolist()), array[tuple(slice(where[0], where[-1] + 1) for where in along)]
+
+    def polygons(self) -> Surface:
+        """Return the zero surface of a level set, in the object's coordinates, facing outward."""
+        points, _triangles, quads = self._grid.convertToPolygons()  # only quads without adaptivity
+        return Surface(np.ascontiguousarray(points, np.float32), quads=np.ascontiguousarray(quads[:, ::-1], np.int32))
+
+
+def _cells(low: NDArray, end: NDArray, size: int) -> Iterator[tuple[int, int, int]]:
+    """Yield the corners of the cells of `size` that hold voxels of the box."""
+    i, j, k = (range(int(a) // size * size, int(b), size) for a, b in zip(low, end))
+    return product(i, j, k)

@@ -1,0 +1,316 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects of imported files: patches with Blender's knots as surface objects, and scans as Volume objects.
+
+Only Blender's operators make a grid of control points out of nothing, and only in Edit Mode. So a grid of each size is
+made once in a temporary scene; the patches of an object are joined there, and get their points last. Nothing of the
+user's scene is selected, changed or evaluated. Blender takes voxels from .vdb files only, so one is written beside the
+scan.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from types import ModuleType
+from typing import NamedTuple
+
+import bpy
+import numpy as np
+from bpy.types import Context, Curve, Object, Scene
+from numpy.typing import NDArray
+
+from ...core.bodies.reading import SplineReading
+from ...core.cad.surface_file import read_surfaces
+from ...core.cad.surfaces import MAX_ORDER, SurfaceBody, is_storable
+from ...core.density.grid_values import positions_text
+from ...core.numerics.float32 import shortest_decimal
+from ...core.nurbs.bezier_form import bezier_space
+from ...core.nurbs.flat_face import FlatFace
+from ...core.nurbs.patch import Face, Patch
+from ...core.scans.formats import read_scan, sample_matrix, scan_suffix
+from ...core.scans.limits import Limits
+from ...core.scans.numpy_files import read_raw
+from ...core.scans.positions import Positions, place_samples, read_all_positions
+from ...core.scans.scan import Scan
+from ...core.streams.findings import FILE_UNREADABLE
+from ...core.verdict.finding import FileError, Finding, finding, system_reason
+from ..read.splines import keep_faces
+from .findings import SCAN_NON_FINITE, SURFACES_ROUNDED
+
+MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit
+SHOWN_SAMPLES = 16  # per span, of surfaces that Blender's splines cannot be
+MIN_LOFTED_POINTS = 3  # along v: with fewer Blender does not loft
+GRID_NAME = "density"
+SAMPLES_PER_SLAB = 1 << 22  # samples at a time
+
+
+def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> tuple[Object, float]:
+    """Return a surface object of *Bézier* patches in no collection, and the effect of float32 as a share."""
+    data, moved, origin = surface_data(name, patches, factor)
+    obj = bpy.data.objects.new(name, data)
+    obj.location = origin
+    return obj, moved
+
+
+def surface_data(name: str, patches: Sequence[Patch], factor: float) -> tuple[Curve, float, NDArray[np.float32]]:
+    """Return the data of `surface_object`, its points' movement as a share of the size, and its origin's place."""
+    low = factor * np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
+    high = factor * np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
+    size, distance = float((high - low).max()), float(np.abs([low, high]).max())
+    origin = np.zeros(3, np.float32)
+    if distance > MAX_DISTANCE * size > 0.0:
+        origin = ((low + high) / 2.0).astype(np.float32)
+    stored = [_stored(patch, factor, origin.astype(np.float64)) for patch in patches]
+    data = _grids(name, [patch.points.shape[:2] for patch in patches])
+    for spline, patch, (values, _) in zip(data.splines, patches, stored):
+        _fill(spline, patch, values)
+    return data, max(moved for _, moved in stored) / (size or 1.0), origin
+
+
+def _stored(patch: Patch, factor: float, origin: NDArray) -> tuple[NDArray[np.float32], float]:
+    """Return (n, 4) control points and weights as Blender has them, and the largest move of the surface."""
+    points = factor * patch.points - origin
+    values = np.ones((*points.shape[:2], 4), np.float32)
+    values[..., :3] = points
+    moved = float(np.linalg.norm(values[..., :3] - points, axis=2).max())
+    if patch.weights is not None:
+        weights = patch.weights / patch.weights.max()
+        values[..., 3] = weights
+        # The point is a mean of control points; its weights change by at most twice this share.
+        share = float(np.abs(values[..., 3] / weights - 1.0).max())
+        spread = points - points[0, 0]
+        moved += 4.0 * share * float(np.linalg.norm(spread, axis=2).max())
+    return values.reshape(-1, 4), moved
+
+
+def _fill(spline, patch: Patch, values: NDArray[np.float32]) -> None:
+    spline.points.foreach_set("co", values.ravel())
+    spline.order_v, spline.order_u = (space.order for space in patch.spaces)
+    spline.use_cyclic_u = spline.use_cyclic_v = False
+    spline.use_bezier_u = spline.use_bezier_v = True
+    spline.use_endpoint_u = spline.use_endpoint_v = True
+    spline.use_smooth = True
+
+
+def _grids(name: str, shapes: Sequence[tuple[int, int]]) -> Curve:
+    """Return surface data with a spline of (count_v, count_u) points for each shape, in order."""
+    with _temporary_scene() as scene:
+        models = {shape: _grid(scene, shape) for shape in dict.fromkeys(shapes)}
+        objects = [bpy.data.objects.new(name, models[shape]) for shape in shapes]
+        for obj in objects:
+            scene.collection.objects.link(obj)
+        first = objects[0]
+        first.data = models[shapes[0]].copy()
+        if len(objects) > 1:
+            with _active(scene, first, objects):
+                bpy.ops.object.join()
+        data = first.data
+        bpy.data.objects.remove(first)
+        for model in models.values():
+            bpy.data.curves.remove(model)
+    data.name = name
+    data.dimensions = "3D"
+    return data
+
+
+@contextmanager
+def _temporary_scene() -> Iterator[Scene]:
+    scene = bpy.data.scenes.new("Body Moments Import")
+    try:
+        yield scene
+    finally:
+        bpy.data.batch_remove([*scene.collection.objects, scene])
+
+
+@contextmanager
+def _active(scene: Scene, obj: Object, selected: Sequence[Object]) -> Iterator[None]:
+    layer = scene.view_layers[0]
+    layer.objects.active = obj
+    for one in selected:
+        one.select_set(True, view_layer=layer)
+    names = ("object", "active_object", "edit_object")
+    lists = ("selected_objects", "selected_editable_objects")
+    with bpy.context.temp_override(scene=scene, **dict.fromkeys(names, obj), **dict.fromkeys(lists, list(selected))):
+        yield
+
+
+def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
+    """Return surface data with one spline of (count_v, count_u) points at arbitrary places."""
+    rows, columns = max(shape[0], MIN_LOFTED_POINTS), shape[1]
+    data = bpy.data.curves.new("Body Moments Import", "SURFACE")
+    for _ in range(columns):
+        spline = data.splines.new("NURBS")
+        spline.points.add(rows - 1)
+        spline.points.foreach_set("select", np.ones(rows, np.bool_))
+    obj = bpy.data.objects.new("Body Moments Import", data)
+    scene.collection.objects.link(obj)
+    with _active(scene, obj, [obj]):
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.curve.make_segment()
+        if rows > shape[0]:
+            surplus = np.zeros((rows, columns), np.bool_)
+            surplus[shape[0] :] = True
+            data.splines[0].points.foreach_set("select", surplus.ravel())
+            bpy.ops.curve.delete(type="VERT")
+        bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.objects.remove(obj)
+    (spline,) = data.splines
+    if (spline.point_count_v, spline.point_count_u) != shape:
+        raise RuntimeError("Blender lofted {} x {} points".format(spline.point_count_v, spline.point_count_u))
+    return data
+
+
+def import_bodies(
+    bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float
+) -> list[tuple[Object, float]]:
+    """Add an object of each body, of patches alone, to a collection; return the pairs of `surface_object`."""
+    made = []
+    for body in bodies:
+        obj, moved = surface_object(body.name, [patch for patch in body.patches if isinstance(patch, Patch)], factor)
+        collection.objects.link(obj)
+        made.append((obj, moved))
+    return made
+
+
+def show_bodies(bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float) -> list[Object]:
+    """Add an object of each body, with any faces, to a collection; it shows them and is measured by them."""
+    made, readings = [], {}
+    for body in bodies:
+        obj, _ = surface_object(body.name, list(map(_shown, body.patches)), factor)
+        for spline in obj.data.splines:
+            if spline.order_u == spline.order_v == 2:
+                spline.resolution_u = spline.resolution_v = 1
+        matrix = np.diag([factor, factor, factor, 1.0])
+        matrix[:3, 3] -= obj.location
+        faces = tuple(face.transform(matrix) for face in body.patches)
+        readings[obj.data] = SplineReading(faces, factor * body.rounding, ())
+        collection.objects.link(obj)
+        made.append(obj)
+    keep_faces(readings)
+    return made
+
+
+def _shown(face: Face) -> Patch:
+    """Return a patch that Blender can hold and that looks like a face: the patch itself, or one through samples."""
+    if isinstance(face, FlatFace):
+        a, b, c, d = np.moveaxis(face.quads(SHOWN_SAMPLES), 1, 0)
+        # A band along all trapezoids, with folds of no width between them.
+        points = np.stack([np.stack([a, b, c, d], axis=1), np.stack([a, a, d, d], axis=1)], axis=2).reshape(-1, 2, 3)
+    else:
+        assert isinstance(face, Patch)
+        if max(space.order for space in face.spaces) <= MAX_ORDER and is_storable(face):
+            return face
+        points = face.samples(SHOWN_SAMPLES)
+    return Patch((bezier_space(len(points), 2), bezier_space(points.shape[1], 2)), points)
+
+
+class ImportedSurfaces(NamedTuple):
+    """Objects of a file of surfaces, with the number and the highest order of their patches, and findings."""
+
+    objects: list[Object]
+    patches: int
+    order: int
+    findings: list[Finding]
+
+
+def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -> ImportedSurfaces:
+    """Make an object of each body in a file. unit: meters per unit of a file that states none. Raises FileError."""
+    try:
+        file = read_surfaces(path, limits)
+    except OSError as error:
+        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
+    scale = shortest_decimal(context.scene.unit_settings.scale_length)
+    factor = (shortest_decimal(unit) if file.unit is None else file.unit) / scale
+    made = import_bodies(file.bodies, context.collection, factor)
+    patches = [patch for body in file.bodies for patch in body.patches]
+    order = max(space.order for patch in patches for space in patch.spaces)
+    moved = max(share for _, share in made)
+    rounded = [finding(SURFACES_ROUNDED, share=moved)] if moved else []
+    return ImportedSurfaces([obj for obj, _ in made], len(patches), order, [*rounded, *file.refused, *file.notes])
+
+
+class PlacedScan(NamedTuple):
+    """A scan with the (4, 4) map from its voxels to meters, uneven sample positions by axis, and findings.
+
+    target: the .vdb file beside the scan.
+    """
+
+    scan: Scan
+    matrix: NDArray[np.float64]
+    positions: Positions
+    findings: Sequence[Finding]
+    target: Path
+
+
+def read_placed(
+    path: Path,
+    limits: Limits,
+    raw: tuple[Sequence[int], str, bool] | None,
+    spacing: Sequence[float] | None,
+    files: dict[str, str],
+    unit: float,
+) -> PlacedScan:
+    """Read a scan and place its samples; files: of their positions, in `unit` meters, by axis. Raises FileError."""
+    try:
+        is_raw = scan_suffix(path) == ".raw"
+        scan = read_raw(path, *raw, limits) if raw is not None and is_raw else read_scan(path, limits)
+        positions = read_all_positions(files, scan.samples.shape)
+    except OSError as error:
+        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
+    matrix, findings = sample_matrix(scan, tuple(map(shortest_decimal, spacing)) if spacing else None, None, None)
+    matrix, positions = place_samples(matrix, positions, shortest_decimal(unit))
+    for axis, row in enumerate(positions):
+        if row is not None:  # Blender's voxels are even: the first and the last are where they belong
+            matrix[:3, axis] *= row[-1] / (len(row) - 1)
+    target = path.with_name(path.name[: -len(scan_suffix(path))] + ".vdb")
+    return PlacedScan(scan, matrix, positions, (*scan.findings, *findings), target)
+
+
+def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
+    """Write the scan whole, with `unit` meters per unit and a background unlike any value; return the least value."""
+    scan, target, matrix = placed.scan, placed.target, placed.matrix.copy()
+    matrix[:3] /= unit
+    least, exact = np.inf, True
+    for _, slab in _slabs(scan):
+        if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):
+            raise FileError(SCAN_NON_FINITE)
+        least = min(least, float(slab.min()))
+        exact = exact and np.array_equal(slab.astype(np.float32), slab)
+    kind, grid_of = (np.float32, module.FloatGrid) if exact else (np.float64, module.DoubleGrid)
+    grid = grid_of(0.0 if least >= 0.0 else float(np.nextafter(kind(least), kind(-np.inf))))
+    grid.name, grid.gridClass = GRID_NAME, "fog volume"
+    grid.transform = module.createLinearTransform(matrix.T.tolist())
+    for start, slab in _slabs(scan):
+        grid.copyFromArray(np.ascontiguousarray(slab), ijk=(start, 0, 0))
+    partial = target.with_name("{:s}.{:d}.partial.vdb".format(target.stem, os.getpid()))
+    try:
+        module.write(str(partial), grid)
+        os.replace(partial, target)
+    finally:
+        partial.unlink(missing_ok=True)
+    return least
+
+
+def _slabs(scan: Scan) -> Iterator[tuple[int, NDArray[np.float64]]]:
+    samples = scan.samples
+    planes = max(1, SAMPLES_PER_SLAB // (samples.shape[1] * samples.shape[2]))
+    for start in range(0, samples.shape[0], planes):
+        yield start, samples[start : start + planes].astype(np.float64) * scan.slope + scan.intercept
+
+
+def add_volume(context: Context, placed: PlacedScan) -> Object:
+    """Add a Volume object with the file of a scan, selected and active."""
+    path = placed.target
+    volume = bpy.data.volumes.new(path.stem)
+    volume.filepath = str(path)
+    obj = bpy.data.objects.new(path.stem, volume)
+    obj.body_moments.grid, obj.body_moments.sample_positions = GRID_NAME, positions_text(placed.positions)
+    context.collection.objects.link(obj)
+    for previous in context.selected_objects:
+        previous.select_set(False)
+    obj.select_set(True)
+    context.view_layer.objects.active = obj
+    return obj
