@@ -49,9 +49,11 @@ class PlacedTriangles:
         height = self.points @ SKEW
         self._order = np.argsort(height, kind="stable")
         self._height = height[self._order]
-        self._first = self._match(self.points)
-        self._creases = self._find_creases()
         self._witnesses = np.arange(0, len(self.points), 1 + len(self.points) // FIRST_SAMPLES)
+
+    @cached_property
+    def _first(self) -> NDArray[np.intp]:
+        return self._match(self.points)
 
     @cached_property
     def _tree(self) -> Bvh:
@@ -202,8 +204,9 @@ class PlacedTriangles:
             at[left] += 1
         return found
 
-    def _find_creases(self) -> tuple[NDArray[np.intp], NDArray[np.int64]]:
-        """Return (k, 3) corners of triangles that are not flush with another one at the first two, and sorted codes."""
+    @cached_property
+    def _creases(self) -> tuple[NDArray[np.intp], NDArray[np.int64]]:
+        """(k, 3) corners of triangles that are not flush with another one at the first two, and their sorted codes."""
         place, count = self._first[self.triangles], len(self.triangles)
         code = np.concatenate([self._edge_codes(place[:, [i, i - 1]]) for i in range(3)])
         order = np.argsort(code, kind="stable")
