@@ -46,6 +46,7 @@ from ....core.numerics.arrays import segment_starts
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.any_order import extend_small_moments
 from ....core.polyhedron.third_order_small import small_moments
+from ....core.shape.flat_pose import MAX_AXIS_ORDER
 from ....core.shape.point_groups import PlacedTriangles
 from ....core.shape.registration import Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature, signatures
@@ -256,7 +257,9 @@ class Shape:
         # The tolerance for moments is the same as for the surface.
         allowed = symmetry(self.piece_moments(), max(NOISE_LEVEL, tolerance))
         placed, found = self._placed_triangles(tolerance, tolerance), allowed
-        if len(allowed.revolution_axes) and not placed.is_round(allowed, tolerance):
+        is_round = placed.is_round(allowed, tolerance)
+        # Axes of a higher order than groups can have count as axes of revolution.
+        if not is_round and max(map(placed.turn_order, allowed.revolution_axes), default=np.inf) <= MAX_AXIS_ORDER:
             operations = (placed.groups() or [np.eye(3)[None]])[0]
             found = Symmetry(operations, np.empty((0, 3)), allowed.order)
         held = [placed.holds(operation, tolerance) for operation in found.operations]
