@@ -258,7 +258,7 @@ def _closed(
     Coset by coset: a generator takes a coset of the masked group to a coset.
     """
     own, cosets, mask = operations[mask], [np.eye(3)], mask.copy()
-    for coset in cosets:  # which grow
+    for coset in cosets:  # the list grows meanwhile
         for product in _nearest(operations[generators] @ coset, operations).tolist():
             if product < 0:
                 return None
