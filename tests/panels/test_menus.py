@@ -31,16 +31,6 @@ def drawn(menu):
     return [entry[:2] for entry in layout.record if entry[0] in ("operator", "menu")]
 
 
-def test_main_menu_has_eight_entries_and_two_menus(monkeypatch):
-    from body_moments.panels import menus
-
-    for shows in (False, True):
-        monkeypatch.setattr(menus, "shows_advanced", lambda shows=shows: shows)
-        entries = drawn(menus.VIEW3D_MT_body_moments)
-        assert len(entries) <= 8 + 1 + shows
-        assert (("menu", "VIEW3D_MT_body_moments_advanced") in entries) == shows
-
-
 def test_no_operator_stands_in_two_menus():
     from body_moments.panels import menus
 
