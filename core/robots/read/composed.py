@@ -42,7 +42,7 @@ def compose_usd(path: Path, roots: Roots) -> bytes:
                 prim.SetInstanceable(False)
         return stage.Flatten().ExportToString().encode()
     except RuntimeError as error:  # pxr.Tf.ErrorException is one.
-        place, _, reason = str(error).strip().partition("\n")[0].rpartition(" : ")  # the place in pxr's source, and the reason
+        place, _, reason = str(error).strip().partition("\n")[0].rpartition(" : ")  # a place in pxr's source
         raise FileError(FILE_UNREADABLE, error=(reason or place).strip(" '")) from error
 
 
