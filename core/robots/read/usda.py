@@ -21,7 +21,7 @@ from ...verdict.number_text import parse_number
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
 from ..stated import LEAST, MOST, Description, Place, StatedInertial, StatedLink, StatedShape, rotation_about
-from .triangles import fan
+from .meshes import fan
 from .xml import check_size
 
 _TOKEN = re.compile(
