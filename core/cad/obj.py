@@ -192,11 +192,6 @@ def _indices(words: list[str], count: int) -> NDArray[np.int64]:
     return numbers
 
 
-def read_obj_meshes(path: Path) -> list[FileMesh]:
-    """Return the meshes, in the file's own axes. Raises FileError and OSError."""
-    return _split(*read_obj_faces(path))
-
-
 def read_obj_faces(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], list]:
     """Return (n, 3) points, (k,) corners and (m,) sides of faces; of objects the first face, first vertex and name."""
     data = map_file(path) if path.stat().st_size else b""
@@ -239,8 +234,9 @@ def _read_faces(lines: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64], NDA
     return index, np.diff(first, append=len(index)), lines.starts[line[first]]
 
 
-def _split(points: NDArray, corners: NDArray, sides: NDArray, starts: list[tuple[int, int, str]]) -> list[FileMesh]:
-    """Return one mesh for each object. starts: the first face and the first vertex of each object, and its name."""
+def read_obj_meshes(path: Path) -> list[FileMesh]:
+    """Return one mesh for each object, in the file's own axes. Raises FileError and OSError."""
+    points, corners, sides, starts = read_obj_faces(path)
     ends = np.append(0, np.cumsum(sides))
     meshes = []
     for i, (end, last, _) in enumerate([*starts[1:], (len(sides), len(points), "")]):

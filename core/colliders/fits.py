@@ -1,30 +1,44 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The smallest simple shapes around a body, and the simplest collider within given distances."""
+"""The smallest simple shapes around a body, and the simplest collider within given distances.
+
+The largest distances between a body and its colliders come from samples of both surfaces, with their bound.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Generator
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Generator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 from itertools import combinations
-from math import pi
+from math import inf, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.mass_properties import MassProperties
+from ..mesh.bvh import Bvh, sort_components
 from ..mesh.hulls import ConvexHull, convex_hull
+from ..mesh.point_triangle import triangle_distances
 from ..mesh.surface import Surface, normals, triangle_areas
+from ..numerics.quadrature import spread_directions
+from ..polyhedron.integration import volume_and_center
 from ..robots.model import Inertial, Pose, Shape
 from ..robots.primitives import equal_inertia_shape, primitive_moments
-from .distance import distances, hull_volume
 from .pieces import cut_into_pieces
 
 AXES_CORNERS = 48  # of the hull whose faces and edges give the directions of boxes
 BALL_RTOL = 1e-12  # points outside a ball by less are on it
 SIMPLE = ("sphere", "box", "capsule", "cylinder", "hull")  # tried in this order, before pieces
 EQUAL = "equal_"
+STEPS, COARSE_STEPS = 24, 6  # sides of triangles between samples, over the extent of what is sampled
+MOST_SAMPLES = 20_000
+ROUND_POINTS, RING_POINTS = 400, 96  # of the polyhedra in round shapes
+END = np.array([0.0, 0.0, 0.5])
+BALL_SAG = 0.012  # of the radius: the greatest depth of their faces in a ball
+CONVEX_RTOL = 1e-9  # of the volume that a convex body lacks in its hull
+PAIRS_PER_BLOCK = 1 << 20
+INSIDE_RTOL = 1e-9  # of the size
 
 
 @dataclass(frozen=True)
@@ -198,3 +212,169 @@ def _ball_through(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], flo
     legs = points[1:] - points[0]
     offset = np.linalg.lstsq(2.0 * legs, (legs**2).sum(axis=1), rcond=None)[0]
     return points[0] + offset, float(np.linalg.norm(points - points[0] - offset, axis=1).max())
+
+
+def distances(
+    surface: Surface, shapes: Sequence[Shape], hull: ConvexHull | None = None, enough: float = inf
+) -> tuple[float, float, float]:
+    """Return the largest distance of the colliders from the body, outward, and of the body from them, inward, in m.
+
+    surface: closed and outward. hull: its hull, if that is known. enough: outward distances above it may be too small.
+    The third number bounds by how much others may be too small. The distance from a convex body is largest at a corner,
+    so that only others are sampled.
+    """
+    hull = hull or convex_hull(surface.points)
+    triangles = surface.all_triangles()[0].astype(np.intp)
+    points = np.asarray(surface.points, np.float64)
+    size = float(np.ptp(hull.points, axis=0).max())
+    solids, sags = zip(*(_polyhedron(shape, hull) for shape in shapes))
+    samples, step = (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size / STEPS)
+    nearest = np.full(len(samples), np.inf)
+    for shape, solid in zip(shapes, solids):
+        nearest = np.minimum(nearest, _distances_from_shape(samples, shape, solid, nearest, size))
+    inward = float(nearest.max(initial=0.0))
+    corners = np.concatenate([solid.points for solid in solids])
+    outward = float(_heights(corners, hull).max())
+    if outward <= enough:
+        outward = float(_distances_from_hull(corners, hull, np.full(len(corners), np.inf), size).max())
+    is_convex = hull_volume(hull) - volume_and_center(surface)[0] <= CONVEX_RTOL * hull_volume(hull)
+    if is_convex or outward > enough:
+        return max(outward, 0.0), inward, step + max(sags)
+    tree = Bvh(points, sort_components(points, triangles, np.zeros(len(triangles), np.intp), 1), np.ones(1, bool))
+    own_step = 0.0
+    for fineness in (COARSE_STEPS, STEPS) if enough < inf else (STEPS,):
+        places, own_step = _outer_samples(solids, size, fineness)
+        component = np.zeros(len(places), np.intp)
+        winding, sure = tree.winding_numbers(places - tree.origin, component, INSIDE_RTOL * size)
+        places = places[~((winding != 0) & sure)]
+        if len(places):
+            outward = max(outward, float(tree.distances(places - tree.origin, component[: len(places)]).max()))
+        if outward > enough:
+            break
+    return outward, inward, max(step, own_step) + max(sags)
+
+
+def _outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> tuple[NDArray[np.float64], float]:
+    """Return places on the surface of the union of solids, and the bound of their distances as of `_samples`."""
+    kept, steps = [], []
+    for solid in solids:
+        reach = max(size, float(np.ptp(solid.points, axis=0).max()))
+        places, step = _samples(solid.points, solid.triangles, reach / fineness)
+        steps.append(step)
+        for other in solids:
+            if other is not solid:
+                places = places[_heights(places, other).max(axis=1) >= -INSIDE_RTOL * size]
+        kept.append(places)
+    return np.concatenate(kept), max(steps)
+
+
+def hull_volume(hull: ConvexHull) -> float:
+    """Return the volume of a hull."""
+    return volume_and_center(Surface.from_triangles(hull.points, hull.triangles))[0]
+
+
+@lru_cache
+def _unit(kind: str) -> ConvexHull:
+    """Return a box, ball, cylinder or capsule whose sides, radius and length are 1."""
+    points = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    if kind != "box":
+        turn = np.linspace(0.0, 2.0 * pi, RING_POINTS, endpoint=False)
+        ring = np.stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)], axis=1)
+        points = ring if kind == "cylinder" else spread_directions(ROUND_POINTS)
+    if kind in ("cylinder", "capsule"):
+        points = np.concatenate([points + END, points - END])
+    return convex_hull(points, 1e-9)
+
+
+def _polyhedron(shape: Shape, body: ConvexHull) -> tuple[ConvexHull, float]:
+    """Return a shape as a convex polyhedron in the link's frame, and the depth by which that lies in a round shape.
+
+    body: the hull of the body, which may be the shape.
+    """
+    if shape.surface is not None:
+        points = _placed(shape.surface.points * shape.size, shape)
+        return body if np.array_equal(points, body.points) else convex_hull(points, 1e-9), 0.0
+    hull, size = _unit("sphere" if shape.kind == "ellipsoid" else shape.kind), shape.size
+    if shape.kind == "capsule":  # the ends move apart, and no face changes
+        ends = np.where((hull.indices < ROUND_POINTS)[:, None], END, -END)
+        points = size[0] * (hull.points - ends) + size[1] * ends
+    else:
+        points = hull.points * (size if shape.kind != "cylinder" else (size[0], size[0], size[1]))
+    return replace(hull, points=_placed(points, shape)), 0.0 if shape.kind == "box" else BALL_SAG * max(size)
+
+
+def _placed(points: NDArray[np.float64], shape: Shape) -> NDArray[np.float64]:
+    return points @ shape.pose.rotation.T + shape.pose.position
+
+
+def _face_normals(hull: ConvexHull) -> NDArray[np.float64]:
+    """Return the (m, 3) unit normals of a hull's faces; those of faces without area are zero."""
+    normal = normals(hull.points, hull.triangles)
+    return normal / np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
+
+
+def _heights(points: NDArray[np.float64], hull: ConvexHull) -> NDArray[np.float64]:
+    """Return (n, m) signed distances of points from the planes of a hull's faces; -inf from faces without area."""
+    normal = _face_normals(hull)
+    at = np.einsum("ij,ij->i", normal, hull.points[hull.triangles[:, 0]])
+    return points @ normal.T - np.where(normal.any(axis=1), at, np.inf)
+
+
+def _distances_from_shape(
+    points: NDArray, shape: Shape, solid: ConvexHull, nearest: NDArray, size: float
+) -> NDArray[np.float64]:
+    """Return the distances of points from a shape as `_distances_from_hull` does; exact for round shapes, too."""
+    if shape.kind in ("mesh", "ellipsoid"):
+        return _distances_from_hull(points, solid, nearest, size)
+    place = np.abs((points - shape.pose.position) @ shape.pose.rotation)
+    if shape.kind == "cylinder":
+        place = np.stack([np.hypot(place[:, 0], place[:, 1]), place[:, 2]], axis=1)
+    length = shape.size[-1] / 2.0
+    core, radius = {
+        "box": (np.array(shape.size) / 2.0, 0.0),
+        "sphere": (np.zeros(3), shape.size[0]),
+        "capsule": (np.array([0.0, 0.0, length]), shape.size[0]),
+        "cylinder": (np.array([shape.size[0], length]), 0.0),
+    }[shape.kind]
+    return np.maximum(np.linalg.norm(np.maximum(place - core, 0.0), axis=1) - radius, 0.0)
+
+
+def _distances_from_hull(points: NDArray, hull: ConvexHull, nearest: NDArray, size: float) -> NDArray[np.float64]:
+    """Return the distances of points from a hull, 0 inside; those above `nearest` may be too small."""
+    distance = np.zeros(len(points))
+    normal = _face_normals(hull)
+    rows = max(1, PAIRS_PER_BLOCK // len(hull.triangles))
+    for begin in range(0, len(points), rows):
+        part = points[begin : begin + rows]
+        heights = _heights(part, hull)
+        face = heights.argmax(axis=1)
+        height = heights[np.arange(len(part)), face]
+        distance[begin : begin + rows] = np.where(height > INSIDE_RTOL * size, height, 0.0)
+        # The largest height is a lower bound, and the distance if its foot is on the hull.
+        farther = np.flatnonzero((height > INSIDE_RTOL * size) & (height < nearest[begin : begin + rows]))
+        feet = part[farther] - height[farther, None] * normal[face[farther]]
+        farther = farther[_heights(feet, hull).max(axis=1, initial=-np.inf) > INSIDE_RTOL * size]
+        if len(farther):
+            places = part[farther].repeat(len(hull.triangles), axis=0)
+            corners = np.tile(hull.points[hull.triangles], (len(farther), 1, 1))
+            distance[begin + farther] = triangle_distances(places, corners).reshape(len(farther), -1).min(axis=1)
+    return distance
+
+
+def _samples(points: NDArray, triangles: NDArray, step: float) -> tuple[NDArray[np.float64], float]:
+    """Return places on triangles, a step apart or more, and a bound of any other place's distance from the nearest.
+
+    A place in a triangle is at most 1/√3 of its longest side from the nearest corner.
+    """
+    corners = points[triangles]
+    longest = np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
+    parts = np.maximum(np.ceil(longest / step), 1.0).astype(int)
+    while (count := int(((parts + 1) * (parts + 2) // 2).sum())) > MOST_SAMPLES and parts.max() > 1:
+        step *= max(1.2, (count / MOST_SAMPLES) ** 0.5)
+        parts = np.maximum(np.ceil(longest / step), 1.0).astype(int)
+    places = [points[np.unique(triangles)]]
+    for number in np.unique(parts[parts > 1]).tolist():
+        i, j = np.nonzero(np.add.outer(np.arange(number + 1), np.arange(number + 1)) <= number)
+        shares = np.stack([i, j, number - i - j], axis=1) / number
+        places.append((shares @ corners[parts == number]).reshape(-1, 3))
+    return np.concatenate(places), float((longest / parts).max() / 3.0**0.5)

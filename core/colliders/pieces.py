@@ -20,7 +20,7 @@ from ..mesh.hulls import ConvexHull, convex_hull, hull_volumes
 from ..mesh.point_triangle import triangle_distances
 from ..mesh.surface import Surface, triangle_areas
 from ..numerics.graph import connected_components
-from ..robots.plausibility import spread_directions
+from ..numerics.quadrature import spread_directions
 from .cuts import ON_PLANE_RTOL, Piece, connected_parts, cut, piece_from_surface
 
 HULL_RTOL = 1e-6  # of the resulting hulls

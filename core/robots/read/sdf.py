@@ -12,7 +12,9 @@ from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding
 from ..model import Pose
 from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
-from .xml import NOWHERE, Node, Placed, attempt, number, numbers, read_shape, read_shapes
+from .xml import NOWHERE, Node, attempt, number, numbers, read_shapes
+
+KINDS = ("box", "ellipsoid", "sphere", "cylinder", "capsule")
 
 
 def read(root: Node, data: bytes) -> Description:
@@ -28,7 +30,7 @@ def _link(node: Node, model: Node, several: bool) -> StatedLink:
     is_auto = element is not None and element.get("auto") in ("true", "1")
     inertial = None if is_auto else attempt(findings, element, _inertial)
     span = None if element is None or inertial is None or element.start == NOWHERE else (element.start, element.end)
-    shapes = read_shapes(findings, node, _shape)
+    shapes = read_shapes(findings, node, _pose, KINDS, _text, 1.0)
     static = _text(model, "static") in ("true", "1")
     name = "{}::{}".format(model.get("name"), node.get("name")) if several else node.get("name")
     moves = bool(shapes) and not static and element is None
@@ -65,9 +67,3 @@ def _pose(node: Node) -> tuple[Pose, Angles | None, tuple[float, ...] | None]:
     if element is not None and element.get("degrees") in ("true", "1"):
         roll, pitch, yaw = radians(roll), radians(pitch), radians(yaw)
     return Pose(values[:3], rotation_of_angles(roll, pitch, yaw)), (roll, pitch, yaw), None
-
-
-def _shape(node: Node) -> Placed | None:
-    pose, angles, _ = _pose(node)
-    shape = read_shape(node, pose, ("box", "ellipsoid", "sphere", "cylinder", "capsule"), _text, 1.0)
-    return None if shape is None else (shape, angles)

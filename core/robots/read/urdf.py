@@ -9,7 +9,7 @@ import numpy as np
 from ...verdict.finding import Finding
 from ..model import Pose
 from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
-from .xml import Node, Placed, attempt, number, numbers, read_shape, read_shapes
+from .xml import Node, attempt, number, numbers, read_shapes
 
 
 def read(root: Node, data: bytes) -> Description:
@@ -21,7 +21,7 @@ def _link(node: Node) -> StatedLink:
     findings: list[Finding] = []
     element = node.find("inertial")
     inertial = attempt(findings, element, _inertial)
-    shapes = read_shapes(findings, node, _shape)
+    shapes = read_shapes(findings, node, _origin, ("box", "sphere", "cylinder", "capsule"), Node.get)
     span = None if element is None else (element.start, element.end)
     places = node.place, (element or node).place
     return StatedLink(node.get("name"), inertial, shapes, span, bool(shapes), tuple(findings), None, *places)
@@ -41,9 +41,3 @@ def _origin(node: Node) -> tuple[Pose, Angles]:
     position = numbers(origin.get("xyz") if origin else "", 3, (0.0, 0.0, 0.0))
     roll, pitch, yaw = numbers(origin.get("rpy") if origin else "", 3, (0.0, 0.0, 0.0)).tolist()
     return Pose(position, rotation_of_angles(roll, pitch, yaw)), (roll, pitch, yaw)
-
-
-def _shape(node: Node) -> Placed | None:
-    pose, angles = _origin(node)
-    shape = read_shape(node, pose, ("box", "sphere", "cylinder", "capsule"), Node.get)
-    return None if shape is None else (shape, angles)

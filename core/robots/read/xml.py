@@ -21,15 +21,14 @@ from ...streams.findings import FILE_TOO_LARGE
 from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_numbers
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER, XML_ENTITIES
-from ..model import Pose, Shape
-from ..stated import Angles, Place, StatedShape
+from ..model import Shape
+from ..stated import Place, StatedShape
 
 MAX_ELEMENTS = 1_000_000
 MAX_DEPTH = 200
 FLAT_KINDS = ("empty", "plane", "heightmap", "hfield", "image")  # shapes of no volume, and terrain
 NOWHERE = -1  # The position of elements from another file.
 Value = TypeVar("Value")
-Placed = tuple[Shape, Angles | None]
 _TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # Quoted attributes may contain ">".
 
 
@@ -149,46 +148,43 @@ def attempt(findings: list[Finding], node: Node | None, read: Callable[..., Valu
         return None
 
 
-def read_shapes(findings: list[Finding], link: Node, read: Callable[[Node], Placed | None]) -> tuple[StatedShape, ...]:
-    """Return the visual and collision shapes of a link of URDF or SDF."""
-    shapes = []
-    for role in ("visual", "collision"):
-        for element in link.all(role):
-            shape = attempt(findings, element, _placed, read, role)
-            if shape is not None:
-                shapes.append(shape)
-    return tuple(shapes)
+def read_shapes(
+    findings: list[Finding],
+    link: Node,
+    pose_of: Callable[[Node], tuple],
+    kinds: Sequence[str],
+    get: Callable[[Node, str], str],
+    length: float | None = None,
+) -> tuple[StatedShape, ...]:
+    """Return the visual and collision shapes of a link of URDF or SDF that bound a volume.
 
-
-def _placed(node: Node, read: Callable[[Node], Placed | None], role: str) -> StatedShape | None:
-    placed = read(node)
-    return None if placed is None else StatedShape(placed[0], role, placed[1], place=node.place)
-
-
-def read_shape(
-    node: Node, pose: Pose, kinds: Sequence[str], get: Callable[[Node, str], str], length: float | None = None
-) -> Shape | None:
-    """Return the first shape of an element's `geometry` that bounds a volume, None if there is none.
-
-    kinds: known ones besides meshes; ValueError if it is another, or lacks a size. get: returns the text of an
-    element's property. length: default of a radius or length, if there is one.
+    pose_of: returns the pose of an element, and the angles if stated. kinds: known ones besides meshes. get: returns
+    the text of an element's property. length: default of a radius or length, if there is one.
     """
-    geometry = node.find("geometry")
-    for element in geometry.children if geometry else ():
-        kind = element.tag
-        if kind == "mesh":
-            scale = numbers(get(element, "scale"), 3, (1.0, 1.0, 1.0))
-            return Shape(kind, tuple(scale.tolist()), pose, get(element, "filename") or get(element, "uri"))
-        if kind in FLAT_KINDS:
-            continue
-        if kind not in kinds:
-            raise ValueError(kind)
-        if kind in ("box", "ellipsoid"):
-            sides = numbers(get(element, "size" if kind == "box" else "radii"), 3, (1.0, 1.0, 1.0))
-            return Shape(kind, tuple(sides.tolist()), pose)
-        names = ("radius",) if kind == "sphere" else ("radius", "length")
-        return Shape(kind, tuple(number(get(element, name), length) for name in names), pose)
-    return None
+
+    def read(node: Node, role: str) -> StatedShape | None:
+        pose, angles, *_ = pose_of(node)
+        geometry = node.find("geometry")
+        for element in geometry.children if geometry else ():
+            kind, file = element.tag, ""
+            if kind in FLAT_KINDS:
+                continue
+            if kind == "mesh":
+                size = numbers(get(element, "scale"), 3, (1.0, 1.0, 1.0)).tolist()
+                file = get(element, "filename") or get(element, "uri")
+            elif kind not in kinds:
+                raise ValueError(kind)
+            elif kind in ("box", "ellipsoid"):
+                size = numbers(get(element, "size" if kind == "box" else "radii"), 3, (1.0, 1.0, 1.0)).tolist()
+            else:
+                names = ("radius",) if kind == "sphere" else ("radius", "length")
+                size = [number(get(element, name), length) for name in names]
+            return StatedShape(Shape(kind, tuple(size), pose, file), role, angles, place=node.place)
+        return None
+
+    elements = [(element, role) for role in ("visual", "collision") for element in link.all(role)]
+    shapes = [attempt(findings, element, read, role) for element, role in elements]
+    return tuple(shape for shape in shapes if shape is not None)
 
 
 def _unreadable(node: Node, error: Exception) -> Finding:
