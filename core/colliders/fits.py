@@ -303,7 +303,7 @@ def _polyhedron(shape: Shape, body: ConvexHull) -> tuple[ConvexHull, float]:
     return replace(hull, points=_placed(points, shape)), 0.0 if shape.kind == "box" else BALL_SAG * max(size)
 
 
-def _placed(points: NDArray[np.float64], shape: Shape) -> NDArray[np.float64]:
+def _placed(points: NDArray, shape: Shape) -> NDArray[np.float64]:
     return points @ shape.pose.rotation.T + shape.pose.position
 
 
