@@ -36,8 +36,8 @@ from .formats import FORMATS
 from .model import Effect, Pose, Shape
 from .plausibility import LEAST_MASS, Hull, impossible, spread_directions
 from .primitives import primitive_moments
+from .read.descriptions import Roots
 from .read.meshes import read_mesh
-from .read.paths import Roots
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
 
 BALL = 2000  # points of a ball
