@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Registration of the modules of a subpackage, such as `operators`.
 
-A module has functions `register` and `unregister`, or tables: CLASSES in the order of registration; POINTERS, groups of
-settings by Blender's type and the name of their property; MENUS, Blender's menus with functions that draw in them.
+A module has tables: CLASSES in the order of registration; POINTERS, groups of settings by Blender's type and the name
+of their property; MENUS, Blender's menus with functions that draw in them. The rest is done by functions `register`,
+which follows the tables, and `unregister`, which precedes them.
 """
 
 from collections.abc import Iterable
@@ -32,27 +33,27 @@ def unregister_modules(package: str, names: Iterable[str]) -> None:
 
 
 def _register(module: ModuleType) -> None:
-    if hasattr(module, "register"):
-        module.register()
-        return
     with ExitStack() as undo:
-        for cls in module.CLASSES:
+        for cls in getattr(module, "CLASSES", ()):
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
         for (owner, name), group in getattr(module, "POINTERS", {}).items():
             setattr(owner, name, PointerProperty(name=name.replace("_", " ").title(), type=group))
+            undo.callback(delattr, owner, name)
         for menu, draw in getattr(module, "MENUS", ()):
             menu.append(draw)
+            undo.callback(menu.remove, draw)
+        if hasattr(module, "register"):
+            module.register()
         undo.pop_all()
 
 
 def _unregister(module: ModuleType) -> None:
     if hasattr(module, "unregister"):
         module.unregister()
-        return
     for menu, draw in getattr(module, "MENUS", ()):
         menu.remove(draw)
     for owner, name in getattr(module, "POINTERS", {}):
         delattr(owner, name)
-    for cls in reversed(module.CLASSES):
+    for cls in reversed(getattr(module, "CLASSES", ())):
         bpy.utils.unregister_class(cls)

@@ -4,16 +4,14 @@
 
 # The modules that are registered, in this order.
 MODULES = (
-    *("setup." + name for name in ("presets", "remedies", "node_group", "rigid_bodies", "colliders")),
-    *("imports.import_scan", "imports.import_surfaces"),
-    "assembly",
-    *("measure." + name for name in ("measure_selected", "live", "section", "select_faults", "clear", "copy")),
-    *("measure." + name for name in ("moments", "library", "reference", "fourier")),
-    *("snap." + name for name in ("frames", "empty", "cursor", "orientation", "rigid_body", "sculpt_balance")),
+    *("setup." + name for name in ("presets", "remedies", "rigid_bodies", "colliders")),
+    *("imports", "assembly"),
+    *("measure." + name for name in ("measure_selected", "moments", "select_faults", "copy", "library", "fourier")),
+    *("snap.frames", "snap.sculpt_balance"),
     "statics",
     *("export." + name for name in ("robot", "audit")),
     "rig",
-    *("shape." + name for name in ("match_pose", "find_similar", "find_symmetry", "link_copies")),
+    *("shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",
     ".blender.session.subscriptions",  # is removed first: its last notes need the properties of all others
 )

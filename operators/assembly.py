@@ -24,7 +24,7 @@ from ..core.verdict.sentences import of_severity
 from . import selection
 from .findings import NO_ACTIVE_ASSEMBLY
 from .modal import ModalSteps
-from .snap.cursor import turn_cursor
+from .snap.frames import turn_cursor
 
 if TYPE_CHECKING:
     from ..blender.bodies.assembly.assembly import Assembly, Results
@@ -92,9 +92,7 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
         if failures:
             names = [name for name, _ in failures]
             done.append(reports.phrase("Results not stored on {names}.", names=names))
-        selection.report(self, *done, *reports.first(findings))
-        selection.redraw(context)
-        return {"FINISHED"}
+        return selection.report(self, *done, *reports.first(findings))
 
 
 class OBJECT_OT_body_moments_clear_assembly(Operator):
@@ -116,7 +114,6 @@ def report_cleared(operator: Operator, context: Context, is_cleared: bool) -> se
     texts = ("Removed the results of {count} object", "Removed the results of {count} objects")
     done = reports.phrase(*texts, count=1) if is_cleared else reports.phrase("The selected objects have no results")
     selection.report(operator, done)
-    selection.redraw(context)
     return {"FINISHED"} if is_cleared else {"CANCELLED"}
 
 
@@ -138,8 +135,7 @@ class _SnapToAssembly:
                 raise EditRefusedError(OPEN_OBJECT, subject=part.member.name)
         unit = shortest_decimal(context.scene.unit_settings.scale_length)
         center = (assembly.measurement.mass_properties.center / unit).tolist()
-        selection.report(self, self._place(context, assembly, center))
-        return {"FINISHED"}
+        return selection.report(self, self._place(context, assembly, center))
 
 
 class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
@@ -232,8 +228,7 @@ class OBJECT_OT_body_moments_export_bill(Operator):
         lines = session.bill_csv(assembly.root, assembly.measurement.mass_properties.mass)
         selection.write_file(path, lines)
         texts = ("Wrote the masses of {count} member to “{file}”", "Wrote the masses of {count} members to “{file}”")
-        selection.report(self, reports.phrase(*texts, count=len(lines) - 2, file=path.name))
-        return {"FINISHED"}
+        return selection.report(self, reports.phrase(*texts, count=len(lines) - 2, file=path.name))
 
 
 CLASSES = (

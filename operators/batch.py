@@ -94,14 +94,16 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
 
     from ..command.files import output
     from ..command.measure.run import Run
-    from ..command.options import checks, needs_blender
+    from ..command.options import checks
     from ..command.options.option_types import FORMATS
     from ..command.supervisor import processes
 
-    needs_blender.check(options, options.files)
+    arguments.check_blender(options, options.files)
     _load_settings()
     bpy = sys.modules.get("bpy")
-    checks.check(options, bpy.data.filepath if bpy else None)
+    checks.prepare(options)
+    opened = bpy.data.filepath if bpy else None
+    output.check_targets(options, arguments.files_of_options(options, options.files, opened))
     run = Run(options, memory=processes.memory_share())
     run.measure()
     text = FORMATS[options.format](run.documents)

@@ -11,8 +11,7 @@ from bpy.types import Context, Event
 
 from ..blender.settings.preferences import copy_defaults
 from ..blender.write import reports
-from ..core.verdict.finding import MeasureError
-from .selection import refuse
+from .selection import reporting
 
 # Seconds of work between two of the window's events: the time that the window itself takes, within these limits,
 # to spend half of the time on work if a scene is slow to draw.
@@ -40,21 +39,13 @@ class ModalSteps:
     _returned_at = 0.0  # time at which the last step returned control to the window
 
     def execute(self, context: Context) -> set[str]:
-        return self._reporting(self._run, context, False)
+        return reporting(self, self._run, context, False)
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
-        return self._reporting(self._run, context, context.window is not None)
+        return reporting(self, self._run, context, context.window is not None)
 
     def modal(self, context: Context, event: Event) -> set[str]:
-        return self._reporting(self._advance, context, event)
-
-    def _reporting(self, run: Callable[..., set[str]], *arguments: object) -> set[str]:
-        try:
-            return run(*arguments)
-        except MeasureError as error:
-            return refuse(self, error)
-        except reports.Refused as error:
-            return refuse(self, error.text, **error.values)
+        return reporting(self, self._advance, context, event)
 
     def _run(self, context: Context, in_window: bool) -> set[str]:
         """Run all steps in this call, or start a timer of the window that runs them."""
@@ -120,4 +111,4 @@ class ModalDialog(ModalSteps):
         copy_defaults(context.scene)
         # The redo panel executes this instance again, which must not become modal.
         in_window, self._is_interactive = self._is_interactive, False
-        return self._reporting(self._run, context, in_window)
+        return reporting(self, self._run, context, in_window)

@@ -23,6 +23,8 @@ BALANCED = "Nothing to do: the center of mass is over its target"
 class OnArmature:
     """Base of operators that need an active armature."""
 
+    bl_options = {"REGISTER", "UNDO"}
+
     @classmethod
     def poll(cls, context: Context) -> bool:
         is_armature = context.object is not None and context.object.type == "ARMATURE"
@@ -31,6 +33,8 @@ class OnArmature:
 
 class InPoseMode:
     """Base of operators that need an armature in Pose Mode."""
+
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -43,7 +47,6 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
 
     bl_idname = "object.body_moments_measure_bones"
     bl_label = "Measure Bones"
-    bl_options = {"REGISTER", "UNDO"}
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
@@ -58,9 +61,7 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
         )
         findings = of_severity(rig.measurement.findings, *NOTABLE)
         findings += [reports.failure(name, reason) for name, reason in failures]
-        selection.report(self, done, *reports.first(findings))
-        selection.redraw(context)
-        return {"FINISHED"}
+        return selection.report(self, done, *reports.first(findings))
 
 
 class OBJECT_OT_body_moments_clear_bones(OnArmature, Operator):
@@ -68,7 +69,6 @@ class OBJECT_OT_body_moments_clear_bones(OnArmature, Operator):
 
     bl_idname = "object.body_moments_clear_bones"
     bl_label = "Clear Results of Bones"
-    bl_options = {"REGISTER", "UNDO"}
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
@@ -84,7 +84,6 @@ class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
         "Create a rigid body for the part of each bone, in rest pose, with its exact mass, its origin at its center of "
         "mass and its axes along its principal axes, and a joint at each bone. One created before is replaced"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
@@ -94,9 +93,7 @@ class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
         missing = [part.name for part in rig.parts if part.measurement is None]
         more = [finding(BONE_PARTS_IMPOSSIBLE, count=len(missing), names=missing)] if missing else []
         done = reports.phrase("Rigid bodies created: {count}, joints: {joints}", count=count, joints=joints)
-        selection.report(self, done, *more)
-        selection.redraw(context)
-        return {"FINISHED"}
+        return selection.report(self, done, *more)
 
 
 class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
@@ -108,7 +105,6 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
         "Add an empty that stays at the center of mass of the character in every pose, by constraints to the centers "
         "of the bones' parts. One added before is replaced"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
@@ -116,9 +112,7 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
         with tracking_paused():
             scene.add_center(context, rig)
         text = "Added the center of mass of “{armature}”, which follows its pose"
-        selection.report(self, reports.phrase(text, armature=rig.armature.name))
-        selection.redraw(context)
-        return {"FINISHED"}
+        return selection.report(self, reports.phrase(text, armature=rig.armature.name))
 
 
 class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
@@ -126,7 +120,6 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
 
     bl_idname = "pose.body_moments_show_weight"
     bl_label = "Show Weight"
-    bl_options = {"REGISTER", "UNDO"}
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
@@ -139,9 +132,7 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
         findings = of_severity([found for rig in rigs for found in rig.measurement.findings], *NOTABLE)
         names = ", ".join(armature.name for armature in armatures)
         text = "Showing the weight of {names}" if shown else "Hid the weight of {names}"
-        selection.report(self, reports.phrase(text, names=names), *reports.first(findings))
-        selection.redraw(context)
-        return {"FINISHED"}
+        return selection.report(self, reports.phrase(text, names=names), *reports.first(findings))
 
 
 class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
@@ -149,7 +140,6 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
 
     bl_idname = "pose.body_moments_balance_pose"
     bl_label = "Balance Pose"
-    bl_options = {"REGISTER", "UNDO"}
 
     bone: StringProperty(
         name="Bone",
@@ -174,7 +164,6 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
         values = session.balance_pose(context, context.object, self.bone, margin)
         text = "Moved “{bone}”: the center is {gap:length} from its target, {margin:length} inside the support"
         selection.report(self, reports.phrase(text if values else BALANCED, **values))
-        selection.redraw(context)
         return {"FINISHED" if values else "CANCELLED"}
 
 

@@ -42,11 +42,6 @@ def poll_object_mode(cls: type[Operator], context: Context) -> bool:
     return context.mode == "OBJECT" or reports.unavailable(cls, "Switch to Object Mode")
 
 
-def poll_selection(cls: type[Operator], context: Context) -> bool:
-    """Return whether anything is selected, in any mode; if not, set the reason that the disabled button shows."""
-    return bool(context.view_layer.objects.selected) or reports.unavailable(cls, "Select objects")
-
-
 class InObjectMode:
     """Base of operators that need Object Mode."""
 
@@ -64,17 +59,15 @@ class OnSelection:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return poll_selection(cls, context)
+        return bool(context.view_layer.objects.selected) or reports.unavailable(cls, "Select objects")
 
 
-class OnSelectionInObjectMode:
+class OnSelectionInObjectMode(OnSelection):
     """Base of operators that need selected objects in Object Mode."""
-
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return poll_object_mode(cls, context) and poll_selection(cls, context)
+        return poll_object_mode(cls, context) and super().poll(context)
 
 
 def select_only(context: Context, objects: Collection[Object], active: Object) -> None:
@@ -90,10 +83,14 @@ def redraw(context: Context) -> None:
         area.tag_redraw()
 
 
-def report(operator: Operator, *parts: Finding | str, level: Severity = Severity.NOTE) -> None:
-    """Report all parts in one message; refusals and warnings stay in the panel until the next action."""
+def report(operator: Operator, *parts: Finding | str, level: Severity = Severity.NOTE) -> set[str]:
+    """Report all parts in one message, redraw, and return the result of `execute`.
+
+    Refusals and warnings stay in the panel until the next action.
+    """
     outcome.remember(operator.bl_label, [part for part in parts if isinstance(part, Finding)])
-    reports.report(operator, *parts, level=level)
+    redraw(bpy.context)
+    return reports.report(operator, *parts, level=level)
 
 
 def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: Any) -> set[str]:
@@ -110,14 +107,19 @@ def report_refusals(execute: Callable[[Operator, Context], set[str]]) -> Callabl
 
     @wraps(execute)
     def run(self: Operator, context: Context) -> set[str]:
-        try:
-            return execute(self, context)
-        except MeasureError as error:
-            return refuse(self, error)
-        except reports.Refused as error:
-            return refuse(self, error.text, **error.values)
+        return reporting(self, execute, self, context)
 
     return run
+
+
+def reporting(operator: Operator, run: Callable[..., set[str]], *arguments: object) -> set[str]:
+    """Return the result of a part of an operator; a refusal is reported, and cancels the operator."""
+    try:
+        return run(*arguments)
+    except MeasureError as error:
+        return refuse(operator, error)
+    except reports.Refused as error:
+        return refuse(operator, error.text, **error.values)
 
 
 def summarize(
@@ -130,7 +132,7 @@ def summarize(
     idle: str | None = None,
     nothing: str = "Nothing selected can be measured",
 ) -> set[str]:
-    """Report the run once, and return the result of `execute`.
+    """Report the run once, redraw, and return the result of `execute`.
 
     All failures and warnings stay in the panel until the next action.
 
@@ -145,9 +147,22 @@ def summarize(
     parts = [done] if changed or not failures else []
     if failures:
         parts.append(reports.phrase("{count} of {total} left unchanged:", count=len(failures), total=total))
+    return finish(operator, parts, failures, findings, is_changed=bool(changed))
+
+
+def finish(
+    operator: Operator,
+    texts: Sequence[str],
+    failures: Sequence[Finding],
+    findings: Sequence[Finding | str] = (),
+    level: Severity = Severity.NOTE,
+    is_changed: bool = True,
+) -> set[str]:
+    """Report texts, and the first of the failures and findings, redraw, and return the result of `execute`."""
     outcome.remember(operator.bl_label, [part for part in (*failures, *findings) if isinstance(part, Finding)])
-    reports.report(operator, *parts, *reports.first(failures), *reports.first(findings))
-    return {"FINISHED"} if changed else {"CANCELLED"}
+    redraw(bpy.context)
+    reports.report(operator, *texts, *reports.first(failures), *reports.first(findings), level=level)
+    return {"FINISHED"} if is_changed else {"CANCELLED"}
 
 
 def iterate_objects(

@@ -31,7 +31,6 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
         "Compute whether the selected objects stand on the ground below them, how far the ground can be tilted, and in "
         "which poses they rest. Objects are measured where their results are out of date"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
@@ -48,7 +47,6 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
         falling = [obj.name for obj in objects if stored.stability.is_known(obj) and obj not in standing]
         if falling:
             notes.insert(0, finding(OBJECTS_TIP, count=len(falling), names=falling))
-        selection.redraw(context)
         texts = ("{count} of {total} object stands", "{count} of {total} objects stand")
         done = reports.phrase(*texts, count=len(standing), total=len(known))
         return selection.summarize(self, len(known), len(objects), done, failures, notes)
@@ -63,7 +61,6 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         "Lay the selected objects on the ground in a stable pose, the likeliest or another one. They turn by the "
         "smallest angle about the center of mass, which stays above the same point"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     pose: IntProperty(
         name="Pose",
@@ -119,7 +116,6 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
         "Follow the common center of mass of the selected objects, of a collection, or of the meshes that the selected "
         "armatures deform, over the frame range. Adds an empty with keys, and draws the path"
     )
-    bl_options = {"REGISTER", "UNDO"}
     PROGRESS = "Following the center of mass: {share:percent}. Esc to cancel"
     CANCELED = "Balance Group canceled; nothing was changed"
 
@@ -190,7 +186,6 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
         if group.failure is not None:
             return selection.refuse(self, group.failure)
         empty = group.store(context)
-        selection.redraw(context)
         texts = [
             reports.phrase(
                 "“{empty}” has {count} key of the center of mass; objects: {objects_count}",
@@ -204,8 +199,7 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
             inside = sum(support is not None and support.stands for support in group.supports)
             text = "It is over the support polygon at {count} of {total} frames"
             texts.append(reports.phrase(text, count=inside, total=len(group.supports)))
-        selection.report(self, *texts)
-        return {"FINISHED"}
+        return selection.report(self, *texts)
 
 
 def _scene_frames(scene: Scene) -> range:
@@ -218,7 +212,6 @@ def _scene_frames(scene: Scene) -> range:
 class KeyedFlight(ModalDialog, OnArmature):
     """Base of operators that key a character between take-off and landing."""
 
-    bl_options = {"REGISTER", "UNDO"}
     PROGRESS = "Following the character: {share:percent}. Esc to cancel"
     CANCELED = "Following canceled; nothing was changed"
     TURNS = False
@@ -263,7 +256,6 @@ class KeyedFlight(ModalDialog, OnArmature):
         if followed.failure is not None:
             return selection.refuse(self, followed.failure)
         off = followed.key(context, self.TURNS)
-        selection.redraw(context)
         values = {"name": followed.armature.name, "start": followed.first, "end": followed.last}
         texts = [reports.phrase(self.DONE, **values)]
         if followed.landing != followed.last:
@@ -273,8 +265,7 @@ class KeyedFlight(ModalDialog, OnArmature):
         if off > 0.0:
             text = "The center is off by up to {off:length}: constraints hold parts in the world"
             texts.append(reports.phrase(text, off=off))
-        selection.report(self, *texts, level=Severity.WARNING if off > 0.0 else Severity.NOTE)
-        return {"FINISHED"}
+        return selection.report(self, *texts, level=Severity.WARNING if off > 0.0 else Severity.NOTE)
 
 
 class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
@@ -323,7 +314,6 @@ class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
 class KeyedPath(ModalSteps, OnArmature):
     """Base of operators that key the path of a character's center on an empty."""
 
-    bl_options = {"REGISTER", "UNDO"}
     PROGRESS, CANCELED = KeyedFlight.PROGRESS, KeyedFlight.CANCELED
     CURVES = False
 
@@ -338,10 +328,8 @@ class KeyedPath(ModalSteps, OnArmature):
         if followed.failure is not None:
             return selection.refuse(self, followed.failure)
         empty, spans = followed.bake(context, self.CURVES)
-        selection.redraw(context)
         text = "Keys of the center of mass on “{empty}”: {count}. Spans with momentum from nothing: {spans}"
-        selection.report(self, reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans))
-        return {"FINISHED"}
+        return selection.report(self, reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans))
 
 
 class POSE_OT_body_moments_bake_curves(KeyedPath, Operator):

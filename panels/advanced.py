@@ -14,20 +14,10 @@ from ..blender.session.displayed import displayed
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings.preferences import shows_advanced
 from ..blender.write import properties
-from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
 from ..core.lazy import loaded_module
 from . import rows
 from .places import in_both_places
-
-BOUNDS = (("Rounding, at Most", None), ("Float32 Coordinates, at Most", "input"))
-ESTIMATED = "Quadrature and Rounding, Estimated"
-BOUND_LABELS = {
-    "volume": ("Volume", "volume"),
-    "area": ("Area", "area"),
-    "center_of_mass": ("Center", "length"),
-    "inertia": ("Inertia", "inertia"),
-}
 
 
 class AdvancedPanel:
@@ -41,46 +31,36 @@ class AdvancedPanel:
 
     def draw(self, context: Context) -> None:
         layout, obj, scene = self.layout, context.object, context.scene
-        units = Units.from_settings(scene.unit_settings)
         shown = displayed(obj, scene)
         if shown is not None and shown.live is None:
             numbers = shown.in_frame(scene.body_moments.frame)
-            _bounds(layout, obj, units, numbers)
-            _display_mesh(layout, obj, units, numbers)
-        rows.button(layout, context, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
+            _bounds(layout, obj, numbers)
+            _display_mesh(layout, obj, numbers)
+        rows.button(layout, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
 
 
-def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: PlainBody) -> None:
+def _display_mesh(layout: UILayout, obj: Object, shown: PlainBody) -> None:
     display = properties.optional(obj, "body_display_volume")
     if display is None:
         return
     body = rows.fold(layout, "body_moments_display_mesh", "Display Mesh")
     if body is not None:
         column = body.column(align=True)
-        rows.values(column, units, ("Volume", "Difference"), "volume", (display, display - shown.volume))
+        rows.values(column, ("Volume", "Difference"), "volume", (display, display - shown.volume))
         rows.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))
 
 
-def _bounds(layout: UILayout, obj: Object, units: Units, shown: PlainBody) -> None:
+def _bounds(layout: UILayout, obj: Object, shown: PlainBody) -> None:
     body = rows.fold(layout, "body_moments_bounds", "Error Bounds")
     if body is None:
         return
-    sizes = {
-        "volume": shown.volume,
-        "area": shown.area,
-        "center_of_mass": max(map(abs, shown.center)),
-        "inertia": max(shown.moments),
-    }
-    for heading, bound in BOUNDS:
-        column = body.column(align=True)
-        column.label(text=ESTIMATED if bound is None and properties.is_estimated(obj) else heading)
-        values = shown.error_bound if bound is None else shown.error_bound[bound]
-        entries = [
-            (label, quantity, values[name], sizes[name])
-            for name, (label, quantity) in BOUND_LABELS.items()
-            if name not in ("volume", "area") or sizes[name]  # a wire has neither, a grid of densities no surface
-        ]
-        rows.bounds(column, units, entries)
+    rounding = "Quadrature and Rounding, Estimated" if properties.is_estimated(obj) else "Rounding, at Most"
+    sources = ((rounding, shown.error_bound), ("Float32 Coordinates, at Most", shown.error_bound["input"]))
+    measures = ("Volume", "volume", "volume", shown.volume), ("Area", "area", "area", shown.area)
+    entries = [entry for entry in measures if entry[-1]]  # a wire has neither, a grid of densities no surface
+    entries.append(("Center", "length", "center_of_mass", max(map(abs, shown.center))))
+    entries.append(("Inertia", "inertia", "inertia", max(shown.moments)))
+    rows.error_bounds(body, sources, entries)
 
 
 class MomentsPanel:
@@ -95,23 +75,23 @@ class MomentsPanel:
         rows.setting(column, settings, "moments_of")
         rows.setting(column, settings, "moments_about")
         rows.setting(column, settings, "frame", expand=True)
-        rows.button(layout, context, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
+        rows.button(layout, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
         table = loaded_module(stored, "moments")
         computed = None if table is None else table.computed_moments(obj)
         if computed is None:
             return
-        rows.stale_row(layout, context, stale_reason(obj, context.scene, table.stamp_of))
+        rows.stale_row(layout, stale_reason(obj, context.scene, table.stamp_of))
         degrees, missing = table.current_numbers(obj, context.scene)
         if missing is not None:
-            rows.message(layout, context, missing)
+            rows.message(layout, missing)
         for degree in degrees:
             column = layout.column(align=True)
             rows.filled(column, "Order {:d} ({:s})" if degree.unit else "Order {:d}", degree.degree, degree.unit)
             rows.table(column, [(*row, degree.unit) for row in degree.rows])
         if computed.order > table.MAX_SHOWN_ORDER:
             text, first = "Orders {first} to {last} are only in the copy.", table.MAX_SHOWN_ORDER + 1
-            rows.remark(layout, context, text, first=first, last=computed.order)
-        rows.button(layout, context, "object.body_moments_copy", "COPYDOWN").what = "MOMENTS"
+            rows.remark(layout, text, first=first, last=computed.order)
+        rows.button(layout, "object.body_moments_copy", "COPYDOWN").what = "MOMENTS"
 
 
 CLASSES = (

@@ -18,12 +18,11 @@ from ..blender.settings.assembly import Root, active_assembly, settings_of
 from ..blender.settings.given import shows_collection
 from ..blender.write import properties
 from ..blender.write.translations import localized
-from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
 from ..core.verdict.sentences import Group, severity
 from . import remedies, rows
 from .density import given_rows
-from .places import in_both_places
+from .places import AmongProperties, in_both_places
 
 MEMBER_ICONS = {
     "COLLECTION": "OUTLINER_COLLECTION",
@@ -57,7 +56,7 @@ class BODY_MOMENTS_UL_assembly(UIList):
         numbers.alignment = "RIGHT"
         findings = properties.findings_in(row.findings)
         if row.mass > 0.0:
-            numbers.label(text=Units.from_settings(context.scene.unit_settings).text("mass", row.mass), translate=False)
+            numbers.label(text=rows.scene_units().text("mass", row.mass), translate=False)
             if row.is_counted and row.depth:
                 bar = numbers.row(align=True)
                 bar.ui_units_x = BAR_WIDTH
@@ -94,29 +93,26 @@ def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -
     stored = properties.stored(root)
     if stored is None or properties.method_text(root) != "assembly":
         return
-    units = Units.from_settings(context.scene.unit_settings)
     findings = properties.findings(root)
-    rows.stale_row(layout, context, stale_reason(root, context.scene))
+    rows.stale_row(layout, stale_reason(root, context.scene))
     remedies.lines(layout, context, [Group(found) for found in findings], can_accept=False)
-    rows.quantities(layout, units, [("Mass", "mass", stored.mass)])
-    _tree(layout, context, settings)
-    _numbers(layout, units, stored, isinstance(root, Collection))
-    remedies.notes(layout, context, "body_moments_assembly_notes", findings)
+    rows.quantities(layout, [("Mass", "mass", stored.mass)])
+    _tree(layout, settings)
+    _numbers(layout, stored, isinstance(root, Collection))
+    remedies.notes(layout, "body_moments_assembly_notes", findings)
     row = layout.row(align=True)
     rows.button(
-        row, context, "object.body_moments_export_bill", "EXPORT", text="Bill of Masses...", short="Masses..."
+        row, "object.body_moments_export_bill", "EXPORT", text="Bill of Masses...", short="Masses..."
     ).target = target
     row.operator("object.body_moments_clear_assembly", text="", icon="TRASH").target = target
     column = layout.column(align=True)
-    rows.button(
-        column, context, "view3d.body_moments_cursor_to_assembly", "PIVOT_CURSOR", short="Cursor"
-    ).target = target
-    rows.button(column, context, "object.body_moments_assembly_empty", "OUTLINER_OB_EMPTY").target = target
+    rows.button(column, "view3d.body_moments_cursor_to_assembly", "PIVOT_CURSOR", short="Cursor").target = target
+    rows.button(column, "object.body_moments_assembly_empty", "OUTLINER_OB_EMPTY").target = target
     text = "Instance Offset to Center of Mass" if isinstance(root, Collection) else "Origin to Center of Mass"
-    rows.button(column, context, "object.body_moments_assembly_origin", "OBJECT_ORIGIN", text=text).target = target
+    rows.button(column, "object.body_moments_assembly_origin", "OBJECT_ORIGIN", text=text).target = target
 
 
-def _tree(layout: UILayout, context: Context, settings: PropertyGroup) -> None:
+def _tree(layout: UILayout, settings: PropertyGroup) -> None:
     """Draw the list of members, and the findings about the highlighted member."""
     layout.template_list(
         BODY_MOMENTS_UL_assembly.__name__,
@@ -129,16 +125,16 @@ def _tree(layout: UILayout, context: Context, settings: PropertyGroup) -> None:
     )
     if 0 <= settings.active_row < len(settings.rows):
         for found in properties.findings_in(settings.rows[settings.active_row].findings):
-            rows.message(layout, context, found)
+            rows.message(layout, found)
 
 
-def _numbers(layout: UILayout, units: Units, stored: PlainBody, in_world: bool) -> None:
+def _numbers(layout: UILayout, stored: PlainBody, in_world: bool) -> None:
     column = layout.column(align=True)
     entries = [("Volume", "volume", stored.volume), ("Area", "area", stored.area)]
-    rows.quantities(column, units, [entry for entry in entries if entry[-1]])
+    rows.quantities(column, [entry for entry in entries if entry[-1]])
     heading = "Center of Mass (World)" if in_world else "Center of Mass (Object)"
-    rows.center(layout, units, heading, stored)
-    rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
+    rows.center(layout, heading, stored)
+    rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
 
 
 class AssemblyPanel:
@@ -161,15 +157,10 @@ class AssemblyPanel:
         draw_assembly(self.layout, context, root, "OF_OBJECT")
 
 
-class COLLECTION_PT_body_moments(Panel):
+class COLLECTION_PT_body_moments(AmongProperties, Panel):
     """The active collection as one body"""
 
-    bl_idname = "COLLECTION_PT_body_moments"
-    bl_label = "Body Moments"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
     bl_context = "collection"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:

@@ -18,7 +18,6 @@ from ..blender.session.tracking import armatures
 from ..blender.settings.preferences import draw_links
 from ..blender.write import properties
 from ..blender.write.translations import localized
-from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
 from ..core.verdict.method import Source
 from ..core.verdict.sentences import METHODS, Group, method_key
@@ -64,24 +63,24 @@ def _one_object(layout: UILayout, context: Context, shown: Displayed | None) -> 
     length = properties.optional(obj, "body_length")
     numbers = None if shown is None else shown.in_frame(frame)
     is_rig = obj.type == "ARMATURE" and shown is not None and not shown.is_posed
-    _answer(layout, context, numbers, (RESTING_HEADINGS if is_rig else CENTER_HEADINGS)[frame], length)
+    _answer(layout, numbers, (RESTING_HEADINGS if is_rig else CENTER_HEADINGS)[frame], length)
     material_row(layout, context, obj)
     _buttons(layout, context)
     now = current_numbers(obj)
     if now is not None and now.refusal is not None and outcome.last() is None:
-        rows.message(layout, context, now.refusal)
+        rows.message(layout, now.refusal)
     if shown is None or numbers is None:
         return
     if shown.live is not None and shown.reason is None:
-        rows.remark(layout, context, LIVE[shown.lag], icon="REC", milliseconds=1e3 * shown.live.seconds)
-    rows.stale_row(layout, context, shown.reason)
+        rows.remark(layout, LIVE[shown.lag], icon="REC", milliseconds=1e3 * shown.live.seconds)
+    rows.stale_row(layout, shown.reason)
     remedies.unit_question(layout, context, shown.world)
     remedies.lines(layout, context, [Group(found) for found in shown.findings])
     _details(layout, context, shown, numbers)
-    row = layout.column(align=True) if rows.is_narrow(context) else layout.row(align=True)
+    row = layout.column(align=True) if rows.is_narrow() else layout.row(align=True)
     row.menu("VIEW3D_MT_body_moments_copy", icon="COPYDOWN")
-    rows.button(row, context, "object.body_moments_clear", "TRASH")
-    remedies.notes(layout, context, "body_moments_notes", shown.findings)
+    rows.button(row, "object.body_moments_clear", "TRASH")
+    remedies.notes(layout, "body_moments_notes", shown.findings)
 
 
 def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
@@ -94,15 +93,15 @@ def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
     _verdict(layout, text, "GROUP", shown.trust)
     posed = displayed(context.object, context.scene) if armatures.stands_for_meshes(context.object) else None
     numbers = shown.numbers if posed is None else posed.world
-    _answer(layout, context, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume if shown.count else None)
+    _answer(layout, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume if shown.count else None)
     material_row(layout, context, context.object)
     _buttons(layout, context)
     if posed is not None and properties.optional(context.object, "body_mass") is not None:
-        rows.remark(layout, context, "The mass is that of the rest pose. Clear Bones to take that of the posed skin")
+        rows.remark(layout, "The mass is that of the rest pose. Clear Bones to take that of the posed skin")
     unmeasured = shown.missing if shown.count else ()  # of none the verdict says it
     for names, text in ((unmeasured, "Not measured: {objects}"), (shown.stale, "Out of date: {objects}")):
         if names:
-            rows.remark(layout, context, text, icon="FILE_REFRESH", objects=names)
+            rows.remark(layout, text, icon="FILE_REFRESH", objects=names)
     remedies.lines(layout, context, [*(Group(found) for found in shown.findings), *shown.groups])
 
 
@@ -118,7 +117,6 @@ def _verdict(layout: UILayout, text: str, icon: str, trust: Trust | None) -> Non
 
 def _answer(
     layout: UILayout,
-    context: Context,
     numbers: PlainBody | None,
     heading: str,
     length: float | None = None,
@@ -128,7 +126,7 @@ def _answer(
 
     volume: of several objects, which is known if they have no mass.
     """
-    units, column = Units.from_settings(context.scene.unit_settings), layout.column(align=True)
+    column = layout.column(align=True)
     if numbers is None:
         rows.table(column, [("Mass", "–", "", ""), ("Volume", "–", "", "")])
         column = layout.column(align=True)
@@ -136,39 +134,37 @@ def _answer(
         rows.table(column, [(label, "–", "", "") for label in rows.AXIS_LABELS])
         return
     size = ("Volume", "volume", numbers.volume if volume is None else volume)
-    rows.quantities(
-        column, units, [("Mass", "mass", numbers.mass), size if length is None else ("Length", "length", length)]
-    )
-    rows.center(layout, units, heading, numbers)
+    rows.quantities(column, [("Mass", "mass", numbers.mass), size if length is None else ("Length", "length", length)])
+    rows.center(layout, heading, numbers)
 
 
 def _buttons(layout: UILayout, context: Context) -> None:
-    narrow = rows.is_narrow(context)
+    narrow = rows.is_narrow()
     buttons = layout.column(align=True) if narrow else layout.row(align=True)
     buttons.scale_y = 1.4
     subjects = [obj for obj in armatures.subjects(context.selected_objects) if measurable(obj)]
     text = "Measure" if subjects == [context.object] or not subjects else "Measure {:s}"
     name = subjects[0].name if len(subjects) == 1 else localized("{:d} Objects").format(len(subjects))
     measure = {"text": localized(text).format(name), "translate": False}
-    rows.button(buttons, context, "object.body_moments_measure", "PHYSICS", **measure)
+    rows.button(buttons, "object.body_moments_measure", "PHYSICS", **measure)
     row = buttons.row(align=True)
     followed = any(is_live(subject) for subject in armatures.subjects([context.object]))
     short = {"text": ""} if text != "Measure" else {}  # the longer text needs the room
-    rows.button(row, context, "object.body_moments_live", "REC", depress=followed, **short)
+    rows.button(row, "object.body_moments_live", "REC", depress=followed, **short)
     row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
 
 
 def _details(layout: UILayout, context: Context, shown: Displayed, numbers: PlainBody) -> None:
     """Draw area, density and method; an unknown method, of another version of the add-on, by its stored text."""
-    obj, units = context.object, Units.from_settings(context.scene.unit_settings)
+    obj = context.object
     column = layout.column(align=True)
     if numbers.area:  # neither a wire nor a grid of densities has a surface
-        rows.quantities(column, units, [("Area", "area", numbers.area)])
+        rows.quantities(column, [("Area", "area", numbers.area)])
     if properties.optional(obj, "body_length") is None:
-        rows.quantities(column, units, [("Density", "density", numbers.density)])
+        rows.quantities(column, [("Density", "density", numbers.density)])
     source = properties.density_from(obj)
     if source:
-        rows.remark(column, context, "Mean density, from {cause}", icon="BLANK1", cause=source)
+        rows.remark(column, "Mean density, from {cause}", icon="BLANK1", cause=source)
     key = method_key(shown.method, any(found.code == WALL_MEASURED for found in shown.findings))
     origin = Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
     name = METHODS[key][0] if key in METHODS else properties.method_text(obj).title()
@@ -197,19 +193,19 @@ class ApplyPanel:
     def draw(self, context: Context) -> None:
         layout, obj = self.layout, context.object
         column = layout.column(align=True)
-        rows.button(column, context, "object.body_moments_origin_to_center", "OBJECT_ORIGIN")
-        rows.button(column, context, "object.body_moments_axes_to_principal", "EMPTY_AXIS")
-        rows.button(column, context, "object.body_moments_align_to_world", "ORIENTATION_GLOBAL")
+        rows.button(column, "object.body_moments_origin_to_center", "OBJECT_ORIGIN")
+        rows.button(column, "object.body_moments_axes_to_principal", "EMPTY_AXIS")
+        rows.button(column, "object.body_moments_align_to_world", "ORIENTATION_GLOBAL")
         column = layout.column(align=True)
-        rows.button(column, context, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY")
-        rows.button(column, context, "view3d.body_moments_cursor_to_center", "PIVOT_CURSOR")
-        rows.button(column, context, "object.body_moments_create_orientation", "ORIENTATION_LOCAL")
-        rows.button(column, context, "object.body_moments_rigid_bodies", "RIGID_BODY")
-        button = rows.button(column, context, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
+        rows.button(column, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY")
+        rows.button(column, "view3d.body_moments_cursor_to_center", "PIVOT_CURSOR")
+        rows.button(column, "object.body_moments_create_orientation", "ORIENTATION_LOCAL")
+        rows.button(column, "object.body_moments_rigid_bodies", "RIGID_BODY")
+        button = rows.button(column, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
         button.add = not obj.rigid_body
-        rows.button(layout, context, "object.body_moments_add_nodes", "GEOMETRY_NODES")
+        rows.button(layout, "object.body_moments_add_nodes", "GEOMETRY_NODES")
         if context.mode == "EDIT_MESH":
-            rows.button(layout, context, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
+            rows.button(layout, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 
 
 VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(BodyPanel, shown_for=lambda obj: True)

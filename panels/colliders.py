@@ -12,7 +12,6 @@ from ..blender.read.visibility import measurable
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_colliders
 from ..blender.settings.given import COLLIDER, COLLIDERS
-from ..blender.write.units import Units
 from . import rows
 from .places import in_both_places
 
@@ -37,23 +36,22 @@ class CollidersPanel:
         stored = group if hasattr(group, "keys") and KEYS.issubset(group.keys()) else None
         row = layout.row(align=True)
         text = {} if stored is None else {"text": "Renew Colliders"}
-        make = rows.button(row, context, "object.body_moments_make_colliders", "MESH_ICOSPHERE", **text)
+        make = rows.button(row, "object.body_moments_make_colliders", "MESH_ICOSPHERE", **text)
         if stored is None:
-            rows.remark(layout, context, "Engines take mass, center and inertia from colliders.")
+            rows.remark(layout, "Engines take mass, center and inertia from colliders.")
             return
         row.operator("object.body_moments_remove_colliders", text="", icon="X")
         make.shape, make.engine, make.correct = (str(stored[name]).upper() for name in ("shape", "engine", "correct"))
-        rows.stale_row(layout, context, stale_reason(body, context.scene, of_colliders))
-        units = Units.from_settings(context.scene.unit_settings)
+        rows.stale_row(layout, stale_reason(body, context.scene, of_colliders))
         column = layout.column(align=True)
         rows.filled(column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"])
         size = max(body.dimensions) * context.scene.unit_settings.scale_length
         shift = dist(stored["center_shift"], (0.0, 0.0, 0.0))
         changes = abs(stored.get("mass_ratio", 1.0) - 1.0), stored.get("inertia_change", 0.0), shift / (size or 1.0)
         if max(changes) > SLIGHT:
-            rows.remark(column, context, "An engine would simulate another body.", icon="ERROR")
+            rows.remark(column, "An engine would simulate another body.", icon="ERROR")
         else:
-            rows.remark(column, context, "An engine simulates the body within 1%.", icon="CHECKMARK")
+            rows.remark(column, "An engine simulates the body within 1%.", icon="CHECKMARK")
         rows.title(layout, "Of the Object's")
         labels = ("Volume", "Mass", "Moment 1", "Moment 2", "Moment 3")
         moments = stored.get("moment_ratios", (None,) * 3)
@@ -66,7 +64,7 @@ class CollidersPanel:
         column = layout.column(align=True)
         lengths = shift, *(stored[name] for name in ("outward", "inward", "distance_bound"))
         rows.values(
-            column, units, ("Center", "Outward", "Inward", "Uncertain by"), "length", lengths, size
+            column, ("Center", "Outward", "Inward", "Uncertain by"), "length", lengths, size
         )  # rounding is shown as 0
         turn = degrees(stored["axes_turn"])
         rows.table(column, [("Axes", "{:.3f}°".format(turn), repr(turn), "")])

@@ -8,8 +8,7 @@ settings of its own. An empty may stand for a point mass.
 
 from __future__ import annotations
 
-import bpy
-from bpy.types import Context, Object, PropertyGroup, Scene, UILayout
+from bpy.types import Context, Object, PropertyGroup, UILayout
 
 from ..blender.read.visibility import GEOMETRY_TYPES
 from ..blender.session import stored
@@ -17,7 +16,6 @@ from ..blender.settings.given import shows_collection
 from ..blender.settings.preferences import default_material, shows_advanced
 from ..blender.settings.properties import density_field_name
 from ..blender.write.translations import CONTEXT
-from ..blender.write.units import Units
 from ..core.lazy import loaded_module
 from . import material_menus as materials
 from . import rows
@@ -72,11 +70,10 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
     if obj.override_library is not None:
         rows.remark(
             layout,
-            context,
             "Library override: settings and results are lost on saving. Make it local.",
             icon="ERROR",
         )
-    if obj.type == "VOLUME" and _grid_settings(layout, context, obj):
+    if obj.type == "VOLUME" and _grid_settings(layout, obj):
         return
     column = layout.column()
     column.use_property_split = True
@@ -94,7 +91,7 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
     if settings.kind == "SHELL":
         rows.setting(column, settings, "wall")
         rows.setting(column, settings, "thickness")
-        _max_thickness(column, context, obj)
+        _max_thickness(column, obj)
     elif settings.kind == "SOLID":
         rows.setting(column, settings, "overlap")
     rows.setting(column, settings, "mass_from", expand=True)
@@ -121,7 +118,7 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
         _uniform_density(column, context, settings, "Material")
 
 
-def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
+def _max_thickness(layout: UILayout, obj: Object) -> None:
     """Draw the largest thickness of the wall, once it is known."""
     sliders = loaded_module(stored, "sliders")
     limit = None if sliders is None else sliders.max_thickness(obj)
@@ -131,20 +128,20 @@ def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
     row = layout.row()
     row.alert = folds
     if folds:
-        rows.remark(row, context, "Folds over from {length:length}", icon="ERROR", length=limit)
+        rows.remark(row, "Folds over from {length:length}", icon="ERROR", length=limit)
     else:
-        rows.remark(row, context, "Largest wall: {length:length}", length=limit)
+        rows.remark(row, "Largest wall: {length:length}", length=limit)
 
 
 def _materials(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
     column = layout.column(align=True)
-    rows.filled(column, "Densities ({:s})", Units.from_settings(context.scene.unit_settings).unit("density", 0.0)[1])
+    rows.filled(column, "Densities ({:s})", rows.scene_units().unit("density", 0.0)[1])
     shown = {slot.material: None for slot in obj.material_slots if slot.material}
     for material in shown:
         materials.density_row(column, context.scene, material, material.name)
     if not shown:
-        rows.remark(column, context, "No material slots")
+        rows.remark(column, "No material slots")
     column = layout.column()
     column.use_property_split = True
     _uniform_density(column, context, settings, "Others")
@@ -152,7 +149,7 @@ def _materials(layout: UILayout, context: Context, obj: Object) -> None:
 
 def _labeled_row(column: UILayout, label: str) -> UILayout:
     """Return a row beside a label, as Blender aligns properties, or below it in a narrow panel."""
-    if rows.is_narrow(bpy.context):
+    if rows.is_narrow():
         rows.title(column, label)
         return column.row(align=True)
     split = column.row(align=True).split(factor=0.4, align=True)
@@ -170,18 +167,12 @@ def _uniform_density(column: UILayout, context: Context, settings, heading: str)
 
 def _material(column: UILayout, context: Context, settings, heading: str) -> None:
     row = _labeled_row(column, heading)
-    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or _unset_material(settings, context.scene))
+    default = "" if settings.is_property_set("density") else default_material(context.scene)
+    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or default or "Custom")
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
 
 
-def _unset_material(settings, scene: Scene) -> str:
-    """Return the name shown in place of a material if none was chosen from the table."""
-    if settings.is_property_set("density"):
-        return "Custom"
-    return default_material(scene) or "Custom"
-
-
-def _grid_settings(layout: UILayout, context: Context, obj: Object) -> bool:
+def _grid_settings(layout: UILayout, obj: Object) -> bool:
     """Draw the settings of an object's grid, and return whether the mass comes from the grid, not from a material."""
     settings = obj.body_moments
     column = layout.column()
@@ -203,7 +194,7 @@ def _grid_settings(layout: UILayout, context: Context, obj: Object) -> bool:
         rows.setting(column, settings, "value_density", text="Value 1 (kg/m³)")
     else:
         rows.setting(column, settings, "transfer_table", text="Table")
-        rows.sentence(layout.column(), context, settings.transfer_table.replace(", ", " · "))
+        rows.sentence(layout.column(), settings.transfer_table.replace(", ", " · "))
     if settings.mass_from == "MASS":
         rows.setting(column, settings, "mass", text="Mass (kg)")
     return True

@@ -8,7 +8,6 @@ from bpy.types import Context
 
 from ..blender.session import stored
 from ..blender.session.displayed import displayed
-from ..blender.write.units import Units
 from ..core.verdict.finding import Finding
 from . import rows
 from .places import in_both_places
@@ -32,14 +31,13 @@ class InertiaPanel:
 
     def draw(self, context: Context) -> None:
         layout, scene = self.layout, context.scene
-        units = Units.from_settings(scene.unit_settings)
         current = displayed(context.object, scene)
         if current is None:
             return
         shown = current.in_frame(scene.body_moments.frame)
         layout.row().prop(scene.body_moments, "frame", expand=True)
         moments = shown.moments
-        rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", moments)
+        rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", moments)
         column = layout.column(align=True)
         rows.heading(column, "Principal Axes", "", shown.axes)
         for label, axis in zip(rows.PRINCIPAL_LABELS, shown.axes):
@@ -48,13 +46,11 @@ class InertiaPanel:
         equal = [b - a <= ERROR_OF_A_DIFFERENCE * error for a, b in zip(moments, moments[1:])]
         text = EQUAL_MOMENTS.get(tuple(equal))
         if text:
-            rows.remark(column, context, text)
-        rows.group(layout, units, "Radii of Gyration", rows.PRINCIPAL_LABELS, "length", shown.gyration)
+            rows.remark(column, text)
+        rows.group(layout, "Radii of Gyration", rows.PRINCIPAL_LABELS, "length", shown.gyration)
         body = rows.fold(layout, "body_moments_tensor", "Inertia Tensor", closed=False)
         if body is not None:
-            rows.group(
-                body, units, "About the center of mass, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", shown.inertia
-            )
+            rows.group(body, "About the center of mass, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", shown.inertia)
 
 
 class ReferencePanel:
@@ -72,31 +68,28 @@ class ReferencePanel:
         elif settings.about == "AXIS":
             rows.setting(column, settings, "first")
             rows.setting(column, settings, "second")
-            rows.button(
-                layout, context, "object.body_moments_axis_from_selection", "EYEDROPPER", short="From Selection"
-            )
+            rows.button(layout, "object.body_moments_axis_from_selection", "EYEDROPPER", short="From Selection")
         result = stored.reference.referred(context.object, scene) if "body_mass" in context.object else None
         if result is None:
             return
         if isinstance(result, Finding):
-            rows.message(layout, context, result)
+            rows.message(layout, result)
             return
-        units = Units.from_settings(scene.unit_settings)
         if settings.about == "AXIS":
             column = layout.column(align=True)
-            rows.quantities(column, units, [("About Axis", "inertia", result.about_z)])
+            rows.quantities(column, [("About Axis", "inertia", result.about_z)])
             distances = result.radius_about_z, result.distance_from_z
-            rows.values(column, units, ("Radius of Gyration", "Distance of Center"), "length", distances)
+            rows.values(column, ("Radius of Gyration", "Distance of Center"), "length", distances)
         center, reach = result.center, max(map(abs, result.center))
-        rows.group(layout, units, "Center of Mass from There", rows.AXIS_LABELS, "length", center, reach)
-        rows.group(layout, units, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", result.inertia)
+        rows.group(layout, "Center of Mass from There", rows.AXIS_LABELS, "length", center, reach)
+        rows.group(layout, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", result.inertia)
         sources = ("Rounding, at Most", result.rounding_error), ("Float32, at Most", result.input_error)
         size = max(map(abs, result.inertia))
         bounds = [(label, "inertia", error["inertia"], size) for label, error in sources]
-        rows.bounds(layout.column(align=True), units, bounds)
+        rows.bounds(layout.column(align=True), bounds)
         row = layout.row(align=True)
-        rows.button(row, context, "object.body_moments_store_reference", "FILE_TICK", short="Store")
-        rows.button(row, context, "object.body_moments_copy", "COPYDOWN").what = "REFERENCE"
+        rows.button(row, "object.body_moments_store_reference", "FILE_TICK", short="Store")
+        rows.button(row, "object.body_moments_copy", "COPYDOWN").what = "REFERENCE"
 
 
 CLASSES = (

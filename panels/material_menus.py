@@ -11,7 +11,6 @@ from bl_ui.utils import PresetPanel
 from bpy.types import Context, Material, Menu, Panel, Scene, UILayout
 
 from ..blender.settings.properties import density_field_name
-from ..blender.write.units import Units
 from ..core.density.materials import CATEGORIES, FILAMENT, MATERIALS
 from ..operators.setup.presets import (
     PRESET_FOLDER,
@@ -20,6 +19,7 @@ from ..operators.setup.presets import (
     OBJECT_OT_body_moments_set_material,
 )
 from . import rows
+from .places import AmongProperties
 
 
 class OBJECT_MT_body_moments_materials(Menu):
@@ -76,7 +76,7 @@ def _draw_category(self: Menu, context: Context) -> None:
 
 
 def _entries(layout: UILayout, context: Context, category: str) -> None:
-    units = Units.from_settings(context.scene.unit_settings)
+    units = rows.scene_units()
     for material in MATERIALS:
         if material.category == category:
             text = "{:s}  ({:s})".format(material.name, units.text("density", material.density))
@@ -118,15 +118,10 @@ class OBJECT_PT_body_moments_presets(PresetPanel, Panel):
         row.operator(self.preset_add_operator, text="", icon="ADD").name = manager.preset_name
 
 
-class MATERIAL_PT_body_moments(Panel):
+class MATERIAL_PT_body_moments(AmongProperties, Panel):
     """A material's density, for objects that take theirs from their materials"""
 
-    bl_idname = "MATERIAL_PT_body_moments"
-    bl_label = "Body Moments"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
     bl_context = "material"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -142,7 +137,7 @@ class MATERIAL_PT_body_moments(Panel):
         if material.body_moments.material:
             column.label(text=material.body_moments.material, icon="CHECKMARK", translate=False)
         elif not material.body_moments.density:
-            rows.remark(column, context, "None: the object's density is used")
+            rows.remark(column, "None: the object's density is used")
 
 
 CLASSES = (

@@ -177,46 +177,28 @@ def _help_entry(self: Menu, _context: Context) -> None:
     self.layout.operator("wm.url_open", text="Body Moments Manual", icon="HELP").url = address("index.html")
 
 
-def register_manual() -> None:
+MENUS = (
+    (bpy.types.VIEW3D_MT_object, _object_menu),
+    (bpy.types.VIEW3D_MT_object_context_menu, _entries(MEASURE, ORIGIN)),
+    (bpy.types.VIEW3D_MT_transform_object, _entries(ALIGN, AXES)),
+    (bpy.types.VIEW3D_MT_snap, _entries(CURSOR)),
+    (bpy.types.VIEW3D_MT_snap_pie, _snap_pie),
+    (bpy.types.VIEW3D_MT_object_rigid_body, _entries(RIGID_BODY)),
+    (bpy.types.VIEW3D_MT_empty_add, _entries(EMPTY)),
+    (bpy.types.PHYSICS_PT_rigid_body, _rigid_body_panel),
+)
+CLASSES = (VIEW3D_MT_body_moments_shape, VIEW3D_MT_body_moments_advanced, VIEW3D_MT_body_moments)
+
+
+def register() -> None:
     """Add the manual to *Help* and *Online Manual*, if there is one."""
     if manual_folder().is_dir():
         bpy.utils.register_manual_map(_map)
         bpy.types.TOPBAR_MT_help.append(_help_entry)
 
 
-def unregister_manual() -> None:
+def unregister() -> None:
     """Remove the manual from *Help* and *Online Manual*."""
     with suppress(ValueError):  # there was no manual
         bpy.utils.unregister_manual_map(_map)
         bpy.types.TOPBAR_MT_help.remove(_help_entry)
-
-
-ADDED = (
-    ("VIEW3D_MT_object", _object_menu),
-    ("VIEW3D_MT_object_context_menu", _entries(MEASURE, ORIGIN)),
-    ("VIEW3D_MT_transform_object", _entries(ALIGN, AXES)),
-    ("VIEW3D_MT_snap", _entries(CURSOR)),
-    ("VIEW3D_MT_snap_pie", _snap_pie),
-    ("VIEW3D_MT_object_rigid_body", _entries(RIGID_BODY)),
-    ("VIEW3D_MT_empty_add", _entries(EMPTY)),
-    ("PHYSICS_PT_rigid_body", _rigid_body_panel),
-)
-CLASSES = (VIEW3D_MT_body_moments_shape, VIEW3D_MT_body_moments_advanced, VIEW3D_MT_body_moments)
-
-
-def register() -> None:
-    """Add the entries to Blender's menus."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    for name, draw in ADDED:
-        getattr(bpy.types, name).append(draw)
-    register_manual()
-
-
-def unregister() -> None:
-    """Remove the entries from Blender's menus."""
-    unregister_manual()
-    for name, draw in reversed(ADDED):
-        getattr(bpy.types, name).remove(draw)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)

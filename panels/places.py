@@ -29,12 +29,20 @@ ORDER = (
     "shape",
     "advanced",
     "refused",
-)  # what is posed, then the order of CAD's mass property dialogs
+)  # posed objects first, then the order of CAD's mass property dialogs
 ROOT = "body_moments"
 PLACES = {  # by the beginning of the panels' identifiers
     "VIEW3D_PT_": {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Moments"},
     "OBJECT_PT_": {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": "object"},
 }
+
+
+class AmongProperties:
+    """Base of panels among the properties of something else than the object, named by `bl_context`."""
+
+    bl_label = "Body Moments"
+    bl_space_type, bl_region_type = "PROPERTIES", "WINDOW"
+    bl_options = {"DEFAULT_CLOSED"}
 
 
 def in_both_places(

@@ -14,7 +14,6 @@ from bpy.types import Context, UILayout
 from ..blender.session.stored import outcome
 from ..blender.write.remedies import DEFECTS, REMEDIES, REPAIR, SELECT, remedies_of
 from ..blender.write.translations import localized, localized_sentence
-from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
 from ..core.verdict.finding import Finding, Severity
 from ..core.verdict.sentences import Group, of_severity, severity
@@ -49,14 +48,14 @@ def lines(layout: UILayout, context: Context, groups: Sequence[Group], can_accep
         if body is None:
             continue
         column = body.column(align=True)
-        rows.message(column, context, shown.of_sources(group.objects) if group.objects else shown, icon="BLANK1")
+        rows.message(column, shown.of_sources(group.objects) if group.objects else shown, icon="BLANK1")
         for remedy in own[1:]:
             _remedy(column, group, remedy)
     if acceptable > 1:
         _accept(layout, "", "CHECKMARK", text="Accept All")
 
 
-def notes(layout: UILayout, context: Context, idname: str, findings: Sequence[Finding]) -> None:
+def notes(layout: UILayout, idname: str, findings: Sequence[Finding]) -> None:
     """Draw a sub-panel, closed at first, of notes and accepted warnings."""
     shown_notes = of_severity(findings, Severity.NOTE)
     if not shown_notes:
@@ -65,7 +64,7 @@ def notes(layout: UILayout, context: Context, idname: str, findings: Sequence[Fi
     rows.filled(header, "Notes ({:d})", len(shown_notes))
     for shown in shown_notes if body is not None else ():
         row = body.row(align=True)
-        rows.message(row, context, shown)
+        rows.message(row, shown)
         if shown.values.get("accepted"):
             _accept(row, shown.code, "LOOP_BACK", accepted=False)
 
@@ -120,13 +119,13 @@ def last_action(layout: UILayout, context: Context) -> None:
         return
     box = layout.box()
     header = box.row(align=True)
-    icon = "NONE" if rows.is_narrow(context) else "CANCEL"
-    rows.sentence(header, context, localized(last.action), icon=icon, boxed=True)
+    icon = "NONE" if rows.is_narrow() else "CANCEL"
+    rows.sentence(header, localized(last.action), icon=icon, boxed=True)
     header.operator("wm.body_moments_dismiss", text="", icon="X", emboss=False)
     column = box.column(align=True)
     for group in last.groups:
         shown = group.finding.of_sources(group.objects) if group.objects else group.finding
-        rows.message(column, context, shown, icon="NONE", boxed=True)
+        rows.message(column, shown, icon="NONE", boxed=True)
         for remedy in _remedies(context, group):
             _remedy(column, group, remedy)
 
@@ -142,10 +141,10 @@ def unit_question(layout: UILayout, context: Context, shown: PlainBody) -> None:
     ):
         return
     box = layout.box()
-    units = Units.from_settings(scene.unit_settings)._replace(mass="TONNES", digits=QUESTION_DIGITS)
+    units = rows.scene_units()._replace(mass="TONNES", digits=QUESTION_DIGITS)
     texts = {"length": units.text("length", length), "mass": units.text("mass", shown.mass)}
     question = "{length} long and {mass}: is a unit of this scene a millimeter?"
-    rows.remark(box, context, question, icon="QUESTION", boxed=True, **texts)
+    rows.remark(box, question, icon="QUESTION", boxed=True, **texts)
     column = box.column(align=True)
-    rows.button(column, context, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")
-    rows.button(column, context, "scene.body_moments_keep_units", "X")
+    rows.button(column, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")
+    rows.button(column, "scene.body_moments_keep_units", "X")

@@ -13,11 +13,10 @@ from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
 from ..blender.write.translations import localized
-from ..blender.write.units import Units
 from ..core.lazy import loaded_module
 from ..core.numerics.float32 import shortest_decimal
 from . import rows
-from .places import in_both_places
+from .places import AmongProperties, in_both_places
 
 if TYPE_CHECKING:
     from ..blender.session.live.character import Weight
@@ -42,8 +41,8 @@ class BonesPanel:
         button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
         if properties.stored(armature) is None:
             return
-        rows.stale_row(layout, context, stale_reason(armature, context.scene))
-        units = Units.from_settings(context.scene.unit_settings)
+        rows.stale_row(layout, stale_reason(armature, context.scene))
+        units = rows.scene_units()
         stored = [(bone, properties.stored(bone)) for bone in armature.pose.bones]
         measured = [(bone, numbers.mass) for bone, numbers in stored if numbers is not None]
         total = sum(mass for _, mass in measured)
@@ -58,9 +57,9 @@ class BonesPanel:
         if len(measured) > LISTED:
             rows.filled(layout, "And {:d} more", len(measured) - LISTED)
         column = layout.column(align=True)
-        rows.button(column, context, "object.body_moments_physics_rig", "RIGID_BODY")
-        rows.button(column, context, "object.body_moments_rig_center", "EMPTY_AXIS")
-        rows.button(column, context, "object.body_moments_clear_bones", "TRASH")
+        rows.button(column, "object.body_moments_physics_rig", "RIGID_BODY")
+        rows.button(column, "object.body_moments_rig_center", "EMPTY_AXIS")
+        rows.button(column, "object.body_moments_clear_bones", "TRASH")
 
 
 class WeightPanel:
@@ -83,11 +82,11 @@ class WeightPanel:
             return
         character, depsgraph = loaded_module(live, "character"), context.view_layer.depsgraph
         weight = None if character is None or depsgraph is None else character.weight(armature, depsgraph)
-        rows.stale_row(layout, context, stale_reason(armature, context.scene))
+        rows.stale_row(layout, stale_reason(armature, context.scene))
         if weight is None:
-            rows.remark(layout, context, "The bones have not been measured. Show the weight again.")
+            rows.remark(layout, "The bones have not been measured. Show the weight again.")
         else:
-            _standing(layout, context, weight, unit)
+            _standing(layout, weight, unit)
         button = layout.row()
         button.scale_y = 1.4
         button.operator("pose.body_moments_balance_pose", icon="PIVOT_CURSOR")
@@ -114,19 +113,19 @@ def standing(weight: Weight, unit: float) -> tuple[str, dict[str, float], str]:
     return "Balanced: {margin:length} inside the support", margin, "CHECKMARK"
 
 
-def _standing(layout: UILayout, context: Context, weight: Weight, unit: float) -> None:
+def _standing(layout: UILayout, weight: Weight, unit: float) -> None:
     """Draw how a character stands, its mass, and the contacts that carry it."""
     text, lengths, icon = standing(weight, unit)
     box = layout.box()
     box.alert = icon == "CANCEL"
-    rows.remark(box, context, text, icon=icon, boxed=True, **lengths)
+    rows.remark(box, text, icon=icon, boxed=True, **lengths)
     shown, support, contacts = [("Mass", "mass", weight.parts.mass)], weight.support, weight.contacts
     if support is not None:
         shown += [("Margin", "length", support.margin * unit), ("Height", "length", support.height * unit)]
-    rows.quantities(layout.column(align=True), Units.from_settings(context.scene.unit_settings), shown)
+    rows.quantities(layout.column(align=True), rows.scene_units(), shown)
     missing = [name for name, mass in zip(weight.parts.names, weight.parts.masses) if not mass]
     if missing:
-        rows.remark(layout, context, "Not measured: {objects}", icon="ERROR", objects=missing)
+        rows.remark(layout, "Not measured: {objects}", icon="ERROR", objects=missing)
     column = layout.column(align=True)
     for names, icon, word in ((contacts.names, "CHECKMARK", "Carries"), (contacts.lifted, "X", "Lifted")):
         for name in names[:LISTED]:
@@ -138,10 +137,10 @@ def _standing(layout: UILayout, context: Context, weight: Weight, unit: float) -
 def _motion(layout: UILayout, context: Context) -> None:
     """Draw the buttons for motion over frames, and the spans of frames whose momentum comes from nothing."""
     column = layout.column(align=True)
-    rows.button(column, context, "pose.body_moments_parabola", "FORCE_FORCE")
-    rows.button(column, context, "pose.body_moments_keep_spin", "FORCE_VORTEX")
-    rows.button(column, context, "pose.body_moments_bake_curves", "FCURVE")
-    rows.button(column, context, "pose.body_moments_trace", "CON_FOLLOWPATH")
+    rows.button(column, "pose.body_moments_parabola", "FORCE_FORCE")
+    rows.button(column, "pose.body_moments_keep_spin", "FORCE_VORTEX")
+    rows.button(column, "pose.body_moments_bake_curves", "FCURVE")
+    rows.button(column, "pose.body_moments_trace", "CON_FOLLOWPATH")
     name = context.object.name_full
     empties = (
         obj for obj in context.scene.objects if obj.type == "EMPTY" and obj.get(properties.BALANCE_GROUP) == name
@@ -149,7 +148,7 @@ def _motion(layout: UILayout, context: Context) -> None:
     spans = next((list(empty[properties.BALANCE_SPANS]) for empty in empties if properties.BALANCE_SPANS in empty), [])
     column = layout.column(align=True)
     if spans:
-        rows.remark(column, context, "Momentum from nothing:", icon="ERROR")
+        rows.remark(column, "Momentum from nothing:", icon="ERROR")
     for start in range(0, min(len(spans), 4 * LISTED), 4):
         first, last, impulse, twist = spans[start : start + 4]
         text = localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(first, last, impulse, twist)
@@ -157,15 +156,10 @@ def _motion(layout: UILayout, context: Context) -> None:
         jump.data_path, jump.value = "scene.frame_current", round(first)
 
 
-class BONE_PT_body_moments(Panel):
+class BONE_PT_body_moments(AmongProperties, Panel):
     """The part of the active bone, in rest pose and the bone's rest frame"""
 
-    bl_idname = "BONE_PT_body_moments"
-    bl_label = "Body Moments"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
     bl_context = "bone"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -181,9 +175,9 @@ class BONE_PT_body_moments(Panel):
             rows.setting(column, settings, "density", text="Density (kg/m³)")
         elif settings.mass_from == "MASS":
             rows.setting(column, settings, "mass", text="Mass (kg)")
-        rows.button(layout, context, "object.body_moments_measure_bones", "BONE_DATA")
-        rows.stale_row(layout, context, stale_reason(bone.id_data, context.scene))
-        _numbers(layout, context, bone)
+        rows.button(layout, "object.body_moments_measure_bones", "BONE_DATA")
+        rows.stale_row(layout, stale_reason(bone.id_data, context.scene))
+        _numbers(layout, bone)
 
 
 def _pose_bone(context: Context) -> PoseBone | None:
@@ -193,15 +187,15 @@ def _pose_bone(context: Context) -> PoseBone | None:
     return obj.pose.bones.get(obj.data.bones.active.name)
 
 
-def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
-    stored, units = properties.stored(bone), Units.from_settings(context.scene.unit_settings)
+def _numbers(layout: UILayout, bone: PoseBone) -> None:
+    stored = properties.stored(bone)
     if stored is None:
         return
     column = layout.column(align=True)
-    rows.quantities(column, units, [("Mass", "mass", stored.mass), ("Volume", "volume", stored.volume)])
-    rows.center(layout, units, "Center of Mass (Rest Frame)", stored)
-    rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
-    rows.group(layout, units, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", stored.inertia)
+    rows.quantities(column, [("Mass", "mass", stored.mass), ("Volume", "volume", stored.volume)])
+    rows.center(layout, "Center of Mass (Rest Frame)", stored)
+    rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
+    rows.group(layout, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", stored.inertia)
 
 
 CLASSES = (

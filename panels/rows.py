@@ -11,10 +11,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
+from typing import Any
 
 import blf
 import bpy
-from bpy.types import Context, PropertyGroup, UILayout
+from bpy.types import PropertyGroup, UILayout
 
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
@@ -57,7 +58,7 @@ def setting(layout: UILayout, data: PropertyGroup, name: str, text: str = "", ex
     """
     definition = data.bl_rna.properties[name]
     options = {"text": text} if text else {}
-    narrow = is_narrow(bpy.context)
+    narrow = is_narrow()
     if narrow and definition.type != "BOOLEAN":
         title(layout, text or definition.name)
         options = {"text": ""}
@@ -70,59 +71,57 @@ def setting(layout: UILayout, data: PropertyGroup, name: str, text: str = "", ex
 
 
 def group(
-    layout: UILayout,
-    units: Units,
-    label: str,
-    labels: Sequence[str],
-    quantity: str,
-    si: Sequence[float],
-    size: float = 0.0,
+    layout: UILayout, label: str, labels: Sequence[str], quantity: str, si: Sequence[float], size: float = 0.0
 ) -> UILayout:
     """Draw a heading, and a row for each value below it; return their column."""
     column = layout.column(align=True)
     heading(column, label, quantity, si)
-    values(column, units, labels, quantity, si, size)
+    values(column, labels, quantity, si, size)
     return column
 
 
-def quantities(layout: UILayout, units: Units, entries: Sequence[tuple[str, str, float]]) -> None:
+def quantities(layout: UILayout, entries: Sequence[tuple[str, str, float]]) -> None:
     """Draw a row for each (label, quantity, SI value), each in the unit that suits it."""
+    units = scene_units()
     table(
         layout,
         [(label, units.text(quantity, si), repr(float(si)), SI_UNITS[quantity]) for label, quantity, si in entries],
     )
 
 
-def values(
-    layout: UILayout,
-    units: Units,
-    labels: Sequence[str],
-    quantity: str,
-    si: Sequence[float],
-    size: float = 0.0,
-) -> None:
+def values(layout: UILayout, labels: Sequence[str], quantity: str, si: Sequence[float], size: float = 0.0) -> None:
     """Draw a row for each value, all in the same unit. size: as for `Units.texts`."""
-    texts = units.texts(quantity, si, size)
+    texts = scene_units().texts(quantity, si, size)
     table(
         layout,
         [(label, text, repr(float(number)), SI_UNITS[quantity]) for label, text, number in zip(labels, texts, si)],
     )
 
 
-def center(layout: UILayout, units: Units, label: str, numbers: PlainBody) -> None:
+def center(layout: UILayout, label: str, numbers: PlainBody) -> None:
     """Draw the center of mass; a coordinate that is mere rounding, relative to the body's size, is shown as 0."""
-    group(layout, units, label, AXIS_LABELS, "length", numbers.center, max(numbers.gyration))
+    group(layout, label, AXIS_LABELS, "length", numbers.center, max(numbers.gyration))
 
 
-def bounds(layout: UILayout, units: Units, entries: Sequence[tuple[str, str, float, float]]) -> None:
+def bounds(layout: UILayout, entries: Sequence[tuple[str, str, float, float]]) -> None:
     """Draw a row for each (label, quantity, SI error bound, value beside it)."""
     table(
         layout,
         [
-            (label, units.bound(quantity, bound, beside), repr(bound), SI_UNITS[quantity])
+            (label, scene_units().bound(quantity, bound, beside), repr(bound), SI_UNITS[quantity])
             for label, quantity, bound, beside in entries
         ],
     )
+
+
+def error_bounds(
+    layout: UILayout, sources: Sequence[tuple[str, Any]], entries: Sequence[tuple[str, str, str, float]]
+) -> None:
+    """Draw each source, a heading and bounds by name, with a row for each (label, quantity, name, value beside it)."""
+    for source, errors in sources:
+        column = layout.column(align=True)
+        column.label(text=source)
+        bounds(column, [(label, quantity, errors[name], size) for label, quantity, name, size in entries])
 
 
 def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) -> None:
@@ -207,7 +206,7 @@ def _title(layout: UILayout, text: str) -> None:
     if room is None or _length(text) <= room:
         layout.label(text=text, translate=False)
     else:
-        sentence(layout, bpy.context, text)
+        sentence(layout, text)
 
 
 def right(layout: UILayout, text: str) -> None:
@@ -237,25 +236,30 @@ def filled(layout: UILayout, template: str, *values: object, icon: str = "NONE")
     layout.label(text=localized(template).format(*values), icon=icon, translate=False)
 
 
-def is_narrow(context: Context) -> bool:
+def scene_units() -> Units:
+    """Return the units of the scene that is shown."""
+    return Units.from_settings(bpy.context.scene.unit_settings)
+
+
+def is_narrow() -> bool:
     """Return whether the region has room for little more than words."""
-    region = context.region
-    return region is not None and 0 < region.width < NARROW * context.preferences.system.ui_scale
+    region = bpy.context.region
+    return region is not None and 0 < region.width < NARROW * bpy.context.preferences.system.ui_scale
 
 
-def button(layout: UILayout, context: Context, idname: str, icon: str, short: str = "", **options: object):
+def button(layout: UILayout, idname: str, icon: str, short: str = "", **options: object):
     """Draw the button of an operator; in a narrow panel without its icon, and with a short text."""
-    if not is_narrow(context):
+    if not is_narrow():
         return layout.operator(idname, icon=icon, **options)
     return layout.operator(idname, **(options | {"text": short} if short else options))
 
 
-def sentence(layout: UILayout, context: Context, text: str, icon: str = "NONE", boxed: bool = False) -> None:
+def sentence(layout: UILayout, text: str, icon: str = "NONE", boxed: bool = False) -> None:
     """Draw a translated text, wrapped to the region's width. boxed: a box is around it."""
     column = layout.column(align=True)
     column.scale_y = 0.85
-    width, size = _width(context)
-    margin = int(BOX_MARGIN * context.preferences.system.ui_scale) if boxed else 0
+    width, size = _width()
+    margin = int(BOX_MARGIN * bpy.context.preferences.system.ui_scale) if boxed else 0
     for i, line in enumerate(_wrapped(text, width - margin, size)):
         if icon == "NONE":
             column.label(text=line, translate=False)
@@ -263,36 +267,26 @@ def sentence(layout: UILayout, context: Context, text: str, icon: str = "NONE", 
             column.label(text=line, icon=icon if i == 0 else "BLANK1", translate=False)
 
 
-def message(layout: UILayout, context: Context, shown: Finding, icon: str = "", boxed: bool = False) -> None:
+def message(layout: UILayout, shown: Finding, icon: str = "", boxed: bool = False) -> None:
     """Draw the sentence of a finding, with the number of its elements instead of their indices.
 
     icon: by default that of its severity. boxed: as for `sentence`.
     """
-    text = localized_sentence(replace(shown, elements=()), context.scene.unit_settings)
-    sentence(layout, context, text, icon or ICONS[severity(shown)], boxed)
+    text = localized_sentence(replace(shown, elements=()), bpy.context.scene.unit_settings)
+    sentence(layout, text, icon or ICONS[severity(shown)], boxed)
 
 
-def remark(
-    layout: UILayout,
-    context: Context,
-    text: str,
-    plural: str | None = None,
-    /,
-    icon: str = "INFO",
-    boxed: bool = False,
-    **values: object,
-) -> None:
-    """Draw an interface text, translated, filled and wrapped. plural: the text for a `count` other than 1."""
-    lengths = partial(Units.from_settings(context.scene.unit_settings).text, "length")
-    sentence(layout, context, fill(text, plural, values, localized, lengths), icon, boxed)
+def remark(layout: UILayout, text: str, /, icon: str = "INFO", boxed: bool = False, **values: object) -> None:
+    """Draw an interface text, translated, filled and wrapped."""
+    sentence(layout, fill(text, None, values, localized, partial(scene_units().text, "length")), icon, boxed)
 
 
-def stale_row(layout: UILayout, context: Context, reason: str | None) -> None:
+def stale_row(layout: UILayout, reason: str | None) -> None:
     """Draw the reason why numbers are out of date, if any."""
     if reason is not None:
         row = layout.row()
         row.alert = True
-        sentence(row, context, localized("Out of date: {:s}").format(localized(reason)), icon="FILE_REFRESH")
+        sentence(row, localized("Out of date: {:s}").format(localized(reason)), icon="FILE_REFRESH")
 
 
 def fits(share: float, *cells: str) -> bool:
@@ -310,17 +304,17 @@ def _room() -> float | None:
 
 def _length(text: str) -> float:
     """Return the width in pixels of a text, with the space around it."""
-    _, size = _width(bpy.context)
+    _, size = _width()
     blf.size(0, size)
     return blf.dimensions(0, text)[0] + TEXT_MARGIN * size
 
 
-def _width(context: Context) -> tuple[int, float]:
+def _width() -> tuple[int, float]:
     """Return the width of a line and the font size, in pixels."""
-    scale = context.preferences.system.ui_scale or 1.0  # 0 without a window
-    region = context.region
+    region, preferences = bpy.context.region, bpy.context.preferences
+    scale = preferences.system.ui_scale or 1.0  # 0 without a window
     width = region.width if region is not None and region.width else DEFAULT_WIDTH * scale
-    points = context.preferences.ui_styles[0].widget.points
+    points = preferences.ui_styles[0].widget.points
     return max(int(width - REGION_MARGIN * scale), int(MIN_LINE_WIDTH * scale)), points * scale
 
 

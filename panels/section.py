@@ -13,19 +13,13 @@ from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_section
 from ..blender.write import section as record
 from ..blender.write.translations import localized
-from ..blender.write.units import Units, number
+from ..blender.write.units import number
 from ..core.verdict.sentences import Group
 from . import remedies, rows
 from .places import in_both_places
 
 FLAT_RTOL = 1e-5  # thickness of a flat shape by its width; other shapes have sections of selected faces
 ABOUT_LABELS = ("x", "y", "1", "2")
-BOUND_LABELS = {
-    "area": ("Area", "area"),
-    "perimeter": ("Perimeter", "length"),
-    "centroid": ("Centroid", "length"),
-    "second": ("Moments", "area_moment"),
-}
 
 
 class SectionPanel:
@@ -35,18 +29,17 @@ class SectionPanel:
 
     def draw(self, context: Context) -> None:
         obj, layout = context.object, self.layout
-        rows.button(layout, context, "object.body_moments_measure_section", "FACESEL", short="Measure")
+        rows.button(layout, "object.body_moments_measure_section", "FACESEL", short="Measure")
         stored = record.stored(obj)
         if stored is None:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
-        units = Units.from_settings(context.scene.unit_settings)
-        _verdict(layout, context, stored, stale_reason(obj, context.scene, of_section))
+        _verdict(layout, stored, stale_reason(obj, context.scene, of_section))
         remedies.lines(layout, context, [Group(found) for found in stored.findings], can_accept=False)
-        _numbers(layout, units, stored.section)
-        _more_numbers(layout, units, stored.section)
-        remedies.notes(layout, context, "body_moments_section_notes", stored.findings)
-        rows.button(layout, context, "object.body_moments_copy", "COPYDOWN").what = "SECTION"
+        _numbers(layout, stored.section)
+        _more_numbers(layout, stored.section)
+        remedies.notes(layout, "body_moments_section_notes", stored.findings)
+        rows.button(layout, "object.body_moments_copy", "COPYDOWN").what = "SECTION"
 
 
 def _may_have_section(obj: Object) -> bool:
@@ -56,25 +49,23 @@ def _may_have_section(obj: Object) -> bool:
     return is_flat or obj.mode == "EDIT" or record.KEY in obj
 
 
-def _verdict(layout: UILayout, context: Context, stored: record.StoredSection, outdated: str | None) -> None:
+def _verdict(layout: UILayout, stored: record.StoredSection, outdated: str | None) -> None:
     column = layout.column(align=True)
     outlines, holes = stored.section.outlines, stored.section.holes
     counts = ((outlines, "1 Outline", "{:d} Outlines"), (holes, "1 Hole", "{:d} Holes"))
     parts = [localized(singular if count == 1 else plural).format(count) for count, singular, plural in counts if count]
-    rows.sentence(
-        column, context, "{:s}: {:s}".format(localized(stored.description), ", ".join(parts)), icon="CHECKMARK"
-    )
-    rows.stale_row(column, context, outdated)
+    rows.sentence(column, "{:s}: {:s}".format(localized(stored.description), ", ".join(parts)), icon="CHECKMARK")
+    rows.stale_row(column, outdated)
 
 
-def _numbers(layout: UILayout, units: Units, section) -> None:
+def _numbers(layout: UILayout, section) -> None:
     column = layout.column(align=True)
-    rows.quantities(column, units, [("Area", "area", section.area), ("Perimeter", "length", section.perimeter)])
+    rows.quantities(column, [("Area", "area", section.area), ("Perimeter", "length", section.perimeter)])
     size = section.area**0.5
-    rows.group(layout, units, "Centroid (World)", rows.AXIS_LABELS, "length", section.center, size)
+    rows.group(layout, "Centroid (World)", rows.AXIS_LABELS, "length", section.center, size)
     second, labels = (*section.second, section.polar), ("Ix", "Iy", "Ixy", "Polar Jp")
-    rows.group(layout, units, "Second Moments of Area", labels, "area_moment", second, section.polar)
-    column = rows.group(layout, units, "Principal", ("I1", "I2"), "area_moment", section.principal)
+    rows.group(layout, "Second Moments of Area", labels, "area_moment", second, section.polar)
+    column = rows.group(layout, "Principal", ("I1", "I2"), "area_moment", section.principal)
     if section.axes_undetermined:
         column.label(text="Every Axis Is Principal", icon="INFO")
     else:
@@ -83,12 +74,12 @@ def _numbers(layout: UILayout, units: Units, section) -> None:
         rows.table(column, [("Angle from x to 1", shown, repr(section.angle), "rad")])
 
 
-def _more_numbers(layout: UILayout, units: Units, section) -> None:
+def _more_numbers(layout: UILayout, section) -> None:
     body = rows.fold(layout, "body_moments_section_moduli", "Section Moduli and Radii of Gyration")
     if body is not None:
         moduli, radii = (["{:s}{:s}".format(letter, name) for name in ABOUT_LABELS] for letter in "Wi")
-        rows.group(body, units, "Elastic, at the Outermost Corner", moduli, "volume", section.moduli)
-        rows.group(body, units, "Radii of Gyration", radii, "length", section.radii)
+        rows.group(body, "Elastic, at the Outermost Corner", moduli, "volume", section.moduli)
+        rows.group(body, "Radii of Gyration", radii, "length", section.radii)
     body = rows.fold(layout, "body_moments_section_plane", "Plane")
     if body is not None:
         column = body.column(align=True)
@@ -96,26 +87,21 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
         for label, axis in zip(("x", "y", "n"), zip(*section.plane.axes)):
             rows.direction(column, label, axis)
         column = rows.group(
-            body, units, "Centroid from Object Origin", ("x", "y"), "length", section.centroid, section.area**0.5
+            body, "Centroid from Object Origin", ("x", "y"), "length", section.centroid, section.area**0.5
         )
         column.label(text="About the centroid, Ix = ∫y² dA, Ixy = +∫xy dA")
         column.label(text="Jp = Ix + Iy is not the torsion constant")
     body = rows.fold(layout, "body_moments_section_bounds", "Error Bounds")
     if body is not None:
-        sizes = {
-            "area": section.area,
-            "perimeter": section.perimeter,
-            "centroid": section.area**0.5,
-            "second": section.polar,
-        }
-        for title, bounds in (
-            ("Rounding, at Most", section.rounding_error),
-            ("Float32 Coordinates, at Most", section.input_error),
-        ):
-            column = body.column(align=True)
-            column.label(text=title)
-            entries = [(*BOUND_LABELS[name], bounds[name], size) for name, size in sizes.items()]
-            rows.bounds(column, units, entries)
+        entries = [
+            ("Area", "area", "area", section.area),
+            ("Perimeter", "length", "perimeter", section.perimeter),
+            ("Centroid", "length", "centroid", section.area**0.5),
+            ("Moments", "area_moment", "second", section.polar),
+        ]
+        rounding, coordinates = section.rounding_error, section.input_error
+        sources = ("Rounding, at Most", rounding), ("Float32 Coordinates, at Most", coordinates)
+        rows.error_bounds(body, sources, entries)
 
 
 CLASSES = in_both_places(SectionPanel, "section", shown_for=_may_have_section)

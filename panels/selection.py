@@ -9,7 +9,6 @@ from bpy.types import Context, UILayout, UIList
 
 from ..blender.session import displayed
 from ..blender.session.displayed import SortBy, Trust, drawn, listed_masses, listing
-from ..blender.write.units import Units
 from . import rows
 from .places import in_both_places
 
@@ -41,7 +40,7 @@ class BODY_MOMENTS_UL_measured(UIList):
         row.alert = body.trust == Trust.OUT_OF_DATE
         row.active = obj.select_get()
         row.label(text=obj.name, icon=rows.VERDICTS[body.trust][0], translate=False)
-        if not rows.is_narrow(context):
+        if not rows.is_narrow():
             rows.right(row, listed_masses(context.scene, context.view_layer)[obj.session_uid])
 
     def draw_filter(self, _context, layout) -> None:
@@ -71,9 +70,9 @@ class SelectionPanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         if len(context.selected_objects) > 1:
-            rows.button(layout, context, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings")
+            rows.button(layout, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings")
         _listed(layout, context)
-        _total(layout, context, Units.from_settings(context.scene.unit_settings))
+        _total(layout, context)
 
 
 def _listed(layout: UILayout, context: Context) -> None:
@@ -88,16 +87,16 @@ def _listed(layout: UILayout, context: Context) -> None:
         rows=LINES,
     )
     column = layout.column(align=True)
-    rows.button(column, context, "object.body_moments_copy", "COPYDOWN", text="Copy Table").what = "TABLE"
-    rows.button(column, context, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
+    rows.button(column, "object.body_moments_copy", "COPYDOWN", text="Copy Table").what = "TABLE"
+    rows.button(column, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
 
 
-def _total(layout: UILayout, context: Context, units: Units) -> None:
+def _total(layout: UILayout, context: Context) -> None:
     """Draw what the main panel leaves out of the sum."""
     numbers = displayed.total(context).numbers
     if numbers is not None and len(context.selected_objects) > 1:
-        rows.quantities(layout.column(align=True), units, [("Area", "area", numbers.area)])
-        rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", numbers.moments)
+        rows.quantities(layout.column(align=True), [("Area", "area", numbers.area)])
+        rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", numbers.moments)
 
 
 CLASSES = (BODY_MOMENTS_UL_measured, *in_both_places(SelectionPanel, "selection"))

@@ -37,12 +37,12 @@ class ShapePanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        rows.button(layout, context, "object.body_moments_find_symmetry", "MOD_MIRROR", short="Symmetry")
+        rows.button(layout, "object.body_moments_find_symmetry", "MOD_MIRROR", short="Symmetry")
         _symmetry(layout, context, context.object)
         column = layout.column(align=True)
-        rows.button(column, context, "object.body_moments_match_pose", "SNAP_ON")
+        rows.button(column, "object.body_moments_match_pose", "SNAP_ON")
         row = column.row(align=True)
-        rows.button(row, context, "object.body_moments_find_similar", "VIEWZOOM", short="Similar")
+        rows.button(row, "object.body_moments_find_similar", "VIEWZOOM", short="Similar")
         row.operator("object.body_moments_find_in_library", text="", icon="FILEBROWSER")
         _similar(layout, context)
 
@@ -53,14 +53,14 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
     stored = obj.body_moments_symmetry
     column = layout.column(align=True)
     rows.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
-    rows.stale_row(column, context, stale_reason(obj, context.scene, of_symmetry))
+    rows.stale_row(column, stale_reason(obj, context.scene, of_symmetry))
     if stored.compatible != stored.group:
         text = "Moments to order 6 alone allow {group}"
-        rows.remark(column, context, text, icon="BLANK1", group=stored.compatible)
+        rows.remark(column, text, icon="BLANK1", group=stored.compatible)
     text = "The surface matches its images within {share:.2g} of the radius of gyration"
     if stored.of_display_mesh:
         text = "The display mesh matches its images within {share:.2g} of the radius of gyration"
-    rows.remark(column, context, text, icon="BLANK1", share=stored.tolerance)
+    rows.remark(column, text, icon="BLANK1", share=stored.tolerance)
     if not stored.elements:
         return
     body = rows.fold(layout, "body_moments_symmetry", "Axes and Mirror Planes")
@@ -88,7 +88,7 @@ def _similar(layout: UILayout, context: Context) -> None:
     if search.looked_at:
         column.label(text=search.looked_at, icon="FILE", translate=False)
     if not search.found:
-        rows.remark(column, context, "Nothing to compare with")
+        rows.remark(column, "Nothing to compare with")
     else:
         row = column.row()
         row.alignment = "RIGHT"

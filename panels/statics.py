@@ -14,7 +14,6 @@ from ..blender.session import stored
 from ..blender.session.displayed import shown_objects
 from ..blender.session.tracking import armatures
 from ..blender.session.tracking.staleness import stale_reason
-from ..blender.write.units import Units
 from ..core.lazy import loaded_module
 from ..core.numerics.float32 import shortest_decimal
 from ..core.verdict.finding import Finding
@@ -37,17 +36,16 @@ class StabilityPanel:
         obj = objects[0] if len(objects) == 1 else context.object
         stability = loaded_module(stored, "stability")
         if stability is None or not stability.is_known(obj):
-            rows.remark(layout, context, "Stability has not been computed.")
+            rows.remark(layout, "Stability has not been computed.")
         elif stale_reason(obj, context.scene, stability.stamp_of):
-            rows.remark(layout, context, "The geometry has changed. Check again.", icon="FILE_REFRESH")
-        rows.button(layout, context, "object.body_moments_stability", "CON_FLOOR", short="Check")
+            rows.remark(layout, "The geometry has changed. Check again.", icon="FILE_REFRESH")
+        rows.button(layout, "object.body_moments_stability", "CON_FLOOR", short="Check")
         support = None if stability is None else stability.support(obj, context.scene)
         if support is not None:
             _support(layout, context, support)
             _poses(layout, context, obj)
         rows.button(
             layout,
-            context,
             "object.body_moments_balance_group",
             "CON_FOLLOWPATH",
             text="Balance Group...",
@@ -72,7 +70,7 @@ def _support(layout: UILayout, context: Context, support: Support) -> None:
     rows.table(
         column,
         [
-            ("Margin", Units.from_settings(context.scene.unit_settings).text("length", margin), repr(margin), "m"),
+            ("Margin", rows.scene_units().text("length", margin), repr(margin), "m"),
             ("Tipping Angle", _degrees(angle), repr(angle), "°"),
             ("Toward, from X", _degrees(toward), repr(toward), "°"),
         ],
@@ -87,10 +85,10 @@ def _poses(layout: UILayout, context: Context, obj: Object) -> None:
     poses = stored.stability.poses(obj, context.scene)
     layout.label(text="Resting Poses")
     if isinstance(poses, Finding):
-        rows.message(layout, context, poses)
+        rows.message(layout, poses)
     if poses is None or isinstance(poses, Finding):
         return
-    narrow = rows.is_narrow(context)
+    narrow = rows.is_narrow()
     column = layout.column(align=True)
     heading = column.row()
     heading.label(text="Share" if narrow else "Probability")
@@ -108,7 +106,7 @@ def _poses(layout: UILayout, context: Context, obj: Object) -> None:
     more = len(poses.tipping_angles) - MAX_POSES
     if more > 0:
         rows.filled(column, "{:d} more", more)
-    rows.button(layout, context, "object.body_moments_rest_on_ground", "TRIA_DOWN_BAR", short="Rest").pose = 1
+    rows.button(layout, "object.body_moments_rest_on_ground", "TRIA_DOWN_BAR", short="Rest").pose = 1
 
 
 CLASSES = in_both_places(

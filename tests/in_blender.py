@@ -52,7 +52,7 @@ def reported(monkeypatch):
                 found.texts.append(part)
             else:
                 found.add(part)
-        report(operator, *parts, **level)
+        return report(operator, *parts, **level)
 
     monkeypatch.setattr(reports, "report", kept)
     return found

@@ -186,7 +186,7 @@ def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) ->
     groups, left = [], np.arange(len(changes))
     while len(left):
         first = left[0]
-        is_near = largest_move(changes[left] - changes[first], reach[first]) <= within[first]
+        is_near = largest_move(changes[left] - changes[first], float(reach[first])) <= within[first]
         is_near[0] = True
         groups.append(left[is_near].tolist())
         left = left[~is_near]

@@ -56,10 +56,14 @@ def _rank(part: Finding | str) -> Severity:
     return Severity.NOTE if isinstance(part, str) else severity(part)
 
 
-def report(operator: Operator, *parts: Finding | str, level: Severity = Severity.NOTE) -> None:
-    """Report texts and findings in one message, with the highest severity. level: the severity of the texts."""
+def report(operator: Operator, *parts: Finding | str, level: Severity = Severity.NOTE) -> set[str]:
+    """Report texts and findings in one message, with the highest severity; return the result of `execute`.
+
+    level: the severity of the texts.
+    """
     worst = max(level, *map(_rank, parts), key=[*Severity].index)
     operator.report({LEVELS[worst]}, text(*parts))
+    return {"FINISHED"}
 
 
 def unavailable(operator: type[Operator], reason: str) -> bool:

@@ -21,11 +21,12 @@ import bpy
 from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
+from ..supervisor.listing import BLEND, USD
 from .finite import check_numbers
 from .import_usd import import_usd
 from .importers import import_3mf, import_gltf, import_iges, import_mesh, import_obj
 from .references import Opened
-from .suffixes import BLEND, USD, check_file, file_suffix
+from .suffixes import check_file, file_suffix
 
 _OLDEST = (2, 50)  # reading files of older versions can damage their content
 _KNOWN_FORMAT = 1  # version of the .blend format

@@ -13,12 +13,9 @@ from ...core.scans.findings import DAMAGE_INCOMPLETE, FILE_MISSING, FILE_NOT_REG
 from ...core.scans.scan import damaged
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, system_reason
+from ..supervisor.listing import BLEND, IMPORTED
 
-BLEND = ".blend"
-UNITLESS = (".stl", ".obj", ".ply")  # formats that need no import either
 STREAMED = (".stl", ".ply")  # formats that can be measured in blocks
-USD = (".usd", ".usda", ".usdc", ".usdz")
-IMPORTED = (".stl", ".ply", ".obj", ".fbx", ".3mf", ".igs", ".iges", ".glb", ".gltf", *USD)
 
 
 def file_suffix(path: str) -> str:

@@ -31,12 +31,11 @@ from ...core.streams.file_mesh import FileMesh
 from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, MeasureError, QueryError, finding, system_reason
 from .. import measure
-from ..files.suffixes import STREAMED, UNITLESS, check_file, file_suffix
+from ..files.suffixes import STREAMED, check_file, file_suffix
 from ..findings import FOURIER_OBJECT_COUNT, RESULTS_NEED_BLEND, STREAM_OPTIONS
-from ..options.arguments import words
-from ..options.checks import density_of
-from ..options.file import OF_ARRAYS, body_findings, file_findings, unused
-from ..options.needs_blender import NEEDS_BLENDER, boolean_and_wire, options_of_blender
+from ..options.arguments import NEEDS_BLENDER, boolean_and_wire, options_of_blender, words
+from ..options.checks import OF_ARRAYS, body_findings, density_of, file_findings, unused
+from ..supervisor.listing import UNITLESS
 from ..supervisor.processes import has_blender
 from .entries import Contents, failure
 

@@ -1,24 +1,33 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of the objects of a file: bodies together or one by one, with their shapes; flat shapes; transforms."""
+"""Selection of the objects to measure in the open scene, and their measurement.
+
+Omitted objects come with the reasons, and unknown names as errors. Bodies are measured together or one by one, with
+their shapes; flat shapes, Fourier transforms and pictures alone.
+"""
 
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Callable, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import bpy
 import numpy as np
 
-from ...blender.bodies.flat.flat import NO_BODY, area_findings, clearer_refusal, flat_region
+from ...blender.bodies.flat.flat import area_findings, clearer_refusal, flat_region
 from ...blender.bodies.flat.flat_shape import flat_shape_of
 from ...blender.bodies.fourier import flat_transform, object_transform
 from ...blender.bodies.measure_object import Measured, measure_object
 from ...blender.bodies.shape.shape import NoShapeError, shape_of
 from ...blender.bodies.stacks.many import measured_in_turn
 from ...blender.bodies.stacks.stack import Stacked
+from ...blender.read.assembly import left_out_reasons
 from ...blender.read.objects import read_object
+from ...blender.read.visibility import measurable, measurable_objects
+from ...blender.session.findings import NO_SUCH_NAME
+from ...blender.settings.given import shows_collection
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import spectrum
 from ...blender.write.thumbnail import thumbnail
@@ -27,11 +36,14 @@ from ...core.measurement.measurement import Measurement
 from ...core.measurement.record import flat_record
 from ...core.moments.complex_form import flusser_invariants, hu_invariants, normalize
 from ...core.numerics.float32 import shortest_decimal
-from ...core.verdict.finding import Finding, MeasureError, finding
+from ...core.scans.findings import OTHERS_LEFT_OUT
+from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
 from ...core.verdict.method import Source
 from ..files.output import guard
-from ..findings import SIGNATURE_OF_DISPLAY_MESH
-from ..options.file import unused
+from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED, SIGNATURE_OF_DISPLAY_MESH
+from ..options.checks import unused
+from ..options.option_types import split_source
+from .entries import failure
 
 LEAST_ORDER = 2  # moments to this order are always computed
 HU_ORDER = 3  # order for Hu's invariants
@@ -111,11 +123,6 @@ def write_transform(obj: bpy.types.Object, options: Namespace, measure_options: 
     return findings
 
 
-def is_flat_shape(options: Namespace, refusal: MeasureError) -> bool:
-    """Return whether --flat is given and the refusal says that an object is no body."""
-    return options.flat and refusal.finding.code in NO_BODY
-
-
 def record_of_flat(
     label: str,
     obj: bpy.types.Object,
@@ -128,26 +135,19 @@ def record_of_flat(
 
     refusal: the reason why it is no body. findings: about its file. Raises MeasureError.
     """
-    try:
-        return _record(label, obj, options, unit, findings)
-    except MeasureError as error:
-        raise clearer_refusal(refusal, error) from None
-
-
-def _record(
-    label: str, obj: bpy.types.Object, options: Namespace, unit: float | None, findings: tuple[Finding, ...]
-) -> dict[str, Any]:
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    order = options.order
-    region = flat_region(obj, depsgraph, selected=False, unit=unit)
-    moments = region.moments(max(order or 0, LEAST_ORDER))
+    depsgraph, order = bpy.context.evaluated_depsgraph_get(), options.order
     posed = unused(["pose"] if options.pose else [])
     more: dict[str, Any] = {"pose": None} if options.pose else {}
-    more |= {"signature": flat_shape_of(obj, depsgraph, unit).signature().as_record()} if options.signature else {}
     invariants = []
-    if order is not None and order >= HU_ORDER:
-        normalized = normalize(moments)
-        invariants = [*hu_invariants(normalized), *flusser_invariants(normalized)]
+    try:
+        region = flat_region(obj, depsgraph, selected=False, unit=unit)
+        moments = region.moments(max(order or 0, LEAST_ORDER))
+        more |= {"signature": flat_shape_of(obj, depsgraph, unit).signature().as_record()} if options.signature else {}
+        if order is not None and order >= HU_ORDER:
+            normalized = normalize(moments)
+            invariants = [*hu_invariants(normalized), *flusser_invariants(normalized)]
+    except MeasureError as error:
+        raise clearer_refusal(refusal, error) from None
     return flat_record(
         label,
         obj.type,
@@ -160,3 +160,81 @@ def _record(
         about=options.about,
         frame=(options.frame, region.rotation, region.location),
     )
+
+
+def why_nothing(left_out: int) -> Finding:
+    """Return the reason why a file without errors has no records."""
+    return finding(NOTHING_RENDERED, count=left_out) if left_out else finding(NO_MEASURABLE_OBJECT)
+
+
+def objects_to_measure(
+    names: list[str] | None, everything: bool, hidden: Mapping[str, Finding]
+) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]], list[dict[str, Any]]]:
+    """Return the objects to measure, the objects left out, and the errors.
+
+    The objects to measure come with unique names, the objects left out with a reason; each unknown name is an error.
+    everything: True to leave out nothing. hidden: the reasons why the file does not show objects, by their names.
+
+    Objects that the view layer excludes are included if another one renders them: reading them reports the reason.
+    """
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    same = Counter(obj.name for obj in scene.objects)
+    # A linked object may have a local one's name; the full name has the library too.
+    labels = {obj: obj.name if same[obj.name] == 1 else obj.name_full for obj in scene.objects}
+    if names is None:
+        candidates = {*measurable_objects(layer), *_excluded(scene, layer)}
+        reasons = {} if everything else left_out_reasons(scene, layer)
+        chosen = [(label, obj) for obj, label in labels.items() if obj in candidates and obj not in reasons]
+        left_out = [
+            failure(labels[obj], hidden.get(obj.name, reason)) for obj, reason in reasons.items() if obj in candidates
+        ]
+        return chosen, left_out, []
+    chosen, errors = [], []
+    for name in names:
+        matches = [(label, obj) for obj, label in labels.items() if label == name]
+        matches = matches or [(label, obj) for obj, label in labels.items() if obj.name == name]
+        chosen += [pair for pair in matches if pair not in chosen]
+        if not matches:
+            errors.append(failure(name, finding(NO_SUCH_NAME, kind="object", name=name)))
+    return chosen, [], errors
+
+
+def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.types.Object]:
+    """Return the scene's measurable objects outside of its view layer.
+
+    Members of instanced collections are left out, because the instancers' records hold them.
+    """
+    instanced = {obj.instance_collection for obj in scene.objects if shows_collection(obj)}
+    members = {member for collection in instanced for member in collection.all_objects}
+    return {obj for obj in {*scene.objects} - {*layer.objects} - members if measurable(obj)}
+
+
+def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
+    """Yield a finding if a file has measurable objects outside its open scene."""
+    here = {*scene.objects}
+    other_scenes = [other.name for other in bpy.data.scenes if any(measurable(obj) for obj in {*other.objects} - here)]
+    if other_scenes:
+        yield finding(OTHERS_LEFT_OUT, kind="scene", name=scene.name, others=other_scenes)
+
+
+def set_density(obj: bpy.types.Object, options: Namespace) -> None:
+    """Set the source of the object's density and the threshold of its grid, if given. Raises MeasureError.
+
+    The object's settings change in memory. Only --write saves them, together with the results.
+    """
+    settings = obj.body_moments
+    if options.threshold is not None and obj.type == "VOLUME":
+        settings.grid_as, settings.threshold = "THRESHOLD", options.threshold
+    if options.polynomial is not None:
+        settings.mass_from, settings.density_from = "DENSITY", "POLYNOMIAL"
+        settings.density_polynomial = options.polynomial
+    elif options.density_from is not None:
+        source, name = split_source(options.density_from)
+        settings.mass_from, settings.density_from = "DENSITY", source.upper()
+        if source == "attribute":
+            settings.density_attribute = name
+        elif source == "volume":
+            volume = bpy.context.scene.objects.get(name)
+            if volume is None or volume.type != "VOLUME":
+                raise QueryError(NO_SUCH_NAME, kind="Volume object", name=name)
+            settings.density_volume = volume

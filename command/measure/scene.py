@@ -13,6 +13,7 @@ from typing import Any
 import bpy
 
 from ...blender import session
+from ...blender.bodies.flat.flat import NO_BODY
 from ...blender.bodies.measure_object import Measured
 from ...blender.bodies.stacks.stack import Stacked
 from ...blender.read.assembly import operands_of, total_caveats
@@ -33,15 +34,24 @@ from ...core.verdict.finding import FileError, Finding, MeasureError, finding, s
 from ..files.files import newer_version, open_file, requested_file
 from ..files.references import Opened, blocked_scripts, missing_links, scripts_of_open_file
 from ..files.saving import Place, write_assets
-from ..files.suffixes import BLEND, file_suffix
+from ..files.suffixes import file_suffix
 from ..findings import FOURIER_OBJECT_COUNT, PART_UNAVAILABLE, RESULTS_NEED_BLEND, SOLID_OPERAND_MEASURED
-from ..options.checks import density_of
-from ..options.file import body_findings, file_findings, is_unitless
+from ..options.checks import body_findings, density_of, file_findings, is_unitless
+from ..supervisor.listing import BLEND
 from . import robots
 from .combined import Combined, measure_combined
 from .entries import Contents, failure
-from .measuring import is_flat_shape, measure_shape, measured_together, record_of_flat, thumbnail_of, write_transform
-from .objects import objects_to_measure, other_scenes, set_density, why_nothing
+from .measuring import (
+    measure_shape,
+    measured_together,
+    objects_to_measure,
+    other_scenes,
+    record_of_flat,
+    set_density,
+    thumbnail_of,
+    why_nothing,
+    write_transform,
+)
 
 
 def open_name() -> str | None:
@@ -196,7 +206,7 @@ class Scene:
                 (in_turn(obj).measurement, {}, ()) if in_turn else measure_shape(obj, self.options, measure_options)
             )
         except MeasureError as refusal:
-            if is_flat_shape(self.options, refusal):
+            if self.options.flat and refusal.finding.code in NO_BODY:
                 return None, record_of_flat(label, obj, self.options, measure_options.unit_scale, refusal, findings)
             if order is None:
                 raise

@@ -28,8 +28,7 @@ from ...core.verdict.finding import Finding, finding, system_reason
 from ...core.whole_file import hidden_path
 from ..files import output
 from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
-from ..options import needs_blender
-from ..options.arguments import ONE_FILE, ONE_OBJECT, fail, files_of_options, of_numbers, run_of, version
+from ..options.arguments import ONE_FILE, ONE_OBJECT, check_blender, fail, files_of_options, of_numbers, run_of, version
 from ..options.measure_parser import DEFAULT_TIMEOUT
 from ..options.option_types import FORMATS
 from ..parser import UsageError
@@ -48,7 +47,7 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
     end_with_window()
     paths = files_of(options)
     if options.blender is None:
-        needs_blender.check(options, paths)
+        check_blender(options, paths)
     command = processes.run_command(_blender(options), ["child"])
     output.check_targets(options, files_of_options(options, paths, opened))
     with ExitStack() as ends:

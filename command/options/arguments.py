@@ -13,11 +13,14 @@ import functools
 import os
 import pkgutil
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
+from ...core.scans.scan_files import scan_suffix
+from ..supervisor.listing import UNITLESS
+from ..supervisor.processes import has_blender
 from .measure_parser import DEFAULT_ORDER, measure_parser
 
 TARGETS = ("output", "fourier", "write_baseline")  # options whose files are written
@@ -30,6 +33,8 @@ _OF_RUNS = {
 _ROOT = __name__.removesuffix(".command.options.arguments")
 ONE_FILE = "argument --format: {} takes one FILE, as a robot is one file"
 ONE_OBJECT = "argument --fourier: takes one object of one FILE"
+NEEDS_BLENDER = "{} Blender: add --blender PATH, or install the bpy module"
+_OF_OBJECTS = ("polynomial", "density_from", "fourier", "flat", "pose", "signature")
 
 
 def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
@@ -150,3 +155,28 @@ def join_negative_values(argv: list[str]) -> list[str]:
         else:
             joined.append(word)
     return joined
+
+
+def options_of_blender(options: argparse.Namespace, is_scan: bool) -> list[str]:
+    """Return the given options for which a mesh, or a scan, has to be an object in Blender."""
+    robot = ["format"] * (options.format in ROBOT_FORMATS)
+    if is_scan:
+        return robot
+    return [*(name for name in _OF_OBJECTS if getattr(options, name)), *boolean_and_wire(options), *robot]
+
+
+def boolean_and_wire(options: argparse.Namespace) -> list[str]:
+    """Return the given ones of the options --overlap union and --kind wire."""
+    return ["overlap"] * (options.overlap == "union") + ["kind"] * (options.kind == "wire")
+
+
+def check_blender(options: argparse.Namespace, paths: Sequence[str]) -> None:
+    """End with a message if a file or an option needs Blender, and there is none."""
+    if has_blender():
+        return
+    for path in paths:
+        is_scan = bool(scan_suffix(path))
+        given = words(options_of_blender(options, is_scan))
+        if given or not (is_scan or Path(path).suffix.lower() in UNITLESS):
+            what = ", ".join(given) if given else "“{}”".format(path)
+            fail(NEEDS_BLENDER.format(what + (" need" if len(given) > 1 else " needs")))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks before a process measures: options with files as values, limits, and files that results would replace.
+"""Checks before a process measures: options with files as values, and limits; findings about units and unused options.
 
 A failed check ends like wrong usage, with SystemExit(2) and a message.
 """
@@ -8,8 +8,8 @@ A failed check ends like wrong usage, with SystemExit(2) and a message.
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from pathlib import Path
 from zipfile import is_zipfile
 
 import numpy as np
@@ -18,30 +18,29 @@ from numpy.typing import NDArray
 from ...core.density.materials import BY_NAME
 from ...core.density.polynomial import parse_polynomial
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
+from ...core.measurement.measurement import Measurement
 from ...core.scans.numpy_files import map_array
 from ...core.scans.scan_files import scan_limits
-from ...core.verdict.finding import MeasureError, system_reason
-from ..files import output
+from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
+from ..files.suffixes import file_suffix
+from ..findings import OPTIONS_UNUSED, UNIT_ASSUMED
 from ..parser import UsageError
-from .arguments import fail, files_of_options
+from ..supervisor.listing import UNITLESS
+from .arguments import fail, words
 from .option_types import MAX_GRID
 
 MAX_WAVE_VECTORS = MAX_GRID**3
-
-
-def check(options: Namespace, opened: str | None) -> None:
-    """Prepare a measurement and check output files, in a process that both measures and writes.
-
-    opened: the file that this process has open, if any.
-    """
-    prepare(options)
-    output.check_targets(options, files_of_options(options, options.files, opened))
+OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale", "positions")
 
 
 def prepare(options: Namespace) -> None:
     """Prepare a measurement: set `options.limits` of scans, and `options.waves`, the wave vectors of the transform."""
     try:
-        check_density(options)
+        if options.material is not None and options.material not in BY_NAME:
+            known = ", ".join(sorted(BY_NAME))
+            raise UsageError("There is no material “{}”. Known are {}".format(options.material, known))
+        if options.polynomial is not None:
+            parse_polynomial(options.polynomial)
         options.limits = replace(scan_limits(), allow_outside=options.allow_outside)
     except (MeasureError, UsageError) as error:
         fail(str(error))
@@ -52,20 +51,12 @@ def prepare(options: Namespace) -> None:
 
 
 def wave_vectors_of(options: Namespace) -> FrequencyGrid | NDArray[np.float64] | None:
-    """Return the requested wave vectors, or None if no transform was requested.
-
-    Raises MeasureError and UsageError.
-    """
+    """Return the requested wave vectors, of a grid or a .npy file, or None. Raises MeasureError and UsageError."""
+    dimension, path = 2 if options.flat else 3, options.q
     if options.fourier is None:
         return None
-    dimension = 2 if options.flat else 3
-    if options.q is None:
+    if path is None:
         return FrequencyGrid(options.grid, options.qmax, dimension)
-    return _read_wave_vectors(options.q, dimension)
-
-
-def _read_wave_vectors(path: Path, dimension: int) -> NDArray[np.float64]:
-    """Read the wave vectors of a .npy file. Raises MeasureError and UsageError."""
     try:
         if not path.is_file() or is_zipfile(path):
             raise UsageError("{} is not a .npy file".format(path))
@@ -77,14 +68,30 @@ def _read_wave_vectors(path: Path, dimension: int) -> NDArray[np.float64]:
     return wave_vectors(array, dimension)
 
 
-def check_density(options: Namespace) -> None:
-    """Raise UsageError if the material is unknown, or MeasureError if the polynomial cannot be read."""
-    if options.material is not None and options.material not in BY_NAME:
-        raise UsageError("There is no material “{}”. Known are {}".format(options.material, ", ".join(sorted(BY_NAME))))
-    if options.polynomial is not None:
-        parse_polynomial(options.polynomial)
-
-
 def density_of(options: Namespace) -> float | None:
     """Return the density that was given as a number or as a material's name, else None."""
     return options.density if options.material is None else BY_NAME[options.material].density
+
+
+def is_unitless(path: str | None) -> bool:
+    return path is not None and file_suffix(path) in UNITLESS
+
+
+def unused(names: Iterable[str]) -> Iterator[Finding]:
+    """Yield a finding if there are unused options."""
+    if options := words(names):
+        yield finding(OPTIONS_UNUSED, options=options)
+
+
+def file_findings(path: str | None, options: Namespace) -> Iterator[Finding]:
+    """Yield findings if the unit of a mesh file was assumed, or options for other kinds of files are unused."""
+    names = OF_ARRAYS if is_unitless(path) else (*OF_ARRAYS, "unit_scale")
+    if is_unitless(path) and options.unit_scale is None:
+        yield finding(UNIT_ASSUMED)
+    yield from unused(name for name in names if getattr(options, name) is not None)
+
+
+def body_findings(options: Namespace, measurement: Measurement) -> Iterator[Finding]:
+    """Yield a finding if there are options for other kinds of bodies only."""
+    applies = {"thickness": measurement.kind == "shell", "threshold": measurement.type in ("ARRAY", "VOLUME")}
+    yield from unused(name for name in applies if getattr(options, name) is not None and not applies[name])

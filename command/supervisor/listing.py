@@ -16,15 +16,16 @@ from collections.abc import Iterable, Iterator
 from errno import ENOENT
 from pathlib import Path
 
+from ...core.scans import scan_files as scans
 from ...core.verdict.finding import system_reason
 from ..parser import UsageError
 
 SCHEMA = "body-moments-manifest/1"
-SUFFIXES = (
-    *(".blend", ".stl", ".obj", ".ply", ".fbx", ".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz", ".3mf"),
-    *(".igs", ".iges"),
-    *(".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz"),
-)
+BLEND = ".blend"
+UNITLESS = (".stl", ".obj", ".ply")  # formats that need no import either
+USD = (".usd", ".usda", ".usdc", ".usdz")
+IMPORTED = (".stl", ".ply", ".obj", ".fbx", ".3mf", ".igs", ".iges", ".glb", ".gltf", *USD)
+SUFFIXES = (BLEND, *IMPORTED, *(suffix for suffix in scans.SUFFIXES if suffix != ".raw"))
 COPY_SUFFIX = ".body_moments.blend"  # suffix of our own copies of .blend files
 _RAW = re.compile(r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE)  # Other .raw files belong to headers.
 

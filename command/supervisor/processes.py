@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import importlib.util
 import os
 import signal
@@ -13,8 +14,8 @@ import time
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
-from . import windows
 from .lifeline import WINDOW
 
 _WINDOWS = os.name == "nt"
@@ -25,6 +26,9 @@ _GRACE = 0.4  # seconds to clean up in, for a child that is asked to end
 # Blender without a window, of factory settings, that runs no script of a file and reaches no network.
 _SWITCHES = ("-b", "--factory-startup", "--disable-autoexec", "--offline-mode", "-q", "--python-exit-code", "70")
 _STOP = 5.0  # seconds that a run may take to stop
+# On Windows, its own library is asked: a command takes half a second for each query.
+_QUERY = 0x1000  # PROCESS_QUERY_LIMITED_INFORMATION
+_Size = ctypes.c_size_t
 
 
 def run_command(blender: str | None, words: Sequence[str]) -> list[str]:
@@ -104,7 +108,7 @@ def how_it_ended(code: int | None) -> str:
 def memory_of(pid: int) -> int | None:
     """Return the bytes of a process's own memory, without mapped files, or None if unknown."""
     if _WINDOWS:
-        return windows.memory_of(pid)
+        return _memory_on_windows(pid)
     try:
         with open("/proc/{}/status".format(pid), "rb") as file:
             status = file.read()
@@ -130,7 +134,7 @@ def _memory_by_tool(pid: int) -> int | None:
 def memory_of_machine() -> int | None:
     """Return the bytes of physical memory, or None if unknown."""
     if _WINDOWS:
-        return windows.memory_of_machine()
+        return _windows_memory()
     try:
         return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (AttributeError, ValueError, OSError):
@@ -193,3 +197,58 @@ class WholeRun:
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()
+
+
+class _Counters(ctypes.Structure):
+    """The structure PROCESS_MEMORY_COUNTERS_EX."""
+
+    _fields_ = (
+        *(("cb", ctypes.c_uint32), ("PageFaultCount", ctypes.c_uint32)),
+        *(("PeakWorkingSetSize", _Size), ("WorkingSetSize", _Size)),
+        *(("QuotaPeakPagedPoolUsage", _Size), ("QuotaPagedPoolUsage", _Size)),
+        *(("QuotaPeakNonPagedPoolUsage", _Size), ("QuotaNonPagedPoolUsage", _Size)),
+        *(("PagefileUsage", _Size), ("PeakPagefileUsage", _Size), ("PrivateUsage", _Size)),
+    )
+
+
+class _Status(ctypes.Structure):
+    """The structure MEMORYSTATUSEX."""
+
+    _fields_ = (
+        *(("dwLength", ctypes.c_uint32), ("dwMemoryLoad", ctypes.c_uint32)),
+        *(("ullTotalPhys", ctypes.c_uint64), ("ullAvailPhys", ctypes.c_uint64)),
+        *(("ullTotalPageFile", ctypes.c_uint64), ("ullAvailPageFile", ctypes.c_uint64)),
+        *(("ullTotalVirtual", ctypes.c_uint64), ("ullAvailVirtual", ctypes.c_uint64)),
+        ("ullAvailExtendedVirtual", ctypes.c_uint64),
+    )
+
+
+def _memory_on_windows(pid: int) -> int | None:
+    """Return the bytes of a process's private memory, or None if unknown."""
+    with suppress(OSError, AttributeError):
+        library = _library()
+        library.OpenProcess.restype = ctypes.c_void_p
+        process = library.OpenProcess(_QUERY, False, pid)
+        if not process:
+            return None
+        counters = _Counters(cb=ctypes.sizeof(_Counters))
+        try:
+            size = ctypes.c_uint32(counters.cb)
+            if library.K32GetProcessMemoryInfo(ctypes.c_void_p(process), ctypes.byref(counters), size):
+                return counters.PrivateUsage
+        finally:
+            library.CloseHandle(ctypes.c_void_p(process))
+    return None
+
+
+def _windows_memory() -> int | None:
+    """Return the bytes of physical memory, or None if unknown."""
+    with suppress(OSError, AttributeError):
+        status = _Status(dwLength=ctypes.sizeof(_Status))
+        if _library().GlobalMemoryStatusEx(ctypes.byref(status)):
+            return status.ullTotalPhys
+    return None
+
+
+def _library() -> Any:
+    return getattr(ctypes, "WinDLL")("kernel32")  # noqa: B009 which other systems do not have

@@ -75,8 +75,7 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         made = replace(made, robot=made.robot.with_fixed_roots()) if self.fixed_base else made
         findings = self._export(context, made, path)
         done = "{count} link exported to {file}.", "{count} links exported to {file}."
-        selection.report(self, reports.phrase(*done, count=len(made.robot.links), file=path.name), *findings)
-        return {"FINISHED"}
+        return selection.report(self, reports.phrase(*done, count=len(made.robot.links), file=path.name), *findings)
 
     def _links(self, context: Context, objects: list[Object], name: str) -> "SceneLinks":
         if self.links == "BONE":

@@ -23,7 +23,7 @@ from ...core.robots import write as robot_formats
 from ...core.robots.formats import FORMATS
 from ...core.verdict.finding import Finding, Severity
 from .. import selection
-from .reference import reference_text
+from .moments import reference_text
 
 
 def copy_text(operator: Operator, context: Context, text: str, done: str) -> None:
@@ -213,8 +213,7 @@ class OBJECT_OT_body_moments_save_numbers(Operator):
         document = selected_document(context)
         selection.write_file(path, measurement.FORMATS[SUFFIXES[path.suffix.lower()]]([document]))
         texts = ("Saved {count} object to “{file}”.", "Saved {count} objects to “{file}”.")
-        selection.report(self, reports.phrase(*texts, count=len(document["objects"]), file=path.name))
-        return {"FINISHED"}
+        return selection.report(self, reports.phrase(*texts, count=len(document["objects"]), file=path.name))
 
 
 def _active_index(_scene: Scene) -> int:
@@ -236,19 +235,15 @@ def _select(_scene: Scene, index: int) -> None:
 
 
 def register() -> None:
-    """Register the operators, and the property with the index of the list's active line."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    """Add the property with the index of the list's active line."""
     Scene.body_moments_listed = IntProperty(
         name="Object", description="Select this object", get=_active_index, set=_select, options={"SKIP_SAVE"}
     )
 
 
 def unregister() -> None:
-    """Remove the property and the operators."""
+    """Remove the property."""
     del Scene.body_moments_listed
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
 
 
 CLASSES = (

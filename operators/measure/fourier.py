@@ -175,8 +175,7 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
             file=self._path.name,
             image=image.name,
         )
-        reports.report(self, done, *reports.first(findings))
-        return {"FINISHED"}
+        return reports.report(self, done, *reports.first(findings))
 
 
 CLASSES = (OBJECT_OT_body_moments_fourier_run, OBJECT_OT_body_moments_fourier)

@@ -82,7 +82,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     def execute(self, context: Context) -> set[str]:
         in_window = context.window is not None and not bpy.app.background
         try:
-            return self._reporting(self._run, context, in_window)
+            return selection.reporting(self, self._run, context, in_window)
         except OSError as error:
             return selection.refuse(self, "No process can be started: {error}.", error=system_reason(error))
 

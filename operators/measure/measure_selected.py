@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The button that measures the selected objects and stores the results on them."""
+"""The buttons that measure the selected objects, let their numbers follow changes, and remove stored results."""
 
 from __future__ import annotations
 
@@ -9,12 +9,15 @@ from typing import Any
 
 import bpy
 from bpy.props import EnumProperty
+from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, session
-from ...blender.session.stored import outcome
-from ...blender.session.tracking import armatures
+from ...blender import bodies, session, write
+from ...blender.read.visibility import measurable
+from ...blender.scene.changes import require_editable
+from ...blender.session import live
+from ...blender.session.tracking import armatures, staleness, stamps
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
-from ...blender.write import reports
+from ...blender.write import properties, reports
 from ...core.density.materials import BY_NAME
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, Severity, finding
@@ -109,11 +112,9 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         refusals = {**self._refusals, **failed}
         self._failures = [reports.failure(obj.name_full, refusals[obj]) for obj in self._objects if obj in refusals]
         count = len(self._results) - len(failed)
-        self._report(count)
-        selection.redraw(context)
-        return {"FINISHED"} if count else {"CANCELLED"}
+        return self._report(count)
 
-    def _report(self, count: int) -> None:
+    def _report(self, count: int) -> set[str]:
         warnings = [
             finding(OBJECT_WARNINGS, object=obj.name_full, causes=[cause.as_record() for cause in causes])
             for obj, measured in self._results
@@ -130,9 +131,95 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             )
             if warnings:
                 done.append(reports.phrase("{count} with warnings: {objects}", count=len(names), objects=names))
-        outcome.remember(self.bl_label, self._failures)
         level = Severity.WARNING if warnings else Severity.NOTE
-        reports.report(self, *done, *reports.first(self._failures), level=level)
+        return selection.finish(self, done, self._failures, level=level, is_changed=bool(count))
 
 
-CLASSES = (OBJECT_OT_body_moments_measure,)
+class OBJECT_OT_body_moments_live(Operator):
+    """Let the numbers of the selected objects follow what happens to them."""
+
+    bl_idname = "object.body_moments_live"
+    bl_label = "Live"
+    bl_description = (
+        "Update the numbers of the selected objects while they are edited, sculpted, posed or animated, until the file "
+        "is closed. In Pose Mode, those of the meshes that the armature deforms. Press Measure to store them"
+    )
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        active = context.object is not None and bool(_subjects(context))
+        return active or reports.unavailable(cls, "Select objects")
+
+    def execute(self, context: Context) -> set[str]:
+        objects = _subjects(context)
+        if any(live.following.is_live(obj) for obj in armatures.subjects([context.object])):
+            for obj in objects:
+                live.live.stop(obj)
+            selection.redraw(context)
+            return {"FINISHED"}
+        depsgraph = context.evaluated_depsgraph_get()
+        refusals = []
+        for obj in objects:
+            result = live.live.start(obj, depsgraph)
+            if result.refusal is not None:
+                refusals.append(reports.failure(obj.name, result.refusal))
+        if refusals:
+            selection.report(self, *reports.first(refusals))
+        selection.redraw(context)
+        return {"FINISHED"}
+
+
+def _subjects(context: Context) -> list[Object]:
+    """Return the measurable objects among the active and selected ones, with the meshes of posed armatures."""
+    objects = armatures.subjects([context.object, *context.view_layer.objects.selected])
+    return [obj for obj in objects if measurable(obj)]
+
+
+class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
+    """Remove the stored results from the selected objects. Settings are kept"""
+
+    bl_idname = "object.body_moments_clear"
+    bl_label = "Clear Results"
+
+    kinds: EnumProperty(
+        name="Results",
+        description="Results that are removed",
+        options={"ENUM_FLAG"},
+        items=(
+            ("MASS", "Mass Properties", "Mass, center, inertia and findings"),
+            ("SECTION", "Section", "Section properties"),
+            ("SYMMETRY", "Symmetry", "The symmetry that was found"),
+        ),
+        default={"MASS", "SECTION", "SYMMETRY"},
+    )
+
+    def execute(self, context: Context) -> set[str]:
+        objects = [
+            obj
+            for obj in context.view_layer.objects.selected
+            if any(key in obj for key in (*properties.DESCRIPTIONS, write.section.KEY)) or stamps.of_symmetry(obj)
+        ]
+
+        def remove(obj: Object) -> bool:
+            require_editable(obj)
+            staleness.note_edits(obj)
+            removed = "MASS" in self.kinds and properties.clear(obj)
+            removed |= "SECTION" in self.kinds and write.section.clear(obj)
+            if "SYMMETRY" in self.kinds and stamps.of_symmetry(obj):
+                obj.property_unset("body_moments_symmetry")
+                removed = True
+            return removed
+
+        cleared, failures = selection.apply_to_all(objects, remove)
+        staleness.mark_up_to_date(context, objects)
+        texts = ("Removed the results of {count} object", "Removed the results of {count} objects")
+        done, nothing = reports.phrase(*texts, count=len(cleared)), "The selected objects have no results"
+        return selection.summarize(self, len(cleared), len(objects), done, failures, nothing=nothing)
+
+
+CLASSES = (
+    OBJECT_OT_body_moments_measure,
+    OBJECT_OT_body_moments_live,
+    OBJECT_OT_body_moments_clear,
+)

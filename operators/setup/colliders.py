@@ -92,7 +92,6 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
         if len(self._plans) == 1:
             text = "volume {share:percent} of the object's"
             done += "; " + reports.phrase(text, share=self._plans[0].record["volume_ratio"])
-        selection.redraw(context)
         return selection.summarize(self, len(self._plans), len(self._objects), done, self._failures)
 
 
@@ -105,7 +104,6 @@ class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
         "Make colliders for each selected object as its children, in place of earlier ones, and compare the mass, "
         "center and inertia that an engine computes from them with the exact ones"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     shape: EnumProperty(name="Shape", description="What collides in place of the object", items=SHAPES)
     tolerance: EnumProperty(
@@ -170,14 +168,12 @@ class OBJECT_OT_body_moments_remove_colliders(selection.OnSelectionInObjectMode,
 
     bl_idname = "object.body_moments_remove_colliders"
     bl_label = "Remove Colliders"
-    bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: Context) -> set[str]:
         objects = bodies_of(context)
         count = session.remove_colliders(context, objects)
         done = reports.phrase("{count} object without colliders", "{count} objects without colliders", count=count)
         idle = reports.phrase("no selected object has colliders")
-        selection.redraw(context)
         return selection.summarize(self, count, len(objects), done, idle=idle)
 
 
@@ -192,7 +188,6 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
 
     bl_idname = "object.body_moments_equal_inertia"
     bl_label = "Add Equal-Inertia Shape"
-    bl_options = {"REGISTER", "UNDO"}
 
     kind: EnumProperty(
         name="Shape",

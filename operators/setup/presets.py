@@ -107,8 +107,9 @@ class MATERIAL_OT_body_moments_set_density(Operator):
         entry = BY_NAME[self.material]
         target.body_moments.density = entry.density
         target.body_moments.material = entry.name
-        reports.report(self, reports.phrase("Set “{target}” to {material}", target=target.name, material=entry.name))
-        return {"FINISHED"}
+        return reports.report(
+            self, reports.phrase("Set “{target}” to {material}", target=target.name, material=entry.name)
+        )
 
 
 class OBJECT_OT_body_moments_copy_settings(Operator):

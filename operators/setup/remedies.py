@@ -111,8 +111,7 @@ class OBJECT_OT_body_moments_remedy(_OnActive, Operator):
                 obj.body_moments.kind = "SHELL"
                 obj.body_moments.thickness = self.thickness or obj.body_moments.thickness
         measure_anew(context, [obj])
-        reports.report(self, text)
-        return {"FINISHED"}
+        return reports.report(self, text)
 
     def _edit(self, context: Context, obj: Object) -> int:
         """Edit the mesh of an object; return the number of changed elements."""

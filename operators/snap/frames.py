@@ -1,16 +1,27 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Origins and axes: objects get the frames of their bodies, or turn them to the world.
+"""Frames of bodies: given to objects as origins and axes, to the world, the 3D cursor, empties and orientations.
 
 Physics engines take an object's origin as its center of mass and a diagonal inertia along its axes. Blender's own
-operator for origins ignores modifiers and moves other users of the data.
+operator for origins ignores modifiers and moves other users of the data. Blender makes orientations only from a 3D
+view; without one, as in background mode, that operator only warns. A node group shows the center at every frame.
 """
 
-from bpy.props import BoolProperty, EnumProperty
-from bpy.types import Context, Object, Operator
+from collections.abc import Sequence
 
-from ...blender import scene, session
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
+from bpy.types import Context, Object, Operator, View3DCursor
+from mathutils import Matrix
+
+from ...blender import bodies, scene, session
+from ...blender.read.visibility import measurable
+from ...blender.scene.findings import OPEN_OBJECT
 from ...blender.write import reports
+from ...core import inertia
+from ...core.numerics.float32 import shortest_decimal
+from ...core.verdict.finding import EditRefusedError, MeasureError, Severity
+from ...core.verdict.method import Verdict
 from .. import selection
 
 STRICT_PROPERTY = BoolProperty(
@@ -130,8 +141,204 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
         return selection.summarize(self, len(moved), len(objects), done, failures, idle=idle)
 
 
+class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
+    """Move the 3D cursor to the common center of mass of the selected objects"""
+
+    bl_idname = "view3d.body_moments_cursor_to_center"
+    bl_label = "Cursor to Center of Mass"
+
+    rotate: BoolProperty(
+        name="Rotate to Principal Axes",
+        description="Align the 3D cursor with the principal axes",
+    )
+
+    def execute(self, context: Context) -> set[str]:
+        objects = selection.selected_measurable(context)
+        measured, bodies_measured = bodies.measured_in_turn(objects, context.evaluated_depsgraph_get()), []
+
+        def add(obj: Object) -> None:
+            measurement = measured(obj).measurement
+            if measurement.method.verdict == Verdict.OPEN:
+                raise EditRefusedError(OPEN_OBJECT)
+            bodies_measured.append((measurement.mass_moments, measurement.mass_properties))
+
+        added, failures = selection.apply_to_all(objects, add)
+        findings = []
+        if bodies_measured:
+            # A single body keeps its measured frame, whose signs come from exact third moments.
+            total = bodies_measured[0][1]
+            if len(bodies_measured) > 1:
+                total = inertia.combine([moments for moments, _ in bodies_measured])
+            cursor = context.scene.cursor
+            cursor.location = total.center / shortest_decimal(context.scene.unit_settings.scale_length)
+            if self.rotate:
+                turn_cursor(cursor, total.principal.axes.tolist())
+                findings = [total.principal.finding] if total.principal.finding is not None else []
+        done = reports.phrase(
+            "Moved the 3D cursor to the center of mass of {count} object",
+            "Moved the 3D cursor to the center of mass of {count} objects",
+            count=len(added),
+        )
+        return selection.summarize(self, len(added), len(objects), done, failures, findings)
+
+
+def turn_cursor(cursor: View3DCursor, axes: Sequence[Sequence[float]]) -> None:
+    """Turn the 3D cursor to axes, the columns of a matrix, in its own rotation mode."""
+    mode = cursor.rotation_mode
+    rotation = Matrix(axes).to_quaternion()
+    if mode == "QUATERNION":
+        cursor.rotation_quaternion = rotation
+    elif mode == "AXIS_ANGLE":
+        axis, angle = rotation.to_axis_angle()
+        cursor.rotation_axis_angle = (angle, *axis)
+    else:
+        cursor.rotation_euler = rotation.to_euler(mode)
+
+
+class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operator):
+    """Add an empty at the center of mass, along the principal axes."""
+
+    bl_idname = "object.body_moments_add_empty"
+    bl_label = "Add Empty at Principal Frame"
+    bl_description = (
+        "Add an empty at the center of mass, along the principal axes, with arrows as long as the largest radius of "
+        "gyration. An empty added before is moved"
+    )
+
+    parent: BoolProperty(
+        name="Parent to Object",
+        description="Parent the empty to the object, so that it moves along",
+        default=True,
+    )
+
+    display: EnumProperty(
+        name="Display As",
+        description="How a new empty is drawn",
+        items=(
+            ("ARROWS", "Arrows", "Arrows along the principal axes"),
+            ("PLAIN_AXES", "Plain Axes", "Lines along the principal axes"),
+            ("SPHERE", "Sphere", "Sphere around the center of mass"),
+            ("CUBE", "Cube", "Cube along the principal axes"),
+        ),
+    )
+    size: FloatProperty(
+        name="Size",
+        description="Length of the axes as a multiple of the largest radius of gyration",
+        default=1.0,
+        min=0.001,
+        soft_max=10.0,
+    )
+
+    def execute(self, context: Context) -> set[str]:
+        objects = selection.selected_measurable(context)
+        with reports.progress(len(objects)) as step:
+            placed, refused = scene.place_empties(context, objects, self.parent, self.display, self.size, step)
+        findings = [body.finding.of_sources([body.obj.name]) for body in placed if body.finding is not None]
+        failures = [reports.failure(obj.name_full, error) for obj, error in refused.items()]
+        done = reports.phrase(
+            "Placed an empty at the principal frame of {count} object",
+            "Placed empties at the principal frames of {count} objects",
+            count=len(placed),
+        )
+        idle = reports.phrase("the empties are in place")
+        return selection.summarize(self, len(placed), len(objects), done, failures, findings, idle)
+
+
+class OBJECT_OT_body_moments_create_orientation(Operator):
+    """Create a transform orientation along the principal axes of the active object"""
+
+    bl_idname = "object.body_moments_create_orientation"
+    bl_label = "Orientation from Principal Axes"
+    bl_options = {"REGISTER", "UNDO"}
+
+    name: StringProperty(
+        name="Name",
+        description="Name of the orientation. If empty, the object's name. An orientation of this name is replaced",
+    )
+    use: BoolProperty(
+        name="Use After Creation",
+        description="Make it the current transform orientation",
+        default=True,
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        obj = context.view_layer.objects.active
+        if obj is None or not obj.select_get():
+            return reports.unavailable(cls, "Make an object active and select it")
+        return selection.poll_object_mode(cls, context)
+
+    def execute(self, context: Context) -> set[str]:
+        obj = context.view_layer.objects.active
+        try:
+            body = scene.snap_target(context, obj)
+        except MeasureError as error:
+            return selection.refuse(self, reports.failure(obj.name_full, error))
+        place = _view_3d(context)
+        if place is None:
+            reports.report(
+                self, reports.phrase("A transform orientation needs an open 3D Viewport."), level=Severity.WARNING
+            )
+            return {"CANCELLED"}
+        name = self.name or "{:s} Principal".format(obj.name)
+        slot = context.scene.transform_orientation_slots[0]
+        before = slot.type
+        with context.temp_override(**place):
+            bpy.ops.transform.create_orientation(name=name, use=True, overwrite=True)
+        slot.custom_orientation.matrix = Matrix(body.axes.tolist())
+        if not self.use:
+            slot.type = before
+        free = [body.finding] if body.finding is not None else []
+        return reports.report(self, reports.phrase("Created the transform orientation “{name}”", name=name), *free)
+
+
+def _view_3d(context: Context) -> dict | None:
+    """Return a 3D view to create orientations from: the operator's own, or the first that is open."""
+    windows = [context.window] if context.window else []
+    windows += [window for window in context.window_manager.windows if window not in windows]
+    for window in windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                regions = [region for region in area.regions if region.type == "WINDOW"]
+                return {"window": window, "area": area, "region": regions[0]}
+    return None
+
+
+class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
+    """Add a node group that computes the center of mass in geometry nodes."""
+
+    bl_idname = "object.body_moments_add_nodes"
+    bl_label = "Center of Mass Node Group"
+    bl_description = (
+        "Add the node group “Center of Mass” to the file, marked as an asset: it computes center, volume and mass in "
+        "geometry nodes, follows modifiers and animation, and works without the add-on"
+    )
+
+    marker: BoolProperty(
+        name="Add Marker",
+        description="Add an object that shows the center of mass of the active object at every frame",
+        default=True,
+    )
+
+    def execute(self, context: Context) -> set[str]:
+        group, obj = scene.center_of_mass_group(), context.object
+        if not self.marker or obj is None or not measurable(obj):
+            return reports.report(self, reports.phrase("Added the node group “{group}”", group=group.name))
+        marker = scene.add_marker(context, obj, group)
+        text = "Added the node group “{group}” and the marker “{object}”"
+        texts = [reports.phrase(text, group=group.name, object=marker.name)]
+        settings = obj.body_moments
+        if (settings.kind, settings.mass_from, settings.density_from) != ("SOLID", "DENSITY", "VALUE"):
+            texts.append(reports.phrase("nodes take the object as a solid of one density"))
+        return reports.report(self, *texts)
+
+
 CLASSES = (
     OBJECT_OT_body_moments_origin_to_center,
     OBJECT_OT_body_moments_axes_to_principal,
     OBJECT_OT_body_moments_align_to_world,
+    VIEW3D_OT_body_moments_cursor_to_center,
+    OBJECT_OT_body_moments_add_empty,
+    OBJECT_OT_body_moments_create_orientation,
+    OBJECT_OT_body_moments_add_nodes,
 )

@@ -114,8 +114,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
                     "Only “{object}” was balanced; the other meshes in Edit Mode are unchanged.", object=obj.name
                 )
             )
-        reports.report(self, *texts)
-        return {"FINISHED"}
+        return reports.report(self, *texts)
 
 
 CLASSES = (OBJECT_OT_body_moments_sculpt_balance,)

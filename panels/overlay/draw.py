@@ -10,7 +10,7 @@ in the window manager, whose changes Blender does not record.
 from __future__ import annotations
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, Menu, Object, Panel, PropertyGroup, SpaceView3D, UILayout, WindowManager
 
 from ...blender.session.live.following import is_live
@@ -142,13 +142,15 @@ def section(self: Panel | Menu, context: Context) -> None:
     column.row(align=True).prop(settings, "equivalent", expand=True)
 
 
+CLASSES = (BodyMomentsOverlayMirror,)
+POINTERS = {(WindowManager, "body_moments_overlay"): BodyMomentsOverlayMirror}
+MENUS = ((bpy.types.VIEW3D_PT_overlay_object, section),)
+
+
 def register() -> None:
-    """Add the section to Blender's popover, and the draw handler if there are windows."""
-    bpy.utils.register_class(BodyMomentsOverlayMirror)
-    WindowManager.body_moments_overlay = PointerProperty(type=BodyMomentsOverlayMirror)
+    """Keep the settings during undo, and add the draw handler if there are windows."""
     handlers.before_undo.append(_keep_settings)
     handlers.on_undo.append(_restore_settings)
-    bpy.types.VIEW3D_PT_overlay_object.append(section)
     if not bpy.app.background:
         for function, stage in ((draw, "POST_VIEW"), (draw_texts, "POST_PIXEL")):
             _handles.append(SpaceView3D.draw_handler_add(function, (), "WINDOW", stage))
@@ -156,12 +158,9 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove the section and the draw handler, and free the batches."""
-    bpy.types.VIEW3D_PT_overlay_object.remove(section)
+    """Remove the draw handler, and free the batches."""
     handlers.before_undo.remove(_keep_settings)
     handlers.on_undo.remove(_restore_settings)
-    del WindowManager.body_moments_overlay
-    bpy.utils.unregister_class(BodyMomentsOverlayMirror)
     if _handles:
         while _handles:
             SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")

@@ -108,11 +108,14 @@ def Mesh "Tetra"
 
 def parsed(*words):
     """The options of a command line, as a process has them that measures by itself."""
+    from body_moments.command.files import output
     from body_moments.command.options import arguments, checks
 
     options = arguments.parse([*map(str, words)])
+    checks.prepare(options)
     bpy = sys.modules.get("bpy")
-    checks.check(options, bpy.data.filepath if bpy else None)
+    opened = bpy.data.filepath if bpy else None
+    output.check_targets(options, arguments.files_of_options(options, options.files, opened))
     return options
 
 

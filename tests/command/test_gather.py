@@ -17,7 +17,6 @@ import numpy as np
 import pytest
 from body_moments.command.parser import COMMANDS
 from body_moments.command.supervisor import listing
-from body_moments.core.density.materials import BY_NAME
 from body_moments.core.measurement import documents
 from body_moments.core.measurement.page import to_html
 from body_moments.operators import batch
@@ -332,13 +331,6 @@ def test_the_report_sorts_and_filters_in_a_browser(tmp_path):
 # Options that the panel has
 
 
-def test_a_material_is_its_density():
-    files.add_box("Box")
-    entry = measured("--material", "Aluminum 6061")
-    assert close(entry["mass"], 6.0 * BY_NAME["Aluminum 6061"].density, 1e-12)
-    assert "density_defaulted" not in files.codes(entry)
-
-
 def test_a_polynomial_is_every_objects_density():
     files.add_box("Box", (0, 0, 0))
     entry = measured("--polynomial", "1000 + 600*x")
@@ -381,12 +373,6 @@ def test_attribute_and_volume_agree_with_the_panel(tmp_path):
     as_set = measured("--object", "Box")
     assert found["mass"] == as_set["mass"] and found["inertia"] == as_set["inertia"]
     assert 6.0 < found["mass"] < 12.0  # The box has 6 m³.
-
-
-def test_a_wall_of_real_thickness():
-    files.add_box("Box")
-    entry = measured("--kind", "shell", "--thickness", "0.1", "--wall", "inward", "--density", "1")
-    assert close(entry["mass"], 6.0 - 0.8 * 1.8 * 2.8, 1e-6)
 
 
 @pytest.mark.parametrize("frame", ["world", "object"])

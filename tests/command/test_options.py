@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command line's options, on the scene that is open and on .blend files."""
 
-import csv
 import math
 import os
 
@@ -286,17 +285,6 @@ def test_settings_stored_in_a_blend_file_are_used(tmp_path):
     assert sheet["mass"] == pytest.approx(22.0 * 0.5 * 1000.0)
 
 
-def test_shell_thickness_is_in_meters_in_any_scene_unit():
-    files.add_box()
-    bpy.context.scene.unit_settings.scale_length = 0.1
-    entry = measured("--kind", "shell", "--thickness", "0.01", "--density", "1000")
-    assert entry["kind"] == "shell" and entry["method"] == "shell"
-    assert entry["area"] == pytest.approx(0.22, rel=1e-6)
-    assert entry["volume"] == pytest.approx(0.0022, rel=1e-6)
-    assert entry["mass"] == pytest.approx(2.2, rel=1e-6)
-    assert entry["health"]["closed"] is True
-
-
 def test_the_frame_is_the_worlds_or_the_objects_own():
     box = files.add_box(center=(0, 0, 0))
     for vertex in box.data.vertices:
@@ -320,28 +308,6 @@ def test_the_frame_is_the_worlds_or_the_objects_own():
 def box_moment(powers, center=files.CENTER, size=(1, 2, 3)):
     bounds = [(c - s / 2, c + s / 2) for c, s in zip(center, size, strict=True)]
     return math.prod((b ** (n + 1) - a ** (n + 1)) / (n + 1) for (a, b), n in zip(bounds, powers, strict=True))
-
-
-def test_moments_are_about_the_frames_origin():
-    files.add_box()
-    assert "moments" not in measured()
-    moments = measured("--order", "3")["moments"]
-    assert moments["order"] == 3 and moments["about"] == [0.0, 0.0, 0.0] and "surface" not in moments
-    assert len(moments["volume"]) == 20
-    for key, value in moments["volume"].items():
-        assert value == pytest.approx(box_moment([int(power) for power in key.split(",")]), rel=1e-12)
-    own = measured("--order", "2", "--frame", "object")["moments"]["volume"]
-    assert own["0,0,0"] == pytest.approx(6.0) and own["1,0,0"] == pytest.approx(0.0, abs=1e-12)
-    assert own["0,2,0"] == pytest.approx(6.0 * 4.0 / 12.0)
-
-
-def test_the_rows_of_a_table_hold_the_moments(tmp_path, standard_output):
-    files.add_box()
-    path = tmp_path / "moments.csv"
-    assert batch.main(["measure", "--order", "4", "--format", "csv", "--output", str(path)]) == 0
-    (row,) = csv.DictReader(path.read_text().splitlines())
-    assert float(row["volume_moment_0_4_0"]) == pytest.approx(box_moment((0, 4, 0)), rel=1e-12)
-    assert sum(name.startswith("volume_moment_") for name in row) == 35
 
 
 def test_no_result_is_written_over_the_wave_vectors(tmp_path, capfd, standard_output):

@@ -108,17 +108,6 @@ def test_overflowing_moment_bounds_are_refused(tmp_path, capfd):
         assert bool(said.out) == (not code) and (sentence("moments_overflow", order=order) in said.err) == bool(code)
 
 
-def test_boundary_of_full_simplices_is_the_outside(tmp_path):
-    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
-    for simplices in ([[0, 1, 2], [0, 2, 3]], [[0, 1, 2], [0, 3, 2]]):
-        np.savez(tmp_path / "a.npz", points=square, simplices=simplices)
-        record = answered(tmp_path / "a.npz", "--boundary")[1]
-        assert record["boundary"]["moments"]["0,0"] == pytest.approx(4.0, rel=1e-14)
-    np.savez(tmp_path / "a.npz", points=square, simplices=[[0, 1, 2], [0, 3, 2]], signs=[1, -1])
-    assert abs(answered(tmp_path / "a.npz")[1]["moments"]["0,0"]) < 1e-14
-    assert answered(tmp_path / "a.npz", "--about", "-1,-2")[1]["about"] == [-1, -2]
-
-
 def test_archives_that_are_damaged_or_something_else_are_said(tmp_path, capfd):
     path, rng = tmp_path / "a.npz", np.random.default_rng(0)
     np.savez_compressed(path, points=rng.random((500, 3)), simplices=[[0, 1, 2]])

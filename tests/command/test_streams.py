@@ -116,13 +116,6 @@ def test_the_usual_findings_are_there(tmp_path):
     assert code == 1 and [error["name"] for error in document["errors"]] == ["other"] and not document["objects"]
 
 
-def test_a_sheet_without_a_thickness_has_no_mass(tmp_path):
-    code, document = run(tmp_path, written(tmp_path), "--stream", "always", "--kind", "shell")
-    assert code == 1 and [error["reason"] for error in document["errors"]] == [
-        sentence("zero_quantity", quantity="thickness")
-    ]
-
-
 @pytest.mark.parametrize(
     "words, code",
     [

@@ -9,7 +9,6 @@ pytest.importorskip("bpy")
 
 from tests.blender.batch_files import document, measured
 from tests.close import close
-from tests.core.cad.test_kernel_files import kernel_file
 from tests.core.exact_splines import sphere, torus
 from tests.core.iges_files import IgesFile, obj_text, unrolled
 
@@ -26,20 +25,6 @@ def test_an_iges_body_in_its_own_unit(tmp_path, end):
     assert (entry["name"], entry["method"]) == ("ball", "NURBS exact")
     assert close(entry["volume"], BALL * 1e-9, 1e-14)
     assert not {"surfaces_rounded", "unit_assumed", "faces_not_read"} & {found["code"] for found in entry["findings"]}
-
-
-def test_microinches_and_kilometers(tmp_path):
-    for unit, meters in ((11, 2.54e-8), (7, 1e3)):
-        file = IgesFile(unit)
-        file.surface(unrolled(torus()))
-        entry = measured(file.write(tmp_path / "ring.igs"), "--density", "1")
-        assert close(entry["volume"], DONUT * meters**3, 1e-14)
-
-
-@pytest.mark.parametrize("name, volume", [("loft", 3883.4561009e-9), ("drilled", (8000.0 - 160.0 * np.pi) * 1e-9)])
-def test_body_of_a_kernel_is_exact(tmp_path, name, volume):
-    entry = measured(kernel_file(name, tmp_path), "--density", "1")
-    assert (entry["method"], entry["verdict"]) == ("NURBS exact", "exact") and close(entry["volume"], volume, 1e-10)
 
 
 def test_refused_entity_is_an_error_beside_other_records(tmp_path):
@@ -62,14 +47,6 @@ def test_an_iges_file_of_curves_and_one_that_is_none(tmp_path):
         path.exists() or path.write_text("hello")
         found = document(path)
         assert not found["objects"] and found["status"] == "error" and len(found["errors"]) == 1
-
-
-def test_surfaces_of_an_obj_file_with_a_unit(tmp_path):
-    path = tmp_path / "ring.obj"
-    path.write_text(obj_text([unrolled(torus())], name="Ring"))
-    entry = measured(path, "--density", "1", "--unit-scale", "0.001")
-    assert (entry["name"], entry["method"]) == ("Ring", "NURBS exact")
-    assert close(entry["volume"], DONUT * 1e-9, 4e-7)
 
 
 CUBE = "o Cube\n" + "".join("v {} {} {}\n".format(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1))

@@ -34,6 +34,7 @@ def run_sphinx(source: Path, folder: Path) -> None:
 
 def build(folder: Path) -> None:
     """Write the manual into a folder that is new or empty."""
+    shutil.rmtree(DOCS / "api", ignore_errors=True)  # pages of packages that are gone
     run_sphinx(DOCS, folder)
     for pattern in UNUSED:
         for path in folder.glob(pattern):

@@ -110,11 +110,11 @@ def test_every_page_of_buttons_and_settings_exists(folder):
 )
 def test_online_manual_finds_the_page_of_a_control(control, page, folder, monkeypatch):
     monkeypatch.setattr(shown, "manual_folder", lambda: folder)
-    shown.register_manual()
+    shown.register()
     try:
         from bl_operators.wm import WM_OT_doc_view_manual as Viewer
 
         assert Viewer._lookup_rna_url(control, verbose=False) == folder.as_uri() + "/" + page
     finally:
-        shown.unregister_manual()
+        shown.unregister()
     assert all(prefix != folder.as_uri() + "/" for prefix, _ in bpy.utils.manual_map())

@@ -37,7 +37,7 @@ REFUSED = NETWORK | {
 REFUSED_NAMES = {"eval", "exec", "compile", "__import__", "bl_info"}
 # The supervisor alone starts processes, Blender with this add-on, so that no file can end the run over all of them.
 STARTS_PROCESSES = {"command/supervisor/" + name for name in ("processes.py", "pool.py", "whole_run.py")}
-ASKS_SYSTEM = {"command/supervisor/lifeline.py", "command/supervisor/windows.py"}
+ASKS_SYSTEM = {"command/supervisor/lifeline.py", "command/supervisor/processes.py"}
 ALLOWED = (set(sys.stdlib_module_names) - REFUSED) | BLENDER | {"numpy"}
 
 

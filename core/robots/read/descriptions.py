@@ -205,10 +205,10 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
     included = [own]
     total, count = 0, 0
     while waiting:
-        node, depth, *origin = waiting.pop()
+        node, depth, beside, within = waiting.pop()
         count += 1
         check_size(depth, count)
-        children, pending = [], [(child, *origin) for child in reversed(node.children)]
+        children, pending = [], [(child, beside, within) for child in reversed(node.children)]
         while pending:
             child, here, above = pending.pop()
             if child.tag != "include":
@@ -268,7 +268,7 @@ def _compose_usd(path: Path, roots: Roots) -> bytes:
                 prim.SetInstanceable(False)
         return stage.Flatten().ExportToString().encode()
     except RuntimeError as error:  # pxr.Tf.ErrorException is one.
-        place, _, reason = str(error).strip().partition("\n")[0].rpartition(" : ")  # where in pxr's source, and why
+        place, _, reason = str(error).strip().partition("\n")[0].rpartition(" : ")  # a place in pxr's source
         raise FileError(FILE_UNREADABLE, error=(reason or place).strip(" '")) from error
 
 

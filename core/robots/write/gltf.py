@@ -28,8 +28,8 @@ UNIFORM_RTOL = 1e-6  # Relative; for scales that differ by float32 rounding alon
 _GLB, JSON, BINARY = 0x46546C67, 0x4E4F534A, 0x004E4942  # a binary file, and kinds of its chunks
 
 
-def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
-    """Return the entry `motion` of both extensions along the axes of the file, for an inertial along Blender's.
+def body_extensions(inertial: Inertial, scale: ArrayLike = 1.0, is_fixed: bool = False) -> dict[str, Any]:
+    """Return both extensions of a node that is a rigid body, for an inertial along Blender's axes.
 
     scale: meters per unit of the node's own space along Blender's axes, for the center.
     """
@@ -41,12 +41,6 @@ def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
         w, x, y, z = quaternion(Y_UP @ inertial.axes).tolist()
         values["inertiaDiagonal"] = inertial.moments.tolist()
         values["inertiaOrientation"] = [x, y, z, w]
-    return values
-
-
-def body_extensions(inertial: Inertial, scale: ArrayLike = 1.0, is_fixed: bool = False) -> dict[str, Any]:
-    """Return both extensions of a node that is a rigid body; parameters as of `motion`."""
-    values = motion(inertial, scale)
     kinematic = {"isKinematic": True} if is_fixed else {}
     kind = {"type": "kinematic" if is_fixed else "dynamic"}
     return {KHR: {"motion": {**kinematic, **values}}, OMI: {"motion": {**kind, **values}}}

@@ -15,7 +15,7 @@ from mathutils import Matrix
 
 from tests.blender.characters import armature_of
 from tests.blender.findings import refused, said
-from tests.blender.objects import add, measured, only
+from tests.blender.objects import add, measured
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -147,20 +147,6 @@ def test_overflowing_region_moments_are_refused():
     assert region.curves and np.isfinite(region.moments(4).raw).all()
     with refused("moments_overflow", order=30):
         region.moments(30)
-
-
-def test_a_ring_has_its_hole():
-    obj = circle()
-    obj.data.dimensions, obj.data.fill_mode = "2D", "BOTH"
-    inner = circle()
-    inner.scale = (0.5, 0.5, 0.5)
-    bpy.ops.object.transform_apply(scale=True)
-    only(obj, inner)
-    bpy.ops.object.join()
-    obj.body_moments.kind = "SHELL"
-    ring = measured(obj)
-    assert ring.area == pytest.approx(0.75 * np.pi, rel=1e-7)
-    assert str(ring.method) == "NURBS shell"
 
 
 def test_crossing_curve_is_measured_by_its_fill_or_refused():

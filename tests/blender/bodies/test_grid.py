@@ -12,7 +12,7 @@ from body_moments.blender.session.tracking import staleness
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
 from body_moments.core.bodies.grid import Samples, density_body
-from body_moments.core.verdict.finding import MeasureError, ReadError, finding
+from body_moments.core.verdict.finding import MeasureError, ReadError
 
 from tests.blender.findings import refused, said
 from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object
@@ -206,19 +206,6 @@ def test_a_sheared_parent_and_the_unit_scale(tmp_path):
     matrix = np.array(obj.matrix_world, float)
     matrix[:3] *= 0.001
     check(found, values, matrix)
-
-
-@pytest.mark.parametrize("order", [2, 4])
-def test_the_spline_order_spreads_the_mass(tmp_path, order):
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(random_values(np.float32, (6, 6, 6))))
-    voxels = measure(obj).mass_properties
-    obj.body_moments.spline_order = order
-    smooth = measure(obj)
-    more = smooth.mass_properties.inertia - voxels.inertia
-    assert smooth.mass_properties.mass == pytest.approx(voxels.mass, rel=1e-13)
-    assert more == pytest.approx(voxels.mass * (order - 1) / 6 * np.eye(3), rel=1e-9, abs=1e-9 * voxels.mass)
-    meaning = said(smooth)["grid_density"]["cause"]
-    assert meaning == finding("values_scaled", density=1.0, order=order).as_record()
 
 
 def test_given_mass_and_density_options(tmp_path):

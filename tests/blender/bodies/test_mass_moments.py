@@ -159,14 +159,6 @@ def test_a_grid_with_any_spline_order(tmp_path, spline_order):
         assert close(moments["{},{},{}".format(*powers)], truth, rel=1e-12)
 
 
-def test_walls_have_mass_moments_to_third_order():
-    obj = box()
-    settings = obj.body_moments
-    settings.kind, settings.wall, settings.thickness = "SHELL", "INWARD", 0.125
-    moments = measured("--order", 3, "--density", "1000")["moments"]
-    assert close(moments["mass"]["0,0,0"], 1000.0 * (6.0 - 0.75 * 1.75 * 2.75), rel=1e-12)
-
-
 def test_the_panel_computes_moments_of_the_mass():
     obj = box()
     obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "100 + 20*z"

@@ -131,14 +131,6 @@ def test_an_unevenly_scaled_shell_is_measured_as_it_lies():
     assert np.allclose(uneven.mass_properties.inertia, even.mass_properties.inertia, rtol=1e-12, atol=1e-12)
 
 
-def test_a_flat_sheet_is_a_shell_and_no_solid():
-    sheet = add({"points": [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], "faces": [(0, 1, 2, 3)]})
-    with refused("no_volume", "Box"):
-        measure(sheet)
-    found = measure(sheet, kind="shell", thickness=0.001, density=1000.0).mass_properties
-    assert close(np.diag(found.inertia), np.array([1, 1, 2]) / 12, rel=1e-12)
-
-
 def test_overlapping_shells_are_summed_with_a_warning_or_united():
     obj = add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)))
     signed, united = measure(obj), measure(obj, overlap="union")
@@ -147,18 +139,6 @@ def test_overlapping_shells_are_summed_with_a_warning_or_united():
     assert str(united.method) == "union" and united.volume == pytest.approx(1.5, rel=1e-6)
     assert np.allclose(np.diag(united.mass_properties.inertia), np.array([0.25, 0.40625, 0.40625]) * 1000, rtol=1e-5)
     assert united.health.overlapping_components  # the input's
-
-
-def test_nested_shell_adds_and_cavity_subtracts():
-    outer, inner = box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3))
-    nested = add(outer, inner)
-    assert measure(nested).volume == pytest.approx(72.0) and said(measure(nested)) == {
-        "components_nested": {"count": 1}
-    }
-    assert measure(nested, overlap="union").volume == pytest.approx(64.0, rel=1e-6)
-    hollow = measure(add(outer, box((1, 1, 1), (3, 3, 3), turned=True)))
-    assert hollow.volume == pytest.approx(56.0) and str(hollow.method) == "exact"
-    assert np.allclose(np.diag(hollow.mass_properties.inertia), 165.33333333333334 * 1000, rtol=1e-12)
 
 
 def test_distant_brick_is_exact_within_input_bound():

@@ -74,17 +74,6 @@ def test_sheared_object_has_wall_along_its_world_normals():
     assert abs(found.volume / truth - 1.0) < 1e-6
 
 
-def test_an_open_sheet_is_a_plate():
-    mesh = bpy.data.meshes.new("Sheet")
-    mesh.from_pydata([(0, 0, 0), (2, 0, 0), (2, 3, 0), (0, 3, 0)], [], [(0, 1, 2, 3)])
-    obj = add(mesh)
-    settings = obj.body_moments
-    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.5
-    found = measured(obj)
-    assert abs(found.volume - 3.0) < 1e-14
-    assert np.abs(found.mass_properties.center - (1.0, 1.5, 0.25)).max() < 1e-14
-
-
 def test_folding_wall_is_refused_with_largest_thickness():
     obj = box((1, 2, 0.5), thickness=0.3)
     with pytest.raises(MeasureError) as refusal:

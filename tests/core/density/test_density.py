@@ -46,11 +46,6 @@ def test_any_order_and_knots_against_exact_arithmetic(orders, signed):
     check(density_moments(coefficients, axes, 4), coefficients, axes)
 
 
-def test_high_orders_of_moments():
-    coefficients, axes = spline((4, 3, 2))
-    check(density_moments(coefficients, axes, 8), coefficients, axes)
-
-
 @pytest.mark.parametrize("order, signed", [(1, False), (2, False), (3, False), (4, False), (4, True)])
 def test_grid_moments_to_order_20_match_fractions(order, signed):
     rng = np.random.default_rng(order)

@@ -17,7 +17,6 @@ from body_moments.core.verdict.finding import (
     Finding,
     MeasureError,
     ReadError,
-    Severity,
     finding,
     system_reason,
     truncate_findings,
@@ -25,7 +24,7 @@ from body_moments.core.verdict.finding import (
 )
 from body_moments.core.verdict.health import DefectiveElements, MeshHealth
 from body_moments.core.verdict.method import Method, Source, Verdict, least_trusted
-from body_moments.core.verdict.sentences import of_severity, sentence, severity, truncate_list
+from body_moments.core.verdict.sentences import sentence, truncate_list
 
 from tests.core.findings import declarations
 from tests.package.test_architecture import WINGS
@@ -102,12 +101,6 @@ def test_stored_finding_names_the_same_elements():
 
 def test_nonfinite_finding_value_is_unknown():
     assert "unknown of the area" in sentence(finding("patch_holes_capped", flat=1, curved=0, share=None))
-
-
-def test_severity_belongs_to_the_code():
-    assert severity(finding("no_faces")) == Severity.ERROR
-    both = [finding("holes_capped", slight=True), finding("flat_surface")]
-    assert of_severity(both, Severity.WARNING) == [both[1]]
 
 
 def test_template_has_only_placeholders_known_to_the_formatter():

@@ -142,17 +142,6 @@ def test_overlapping_shells_count_twice_or_are_united():
     assert np.abs(found.values - once).max() <= 1e-5 and "union_by_boolean" in said(findings)
 
 
-def test_instances_are_phases_and_maps():
-    box = files.add_box(center=(0, 0, 0))
-    collection = bpy.data.collections.new("Parts")
-    collection.objects.link(box)
-    empty = objects.add(None, "Instancer", location=(1, 2, 3), scale=(2, 1, -0.5))
-    empty.instance_type, empty.instance_collection = "COLLECTION", collection
-    found, _ = transform(empty)
-    true = box_spectrum(Q, SIZE * [2, 1, 0.5], np.array([1.0, 2, 3]))
-    assert np.abs(found.values - true).max() <= 1e-12
-
-
 def test_one_object_is_needed_and_a_refusal_is_an_error(tmp_path, wave_vectors):
     files.add_box("a")
     files.add_box("b")

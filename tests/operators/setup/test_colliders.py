@@ -195,7 +195,7 @@ def test_instancer_gets_colliders_around_its_instances():
 
 
 def test_colliders_are_left_out_of_measuring():
-    from body_moments.command.measure.objects import objects_to_measure
+    from body_moments.command.measure.measuring import objects_to_measure
 
     body = add(mesh_body(), "Body")
     make(shape="PIECES")

@@ -1,25 +1,33 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Import a scan: a file of samples becomes a Volume object."""
+"""Imports: a scan becomes a Volume object; B-spline surfaces of IGES and .obj files become surface objects."""
 
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntVectorProperty, StringProperty
-from bpy.types import Context, Operator
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntVectorProperty,
+    StringProperty,
+)
+from bpy.types import Context, Object, Operator, OperatorFileListElement, UILayout
 from bpy_extras.io_utils import ImportHelper
 
-from ... import core
-from ...blender import read, scene
-from ...blender.write import reports
-from ...blender.write.findings import FILE_NOT_WRITTEN
-from ...core.numerics.float32 import shortest_decimal
-from ...core.scans.scan_files import SAMPLE_TYPES, SUFFIXES
-from ...core.verdict.finding import FileError, Finding, MeasureError
-from .. import selection
-from ..findings import FILE_EXISTS
+from .. import core
+from ..blender import read, scene
+from ..blender.write import reports
+from ..blender.write.findings import FILE_NOT_WRITTEN
+from ..core.numerics.float32 import shortest_decimal
+from ..core.scans.scan_files import SAMPLE_TYPES, SUFFIXES
+from ..core.verdict.finding import FileError, Finding, MeasureError
+from . import selection
+from .findings import FILE_EXISTS
 
 
 class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, ImportHelper):
@@ -98,8 +106,7 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
             findings = self._import(context, module, path)
         except MeasureError as error:
             return selection.refuse(self, error.about(path.name))
-        reports.report(self, *findings)
-        return {"FINISHED"}
+        return reports.report(self, *findings)
 
     def _import(self, context: Context, module: ModuleType, path: Path) -> list[Finding | str]:
         """Make the object, and return findings and texts about the steps and decisions."""
@@ -134,6 +141,88 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         return [*texts, *placed.findings]
 
 
-CLASSES = (OBJECT_OT_body_moments_import_scan,)
-ENTRY = selection.menu_entry(*CLASSES, text="Scan of Densities (.nii/.nrrd/.npy)")
-MENUS = ((bpy.types.TOPBAR_MT_file_import, ENTRY),)
+class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, ImportHelper):
+    """Import the B-spline surfaces of IGES files, and of .obj files with surf, as they are"""
+
+    bl_idname = "object.body_moments_import_surfaces"
+    bl_label = "Import Surfaces"
+
+    filter_glob: StringProperty(default="*.igs;*.iges;*.obj", options={"HIDDEN"})
+    directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
+    files: CollectionProperty(type=OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"})
+    unit: FloatProperty(
+        name="Unit of .obj",
+        description="Meters per unit of .obj files, which state no unit. IGES files state theirs",
+        default=1.0,
+        min=1e-9,
+        soft_min=1e-3,
+        soft_max=1.0,
+        precision=6,
+    )
+
+    def draw(self, _context: Context) -> None:
+        layout: UILayout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "unit")
+
+    def execute(self, context: Context) -> set[str]:
+        made: list[Object] = []
+        parts: list[Finding | str] = []
+        refusals: list[MeasureError] = []
+        for path in self._paths():
+            try:
+                objects, found = self._import(context, path)
+            except MeasureError as error:
+                refusals.append(error.about(path.name))
+            else:
+                made += objects
+                parts += found
+        if not made:
+            if not refusals:
+                return selection.refuse(self, selection.NO_FILE)
+            reports.report(self, *map(reports.refusal, refusals))
+            return {"CANCELLED"}
+        _select(context, made)
+        for part in [*parts, *(reports.failure(error.subject, error) for error in refusals)]:
+            reports.report(self, part)  # one line each: a refused file does not undo the others
+        return {"FINISHED"}
+
+    def _paths(self) -> list[Path]:
+        names = [one.name for one in self.files if one.name]
+        if names:
+            return [Path(bpy.path.abspath(self.directory), name) for name in names]
+        path = Path(bpy.path.abspath(self.filepath))
+        return [] if path.is_dir() else [path]
+
+    def _import(self, context: Context, path: Path) -> tuple[list[Object], list[Finding | str]]:
+        """Return the objects of a file, and findings about the steps and decisions."""
+        found = scene.import_surfaces(path, core.scans.scan_files.scan_limits(), self.unit, context)
+        texts = (
+            "Imported {count} patch of order {order} from {file}.",
+            "Imported {count} patches of order {order} at most from {file}.",
+        )
+        done = reports.phrase(*texts, count=found.patches, order=found.order, file=path.name)
+        return found.objects, [done, *found.findings]
+
+
+def _select(context: Context, made: list[Object]) -> None:
+    for previous in context.selected_objects:
+        previous.select_set(False)
+    visible = [obj for obj in made if obj.name in context.view_layer.objects]
+    for obj in visible:
+        obj.select_set(True)
+    if visible:
+        context.view_layer.objects.active = visible[0]
+
+
+CLASSES = (
+    OBJECT_OT_body_moments_import_scan,
+    OBJECT_OT_body_moments_import_surfaces,
+)
+MENUS = (
+    (bpy.types.TOPBAR_MT_file_import, selection.menu_entry(CLASSES[0], text="Scan of Densities (.nii/.nrrd/.npy)")),
+    (
+        bpy.types.TOPBAR_MT_file_import,
+        selection.menu_entry(CLASSES[1], text="NURBS Surfaces (.igs/.iges, .obj with surf)"),
+    ),
+)
