@@ -34,8 +34,7 @@ from ..moments.exponents import monomial_count, monomials
 from ..moments.moments import SECOND_MOMENT_INDEX, Moments
 from ..numerics.arrays import sums_by_index
 from ..polyhedron.integration import polyhedron_moments
-from ..robots.comparison import Effect, compare, ratio
-from ..robots.model import Inertial, Pose, Shape
+from ..robots.model import Effect, Inertial, Pose, Shape, compare, ratio
 from ..robots.primitives import moments_of
 from ..statics.gradient import volume_gradient
 from ..verdict.finding import MeasureError
@@ -169,27 +168,22 @@ def correct_vertices(
     tolerance, in m; if that does not suffice, the result comes as near to the body as it is found to come. Primitives
     stay as they are. surface: the body's. MeasureError if it has no volume.
     """
-    places = [place for place, shape in enumerate(shapes) if shape.kind == "mesh"]
-    if not places:
+    meshes = {place: shape.surface for place, shape in enumerate(shapes) if shape.surface is not None}
+    if not meshes:
         return list(shapes)
-    fixed = [moments_of(shape) for shape in shapes if shape.kind != "mesh"]
-    parts, volume = [_corners(shapes[place]) for place in places], polyhedron_moments(surface)[0].total
+    fixed = [moments_of(shape) for shape in shapes if shape.surface is None]
+    parts = [shapes[place].pose.apply(mesh.points * shapes[place].size) for place, mesh in meshes.items()]
+    volume = polyhedron_moments(surface)[0].total
     hulls = _Hulls(body, volume, parts, fixed)
     points, off = _solve(hulls, min(outward, inward) / hulls.size)
     if off > NEAR:
         hulls = _Hulls(body, volume, parts, fixed, is_density_free=True)
         points, _ = _solve(hulls, min(outward, inward) / hulls.size)
     result = list(shapes)
-    for place, hull in zip(places, hulls.take(points)):
+    for place, hull in zip(meshes, hulls.take(points)):
         moved = Surface(hulls.size * hull.points + body.center, hull.triangles)
         result[place] = replace(shapes[place], size=(1.0, 1.0, 1.0), pose=Pose(), surface=moved)
     return result
-
-
-def _corners(shape: Shape) -> NDArray[np.float64]:
-    """Return (n, 3) points of a mesh in the frame of its link."""
-    assert shape.surface is not None
-    return shape.surface.points * shape.size @ shape.pose.rotation.T + shape.pose.position
 
 
 class _Hulls:

@@ -292,7 +292,7 @@ def _polyhedron(shape: Shape, body: ConvexHull) -> tuple[ConvexHull, float]:
     body: the hull of the body, which may be the shape.
     """
     if shape.surface is not None:
-        points = _placed(shape.surface.points * shape.size, shape)
+        points = shape.pose.apply(shape.surface.points * shape.size)
         return body if np.array_equal(points, body.points) else convex_hull(points, 1e-9), 0.0
     hull, size = _unit("sphere" if shape.kind == "ellipsoid" else shape.kind), shape.size
     if shape.kind == "capsule":  # the ends move apart, and no face changes
@@ -300,11 +300,7 @@ def _polyhedron(shape: Shape, body: ConvexHull) -> tuple[ConvexHull, float]:
         points = size[0] * (hull.points - ends) + size[1] * ends
     else:
         points = hull.points * (size if shape.kind != "cylinder" else (size[0], size[0], size[1]))
-    return replace(hull, points=_placed(points, shape)), 0.0 if shape.kind == "box" else BALL_SAG * max(size)
-
-
-def _placed(points: NDArray, shape: Shape) -> NDArray[np.float64]:
-    return points @ shape.pose.rotation.T + shape.pose.position
+    return replace(hull, points=shape.pose.apply(points)), 0.0 if shape.kind == "box" else BALL_SAG * max(size)
 
 
 def _face_normals(hull: ConvexHull) -> NDArray[np.float64]:

@@ -20,7 +20,6 @@ from ..verdict import internal_error
 from ..verdict.finding import Finding, MeasureError, Severity, finding
 from ..verdict.method import Verdict
 from ..verdict.sentences import sentence, severity
-from .comparison import Effect
 from .diagnosis import DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
     AUDIT_ANGLES,
@@ -34,11 +33,11 @@ from .findings import (
     INERTIAL_TRIANGLE_SLIGHTLY,
 )
 from .formats import FORMATS
-from .model import Pose, Shape
+from .model import Effect, Pose, Shape
 from .plausibility import LEAST_MASS, Hull, impossible, spread_directions
 from .primitives import primitive_moments
+from .read.descriptions import Roots
 from .read.meshes import read_mesh
-from .read.paths import Roots
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
 
 BALL = 2000  # points of a ball
@@ -220,11 +219,7 @@ def _read_entries(link: StatedLink) -> list[Entry]:
 def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete: bool) -> LinkAudit:
     """Judge an inertial by its geometry. incomplete: True if some shapes could not be read; then none are compared."""
     place = link.inertial_place
-    points = [
-        piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
-        for several in pieces.values()
-        for one, piece in several
-    ]
+    points = [one.shape.pose.apply(piece.points) for several in pieces.values() for one, piece in several]
     hull = Hull(np.concatenate(points)) if points and not incomplete else None
     reasons = impossible(stated, hull)
     if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in reasons):

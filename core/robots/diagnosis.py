@@ -19,7 +19,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding, finding
-from .comparison import Effect, compare
 from .findings import (
     AUDIT_ANGLES,
     AUDIT_DENSITY,
@@ -35,6 +34,7 @@ from .findings import (
     AUDIT_TURNED,
     AUDIT_UNIT,
 )
+from .model import Effect, compare
 from .stated import StatedInertial, rotation_of_angles
 
 AGREES, DIFFERS = 5e-3, 1e-2  # Relative differences: below the first equal; above the second not by rounded digits.

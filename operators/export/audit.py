@@ -56,7 +56,7 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
     def _audit(self, path: Path) -> tuple[dict[str, Any], str]:
         """Return the report of a file, and the name of its text."""
         folders = [Path(bpy.path.abspath(self.root))] if self.root else []
-        roots = read.paths.Roots.for_file(path, folders, self.allow_outside)
+        roots = read.descriptions.Roots.for_file(path, folders, self.allow_outside)
         audit = robots.audit.Auditor(roots).audit(read.descriptions.read_description(path, roots))
         copy = self._write_copy(path, audit) if self.write_copy else None
         document = write.audit_report.document(str(path), audit, copy)

@@ -9,9 +9,8 @@ from xml.etree import ElementTree
 import numpy as np
 from body_moments.command import audit
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.core.robots.read.descriptions import read_description
+from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.read.meshes import read_mesh
-from body_moments.core.robots.read.paths import Roots
 from body_moments.core.robots.stated import rotation_of_angles
 from body_moments.core.robots.write import gltf
 

@@ -6,8 +6,7 @@ import sys
 
 import pytest
 from body_moments.core.robots.audit import Auditor
-from body_moments.core.robots.read.descriptions import read_description
-from body_moments.core.robots.read.paths import Roots
+from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.verdict.finding import MeasureError
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdUtils
 

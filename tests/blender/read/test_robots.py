@@ -15,9 +15,8 @@ import bpy
 import numpy as np
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.read import xml
-from body_moments.core.robots.read.descriptions import read_description
+from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.read.meshes import read_mesh
-from body_moments.core.robots.read.paths import Roots
 from body_moments.core.streams.threemf import read_3mf
 from body_moments.core.verdict.finding import FileError
 
