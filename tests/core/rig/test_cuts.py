@@ -11,7 +11,7 @@ from body_moments.core.mesh import Surface
 from body_moments.core.moments.exponents import monomials
 from body_moments.core.moments.moments import sum_moments
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.rig.cuts import bone_pieces, bones_of_caps, dominant_bones
+from body_moments.core.rig.cuts import bone_pieces, dominant_bones
 
 from tests.close import close
 from tests.core import characters as made
@@ -116,16 +116,6 @@ def test_faces_without_weights_go_with_the_nearest_bone():
     centers = character.points[character.quads].mean(axis=1)
     hand = centers[:, 0] > 5.5
     assert hand.any() and (bone[hand] == made.NAMES.index("arm.L")).all()
-
-
-def test_caps_go_with_the_faces_beside_them():
-    character = made.box_skeleton()
-    faces, corners = character.corners
-    bone, _ = dominant_bones(faces, corners, character.points, character.weights, character.bones)
-    triangles, bone = character.triangles, np.repeat(bone, 2)
-    foot = (character.points[triangles][:, :, 2] == -5).all(axis=1)
-    given = np.where(foot, -1, bone)
-    assert (bones_of_caps(triangles, foot, given) == bone).all()
 
 
 def test_cut_is_closed_to_its_centroid_at_any_place():
