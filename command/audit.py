@@ -13,12 +13,11 @@ from typing import Any
 
 from ..blender.write.findings import FILE_NOT_WRITTEN
 from ..core.measurement.plain_text import counted, print_message
-from ..core.robots.audit import Audit, Auditor
+from ..core.robots.audit import Audit, Auditor, repaired_copy
 from ..core.robots.findings import DESCRIPTION_UNKNOWN, XML_ENTITIES
 from ..core.robots.formats import AUDITED_SUFFIXES
 from ..core.robots.read.descriptions import read_description
 from ..core.robots.read.paths import Roots
-from ..core.robots.repair import repaired_copy
 from ..core.robots.write import audit_report
 from ..core.streams.findings import FILE_WITHOUT_OBJECTS
 from ..core.verdict import internal_error

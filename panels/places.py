@@ -29,7 +29,7 @@ ORDER = (
     "shape",
     "advanced",
     "refused",
-)  # what is posed, then the order of CAD's mass property dialogs
+)  # posed objects first, then the order of CAD's mass property dialogs
 ROOT = "body_moments"
 PLACES = {  # by the beginning of the panels' identifiers
     "VIEW3D_PT_": {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Moments"},

@@ -104,7 +104,7 @@ def draw(points, triangles, color):
 def main() -> None:
     load_package()
     from body_moments.core import MassProperties, Surface, polyhedron_moments
-    from body_moments.core.colliders.corners import correct_vertices
+    from body_moments.core.colliders.effects import correct_vertices
     from body_moments.core.colliders.fits import Wanted, make_colliders
 
     points, triangles = crate()

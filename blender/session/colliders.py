@@ -12,9 +12,8 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object
 from numpy.typing import NDArray
 
-from ...core.colliders.corners import correct_vertices
 from ...core.colliders.distance import distances
-from ...core.colliders.effects import correct_masses, effect, uniform_masses
+from ...core.colliders.effects import correct_masses, correct_vertices, effect, uniform_masses
 from ...core.colliders.fits import Wanted, make_colliders
 from ...core.measurement.documents import plain
 from ...core.measurement.measurement import Measurement

@@ -71,14 +71,11 @@ class SimilarSearch:
             likeness = similarity(self.wanted, entry.signature)
             if classify(likeness) in UNDECIDED_HANDEDNESS:
                 yield 0.6
-                if skin is None:
-                    skin = distance_from(wanted_shape)
-                    for _ in skin.build():
-                        yield 0.6
+                skin = skin or distance_from(wanted_shape)
                 if isinstance(shape, Signature):
                     shape = surface_shape_of(obj, depsgraph)
                 skin_compared = distance_from(shape)
-                yield from (0.6 + 0.3 * share for share in skin_compared.build())
+                yield 0.9
                 match = register_surfaces(shape, wanted_shape, skin_compared, skin, 1.0 / likeness.scale)
                 is_copy = match.max_distance <= MAX_FIT_RTOL * wanted_shape.size
                 self._mirror_images[entry] = False if is_copy else True if match.is_mirror_image else None

@@ -245,7 +245,7 @@ def _split(points: NDArray, corners: NDArray, sides: NDArray, starts: list[tuple
     meshes = []
     for i, (end, last, _) in enumerate([*starts[1:], (len(sides), len(points), "")]):
         begin, first, name = starts[i]
-        if begin == end and (first == last or i == 0 < len(starts) - 1):  # What follows may use the first vertices.
+        if begin == end and (first == last or i == 0 < len(starts) - 1):  # Later faces may use the first vertices.
             continue
         own = corners[ends[begin] : ends[end]]
         own_points = points

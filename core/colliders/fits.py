@@ -17,8 +17,7 @@ from ..inertia.mass_properties import MassProperties
 from ..mesh.hulls import ConvexHull, convex_hull
 from ..mesh.surface import Surface, normals, triangle_areas
 from ..robots.model import Inertial, Pose, Shape
-from ..robots.primitives import equal_inertia_shape
-from ..robots.shapes import primitive_moments
+from ..robots.primitives import equal_inertia_shape, primitive_moments
 from .distance import distances, hull_volume
 from .pieces import cut_into_pieces
 

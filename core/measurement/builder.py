@@ -39,7 +39,7 @@ from .settings import Settings
 MAX_FACES_HIGH_ORDER = 20_000
 NO_AXES_FIXED = "isotropic"
 MAX_CENTER_BOUND = 1e-3  # relative to the largest radius of gyration: the center is uncertain above it
-# What error bounds are compared with, and what they are shares of.
+# Sizes that error bounds are compared with and shown as shares of.
 BOUNDED = ("volume", "value"), ("area", "value"), ("smallest principal moment", "value"), ("center of mass", "size")
 Extent = tuple[float, float, float]  # a volume or area, and the bounds of rounding and of float32 coordinates
 

@@ -223,9 +223,11 @@ class Bvh:
         above = height > 0.0
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
 
-    def distances(self, query_points: NDArray[np.float64], component: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Return the (k,) distances of places (about `origin`) from the surfaces of components."""
-        nearest = np.full(len(query_points), np.inf)
+    def distances(
+        self, query_points: NDArray[np.float64], component: NDArray[np.intp], within: float = np.inf
+    ) -> NDArray[np.float64]:
+        """Return the (k,) distances of places (about `origin`) from the surfaces of components; inf beyond `within`."""
+        nearest = np.full(len(query_points), np.nextafter(within, np.inf))
         pieces = _batches(np.arange(len(query_points)), self.root[component])
         while pieces:
             place, node = pieces.pop()
@@ -233,7 +235,7 @@ class Bvh:
             occupied = high[:, 0] >= low[:, 0]
             least = np.linalg.norm(np.maximum(np.maximum(low - point, point - high), 0.0), axis=1)
             most = np.linalg.norm(np.maximum(np.abs(point - low), np.abs(high - point)), axis=1)
-            np.minimum.at(nearest, place[occupied], most[occupied])
+            np.minimum.at(nearest, place[occupied], most[occupied] * (1.0 + 1e-12))
             near = occupied & (least <= nearest[place])
             place, node = place[near], node[near]
             child = self.child[node]
@@ -246,7 +248,7 @@ class Bvh:
                 np.minimum.at(nearest, at, triangle_distances(query_points[at], corners))
             place, child = place[~leaf], child[~leaf]
             pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
-        return nearest
+        return np.where(nearest <= within, nearest, np.inf)
 
 
 def intersecting_pairs(

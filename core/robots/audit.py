@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Robot descriptions judged by their own geometry: stated inertials beside measured meshes."""
+"""Robot descriptions judged by their own geometry: stated inertials beside measured meshes; and repaired copies."""
 
 from __future__ import annotations
 
@@ -33,11 +33,12 @@ from .findings import (
     INERTIAL_OF_FRAME,
     INERTIAL_TRIANGLE_SLIGHTLY,
 )
+from .formats import FORMATS
 from .model import Pose, Shape
 from .plausibility import LEAST_MASS, Hull, impossible, spread_directions
+from .primitives import primitive_moments
 from .read.meshes import read_mesh
 from .read.paths import Roots
-from .shapes import primitive_moments
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
 
 BALL = 2000  # points of a ball
@@ -336,3 +337,17 @@ def _primitive(shape: Shape) -> _Piece:
         end = np.array([0.0, 0.0, length / 2.0])
         points = np.concatenate([ring * radius * ROUND + end, ring * radius * ROUND - end])
     return _Piece(points, primitive_moments(shape))
+
+
+def repaired_copy(description: Description, repairs: Sequence[tuple[StatedLink, StatedInertial]]) -> bytes:
+    """Return the bytes of a description's file with replaced inertials, every other byte as it was."""
+    data, writer = description.source, FORMATS[description.format].writer_module
+    places = [(link.span, link, inertial) for link, inertial in repairs if link.span is not None]
+    for (start, end), link, inertial in sorted(places, key=lambda place: place[0], reverse=True):
+        old = data[start:end].decode("utf-8", "surrogateescape")
+        new = writer.inertial_text(inertial, old, link, description)
+        before = data[:start].rpartition(b"\n")[2]
+        if description.format != "usd" and not before.strip():
+            new = new.replace("\n", "\n" + before.decode())
+        data = data[:start] + new.encode("utf-8", "surrogateescape") + data[end:]
+    return data

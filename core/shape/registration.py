@@ -29,7 +29,7 @@ from ..inertia.third_moment_frames import HALF_TURN_SIGNS, complete_free_axes
 from ..moments.images import invert_through_point
 from ..moments.moments import Moments
 from ..numerics.arrays import distinct_arrays
-from .symmetries import MAX_AXIS_ORDER, Holds, Symmetry, highest_fold
+from .symmetries import Symmetry
 from .zernike import degrees
 
 EQUAL_RESIDUAL_RTOL = 1e-4  # relative to the size: residuals nearer than this are equal, and the smallest turn is taken
@@ -42,6 +42,11 @@ MAX_CANDIDATES = 24  # rotations, the largest overlaps first, that are compared 
 NEWTON_STEPS = 8
 ROUND_ANGLES = 1.0, 0.1, 0.01  # a shape that all these turns leave is round
 MIRROR = np.diag([1.0, -1.0, 1.0])  # in the line y = 0, seen from the front
+MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
+FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
+
+Distance = Callable[[NDArray], NDArray]
+Holds = Callable[[NDArray], bool]  # True if a (3, 3) map, in the plane's axes, takes the shape to itself
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,12 +138,27 @@ def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, 
     everything = np.array([np.eye(3), MIRROR])
     if all(holds(turn) for turn in turns_about_normal(np.array(ROUND_ANGLES))):
         return Symmetry(axes @ everything @ axes.T, axes[:, 2][None], order)
-    fold = highest_fold(turns_about_normal, holds)
+    # The tolerance may let a turn by about the right angle pass, but not turns by several times that.
+    fold = next(
+        n
+        for n in range(MAX_AXIS_ORDER, 0, -1)
+        if all(holds(turn) for turn in turns_about_normal(2.0 * np.pi / n * np.arange(1, n // 2 + 1)))
+    )
     operations = turns_about_normal(2.0 * np.pi / fold * np.arange(fold))
     mirror = next(filter(holds, _mirrors(zernike, points)), None)
     if mirror is not None:
         operations = np.concatenate([operations, operations @ mirror])
     return Symmetry(axes @ operations @ axes.T, np.empty((0, 3)), order)
+
+
+def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> Holds:
+    """Return a test that images of (n, 3) points, about the centroid, are within the tolerance of the outline."""
+    some = points[:: 1 + len(points) // FIRST_SAMPLES]
+
+    def holds(operation: NDArray) -> bool:
+        return all((distance(part @ operation.T) <= tolerance).all() for part in (some, points))
+
+    return holds
 
 
 def holds_by_moments(zernike: NDArray, order: int, tolerance: float) -> Holds:

@@ -5,16 +5,14 @@
 Moments give the candidates: a rotation takes one frame to another in which all moments, to some order, are the same
 (see `canonical_frame`), and a reflection takes a frame of the body to one of its mirror image. So every symmetry that
 the body has is a candidate; moments of higher order, or details smaller than noise, may rule some out again; the body's
-geometry decides (`confirm`). The group is named by its Schoenflies symbol: C1 has no symmetry, D2h is a box, Oh a cube,
-C∞v a body of revolution, K a ball.
+geometry decides (`point_groups`). The group is named by its Schoenflies symbol: C1 has no symmetry, D2h is a box, Oh a
+cube, C∞v a body of revolution, K a ball.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,28 +26,9 @@ from ..numerics.arguments import check_type
 from ..numerics.arrays import distinct_arrays
 
 EQUAL_OPERATION_ATOL = 1e-4  # matrices of one operation, known to noise, are equal to this
-EQUAL_PRODUCT_ATOL = 1e-3  # traces: a product of operations is the operation nearest to it
-REFINEMENTS = 3  # of an operation by the surface
-MAX_REFINEMENT = 1e-2  # angle by which noise may have turned an operation
-LIMIT_RANGE = 8.0  # misfits so many times smaller or larger than the tolerance are decided
-NO_INDICES = np.empty(0, np.intp)
-MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
-FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
 
 # For groups by moments to sixth order, the lower groups whose bodies have the same moments to that order.
 UNDECIDED = {"Oh": "O", "Ih": "I", "D6h": "C6h, D6", "C6v": "C6", "D5h": "C5h", "D5d": "S10", "D4d": "S8"}
-
-Distance = Callable[[NDArray], NDArray]
-Holds = Callable[[NDArray], bool]  # True if a (3, 3) map about the center takes the body, or flat shape, to itself
-
-
-class Skin(Protocol):
-    """A surface: points on it, distances of points from it (infinite if far), and its points nearest to others."""
-
-    points: NDArray[np.float64]
-
-    def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]: ...
-    def nearest(self, points: NDArray) -> NDArray[np.float64]: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,13 +38,11 @@ class Symmetry:
     `operations`: (k, 3, 3) the finite ones, orthogonal, the identity among them.
     `revolution_axes`: (1, 3) the axis about which every rotation is a symmetry; (0, 3) none, (3, 3) all directions.
     `order`: the order of the moments it was found from, or of harmonics about an axis.
-    `tolerance`: the tolerance of the comparison of the geometry, None if there was none.
     """
 
     operations: NDArray[np.float64]
     revolution_axes: NDArray[np.float64]
     order: int
-    tolerance: float | None = None
 
     @property
     def group(self) -> str:
@@ -118,7 +95,7 @@ def symmetry(
     Returns
     -------
     Symmetry
-        Every symmetry of the body is among them; `confirm` compares them with the surface.
+        Every symmetry of the body is among them.
 
     Examples
     --------
@@ -154,158 +131,6 @@ def symmetry(
     return Symmetry(distinct_arrays(operations, EQUAL_OPERATION_ATOL), axes, order)
 
 
-def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
-    """Return the symmetries that the geometry has: images of (n, 3) points are within the tolerance of the surface."""
-    points = points - center
-    holds = holds_by_outline(points, lambda images: distance(images + center), tolerance)
-    if len(candidate.revolution_axes) == 3:
-        turns = [_axis_rotation(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
-        ball = all(holds(turn) for turn in turns)
-        return Symmetry(
-            np.eye(3)[None], candidate.revolution_axes if ball else np.empty((0, 3)), candidate.order, tolerance
-        )
-    operations = candidate.operations
-    if len(candidate.revolution_axes):
-        axis = candidate.revolution_axes[0]
-        if all(holds(_axis_rotation(axis, angle)) for angle in (1.0, 0.1, 0.01)):
-            confirmed = [operation for operation in operations if holds(operation)]
-            return Symmetry(np.array(confirmed), candidate.revolution_axes, candidate.order, tolerance)
-        operations = _around_axis(points, axis, holds)
-    confirmed = np.array([operation for operation in operations if holds(operation)])
-    return Symmetry(confirmed, np.empty((0, 3)), candidate.order, tolerance)
-
-
-def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> Holds:
-    """Return a test that images of (n, 3) points, about the centroid, are within the tolerance of a surface."""
-    some = points[:: 1 + len(points) // FIRST_SAMPLES]
-
-    def holds(operation: NDArray) -> bool:
-        return all((distance(part @ operation.T) <= tolerance).all() for part in (some, points))
-
-    return holds
-
-
-def highest_fold(turns: Callable[[NDArray], NDArray], holds: Holds) -> int:
-    """Return the highest order of an axis with turns, (k, 3, 3) by (k,) angles, that take a body to itself.
-
-    The tolerance may let a turn by about the right angle pass, but not turns by several times that.
-    """
-    return next(
-        n
-        for n in range(MAX_AXIS_ORDER, 0, -1)
-        if all(holds(turn) for turn in turns(2.0 * np.pi / n * np.arange(1, n // 2 + 1)))
-    )
-
-
-def decide(candidates: Sequence[Symmetry], center: NDArray, skin: Skin, tolerance: float) -> list[Symmetry]:
-    """Return the largest finite symmetry among the candidates' that a surface has; two if it leaves a choice.
-
-    Misfits of one order of magnitude belong together: both limits, below and above the tolerance, are in the widest gap
-    between misfits.
-    """
-    known, compared = np.empty((0, 3, 3)), []
-    for operations in (candidate.operations for candidate in candidates):
-        if len(operations) > len(_nearest_operations(operations, known)):
-            known = np.concatenate([known, operations])
-            compared.append((operations, np.array([_misfit(each, center, skin, tolerance) for each in operations])))
-    misfits = np.concatenate([np.empty(0), *(each for _, each in compared)])
-    limits = [
-        _limit_between(misfits, tolerance * low, tolerance * low * LIMIT_RANGE) for low in (1.0 / LIMIT_RANGE, 1.0)
-    ]
-    groups = [[_closed(operations, each <= limit) for limit in limits] for operations, each in compared]
-    sure, possible = max(groups, key=lambda pair: [len(group) for group in pair], default=[np.eye(3)[None]] * 2)
-    found = [sure, possible][: 1 + (len(sure) < len(possible))]
-    return [Symmetry(group, np.empty((0, 3)), 0, tolerance) for group in found]
-
-
-def _misfit(operation: NDArray, center: NDArray, skin: Skin, tolerance: float) -> float:
-    """Return the largest distance of images of a surface's points from it; infinity if some are far away.
-
-    Noise may have turned and shifted the operation a little: it is moved back, until the images are clearly near or
-    come no nearer.
-    """
-    points, distance = skin.points - center, partial(skin.distance, within=tolerance / LIMIT_RANGE)
-    some, turned, shift, least = points[:: 1 + len(points) // FIRST_SAMPLES], operation, np.zeros(3), np.inf
-    for _ in range(1 + REFINEMENTS):
-        if not np.isfinite(distance(some @ turned.T + center + shift)).all():
-            break
-        images = points @ turned.T + shift
-        misfit = float(distance(images + center).max())
-        if misfit <= tolerance / LIMIT_RANGE or misfit > 0.9 * least:
-            return min(misfit, least)
-        least = misfit
-        turn, step = _motion_between(images, skin.nearest(images + center) - center)
-        angle = float(np.linalg.norm(turn))
-        rotation = _axis_rotation(turn / (angle or 1.0), angle)
-        turned, shift = rotation @ turned, rotation @ shift + step
-        if np.abs(turned - operation).max() > MAX_REFINEMENT:
-            break
-    return least
-
-
-def _limit_between(misfits: NDArray, low: float, high: float) -> float:
-    """Return a limit for misfits from low to high, in the widest gap between those that lie there."""
-    ends = np.array([low, *np.sort(misfits[(misfits > low) & (misfits < high)]), high])
-    widest = int((ends[1:] / ends[:-1]).argmax())
-    return float(np.sqrt(ends[widest] * ends[widest + 1]))
-
-
-def _nearest_operations(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
-    """Return the indices of operations that are equal, but for noise, to some of the products; of each one at most."""
-    alike = np.einsum("kij,nij->kn", products, operations)
-    return alike.argmax(axis=1)[alike.max(axis=1) > 3.0 - EQUAL_PRODUCT_ATOL] if len(operations) else NO_INDICES
-
-
-def _closed(operations: NDArray, held: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Return the operations that hold, a mask of a group, and all their products."""
-    held, count = held | (operations.trace(axis1=1, axis2=2) > 3.0 - EQUAL_OPERATION_ATOL), 0
-    while count < held.sum():
-        count = int(held.sum())
-        products = operations[held][:, None] @ operations[held]
-        held[_nearest_operations(products.reshape(-1, 3, 3), operations)] = True
-    return operations[held]
-
-
-def _motion_between(points: NDArray, nearest: NDArray) -> tuple[NDArray, NDArray]:
-    """Return the small turn, as a vector, and shift that bring points toward the `nearest` ones of a surface."""
-    gaps, reach = points - nearest, np.abs(points).max()
-    lengths = np.linalg.norm(gaps, axis=1)
-    away = gaps / np.where(lengths > 0.0, lengths, 1.0)[:, None]
-    motion = np.linalg.lstsq(np.hstack([np.cross(points / reach, away), away]), -lengths, rcond=1e-6)[0]
-    return motion[:3] / reach, motion[3:]
-
-
-def _around_axis(points: NDArray, axis: NDArray, holds: Holds) -> NDArray[np.float64]:
-    """Return candidates for a body with the moments of a body of revolution, but with corners: a prism of many sides.
-
-    Its mirrors and half turns take one of the points farthest from the axis to another one.
-    """
-    fold = highest_fold(lambda angles: np.array([_axis_rotation(axis, angle) for angle in angles]), holds)
-    turns = [_axis_rotation(axis, 2.0 * np.pi * k / fold) for k in range(fold)]
-    across = np.eye(3) - 2.0 * np.outer(axis, axis)
-    seeds = [np.eye(3)] + [
-        operation for operation in (across, _axis_rotation(axis, np.pi / fold) @ across) if holds(operation)
-    ]
-    flat = points - np.outer(points @ axis, axis)
-    radius = np.linalg.norm(flat, axis=1)
-    outer = flat[radius > (1.0 - 1e-4) * radius.max()] / radius.max()
-    outer = outer[np.unique(np.round(outer, 5), axis=0, return_index=True)[1]]
-    x = outer[0] / np.linalg.norm(outer[0])
-    across = np.stack([np.cross(axis, x), x])
-    for corner in outer[: 2 * MAX_AXIS_ORDER]:
-        half = np.arctan2(*(across @ corner)) / 2.0
-        side, middle = np.array([[np.cos(half), -np.sin(half)], [np.sin(half), np.cos(half)]]) @ across
-        flips = [
-            operation
-            for operation in (np.eye(3) - 2.0 * np.outer(side, side), 2.0 * np.outer(middle, middle) - np.eye(3))
-            if holds(operation)
-        ]
-        if flips:
-            seeds += [seed @ operation for seed in list(seeds) for operation in flips]
-            break
-    return distinct_arrays(np.array([turn @ seed for seed in seeds for turn in turns]), EQUAL_OPERATION_ATOL)
-
-
 def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
     """Return the finite operations of a body of revolution, for all others: the identity and perhaps a reflection."""
     if not _reverses_axis(operations, axis).any():
@@ -317,7 +142,7 @@ def _reverses_axis(operations: NDArray, axis: NDArray) -> NDArray[np.bool_]:
     return (operations @ axis) @ axis < 0.0
 
 
-def _axis_rotation(axis: NDArray, angle: float) -> NDArray[np.float64]:
+def axis_rotation(axis: NDArray, angle: float) -> NDArray[np.float64]:
     """Return the (3, 3) rotation about an axis, by Rodrigues' formula."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

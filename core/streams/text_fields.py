@@ -29,7 +29,7 @@ SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
 SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
 _NOT_FINITE = re.compile(rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE)  # forms that C prints
 MAX_POWER = 22  # up to this float64 holds a power of ten
-MAX_DIGITS = 18  # that int64 always holds
+MAX_DIGITS = 18  # int64 always holds them
 _POWERS = 10.0 ** np.arange(MAX_POWER + 1)
 _SPACE, _NINE, _DOT = b" 9."
 _BLANKS = bytes(letter if _SPACE < letter <= _NINE else _SPACE for letter in range(256))
@@ -109,7 +109,7 @@ def parse_decimals(text: bytes) -> tuple[NDArray[np.float64], NDArray[np.intp], 
     dots = np.flatnonzero(letters == _DOT)
     first = owners = np.flatnonzero(~is_exponent)
     if len(dots) != len(first) or (dots < starts[first]).any() or (dots >= ends[first]).any():
-        owners = np.searchsorted(starts, dots, "right") - 1  # Some numbers have no dot.
+        owners = np.searchsorted(starts, dots, "right") - 1  # Not every number has a dot.
     powers[owners] = dots - ends[owners] + 1
     digits = ends - starts - has_sign
     digits[owners] -= 1

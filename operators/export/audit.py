@@ -75,7 +75,7 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         target = path.with_name("{}_repaired{}".format(path.stem, path.suffix))
         if target.exists():
             raise FileError(FILE_EXISTS, file=target.name)
-        selection.write_file(target, [robots.repair.repaired_copy(audit.description, repairs)])
+        selection.write_file(target, [robots.audit.repaired_copy(audit.description, repairs)])
         return str(target)
 
 

@@ -234,7 +234,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         ),
         options={"ENUM_FLAG"},
     )
-    _objects = None  # those that the dialog is about, while it is open
+    _objects = None  # the dialog's, while it is open
     _found: tuple | None = None  # the settings of the last search, and its kinds of meshes
 
     def _kinds(self, context: Context) -> list["Copies"]:

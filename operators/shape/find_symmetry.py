@@ -96,9 +96,7 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
             require_storable_data(obj)
             shape = bodies.comparable_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
-            skin = bodies.distance_from(shape)
-            yield from (0.4 + 0.5 * share for share in skin.build())
-            self._results.append((obj, shape, *shape.find_symmetries(skin, self.tolerance)))
+            self._results.append((obj, shape, *shape.find_symmetries(self.tolerance)))
 
         self._steps = selection.iterate_objects(self._objects, find, self._failures)
         return len(self._objects)

@@ -56,8 +56,7 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
             return
         yield 0.0
         self._size, skin = target.size, bodies.distance_from(target)
-        for _ in skin.build():
-            yield 0.0
+        yield 0.0
 
         def find(obj: Object) -> Iterator[float]:
             scene.require_matchable(context, obj)
@@ -68,7 +67,7 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
                 raise EditRefusedError(FLAT_AND_BODY)
             yield 0.3
             source_skin = bodies.distance_from(found)
-            yield from (0.4 + 0.5 * share for share in source_skin.build())
+            yield 0.9
             match = bodies.register_surfaces(found, target, source_skin, skin)
             self._plans.append((scene.plan_match(context, obj, found, target, match), match))
 

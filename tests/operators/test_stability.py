@@ -25,6 +25,18 @@ def box(sides, offset=(0.0, 0.0, 0.0), name="Box"):
     return mesh
 
 
+def wedge():
+    """A leaning prism, 2 high, whose center is beyond its base of length 1 by 1/4."""
+    profile = ((0.0, 0.0), (1.0, 0.0), (2.5, 2.0), (1.5, 2.0))
+    mesh = bpy.data.meshes.new("Wedge")
+    mesh.from_pydata(
+        [(x, y, z) for y in (0.0, 1.0) for x, z in profile],
+        [],
+        [(0, 1, 2, 3), (7, 6, 5, 4), *((i, 4 + i, 4 + (i + 1) % 4, (i + 1) % 4) for i in range(4))],
+    )
+    return mesh
+
+
 def support(obj):
     from body_moments.blender.session.stored import stability
 
@@ -89,6 +101,17 @@ def test_down_is_direction_of_scene_gravity(scene):
     scene.gravity = (0.0, 3.0, 0.0)
     found = support(obj)
     assert close(found.height, 1.0, BLENDER) and close(found.margin, 2.0, BLENDER)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_a_wedge_tips_over_its_edge(scene, size):
+    obj = objects.add(wedge(), rotation=(0.0, 0.0, 0.9), scale=(size, size, size))
+    bpy.ops.object.body_moments_stability()
+    found = support(obj)
+    assert not found.stands
+    assert close(found.margin, -0.25 * size, BLENDER * 10.0)
+    assert close(found.tipping_angle, -atan2(0.25, 1.0), BLENDER * 10.0)
+    assert close(found.direction[:2], (np.cos(0.9), np.sin(0.9)), BLENDER * 10.0)
 
 
 def test_an_edit_puts_it_out_of_date(scene):

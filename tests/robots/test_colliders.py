@@ -10,8 +10,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from body_moments.core.colliders.corners import correct_vertices
-from body_moments.core.colliders.effects import correct_masses, effect, uniform_masses
+from body_moments.core.colliders.effects import correct_masses, correct_vertices, effect, uniform_masses
 from body_moments.core.colliders.fits import Wanted, make_colliders
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface

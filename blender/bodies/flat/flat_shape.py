@@ -25,10 +25,11 @@ from ....core.shape.registration import (
     RigidMatch,
     flat_symmetry,
     holds_by_moments,
+    holds_by_outline,
     match_flat,
 )
 from ....core.shape.signatures import Signature, flat_signature
-from ....core.shape.symmetries import Symmetry, holds_by_outline
+from ....core.shape.symmetries import Symmetry
 from ....core.shape.zernike import MAX_ORDER_BY_MOMENTS, disc_zernike
 from ....core.verdict.finding import MeasureError, ReadError
 from ...read.fingerprint import matrix_hash, settings_hash
@@ -114,9 +115,9 @@ class FlatShape:
         turned = self.zernike(radius / ratio), target.zernike(radius)
         return match_flat(*turned, (self.axes, target.axes), residual, target.size)
 
-    def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
+    def find_symmetries(self, tolerance: float) -> tuple[Symmetry, Symmetry]:
         """Return the symmetry of the outline and that of the moments; `tolerance` is relative to the size."""
-        zernike, near = self.zernike(self.radius), tolerance * self.size
+        zernike, near, skin = self.zernike(self.radius), tolerance * self.size, OutlineDistance(self)
 
         def distance(points: NDArray) -> NDArray[np.float64]:
             return skin.distance(points @ self.axes.T + self.center, within=near)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property
 from math import frexp
 from typing import Any
 
@@ -25,7 +25,13 @@ from ....core.bodies.findings import (
     WIRE_UNSUPPORTED,
 )
 from ....core.bodies.mesh_body import with_input_error
-from ....core.inertia.axial_harmonics import AxialHarmonics, axial_harmonics, axis_last, turn_by_harmonics
+from ....core.inertia.axial_harmonics import (
+    MAX_AXIAL_ORDER,
+    AxialHarmonics,
+    axial_harmonics,
+    axis_last,
+    turn_by_harmonics,
+)
 from ....core.inertia.canonical_frame import MAX_ORDER, NOISE_LEVEL
 from ....core.inertia.principal_frames import equivalent_frames, nearest_frame, pose_matrix
 from ....core.inertia.third_moment_frames import EQUAL_AXES
@@ -39,9 +45,10 @@ from ....core.numerics.arrays import segment_starts
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.any_order import extend_small_moments
 from ....core.polyhedron.third_order_small import small_moments
-from ....core.shape.registration import Residual, RigidMatch, match
+from ....core.shape.point_groups import PlacedTriangles
+from ....core.shape.registration import MAX_AXIS_ORDER, Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature, signatures
-from ....core.shape.symmetries import UNDECIDED, Symmetry, confirm, decide, symmetry
+from ....core.shape.symmetries import UNDECIDED, Symmetry, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE
@@ -50,15 +57,15 @@ from ...settings.options import MeasureOptions
 from ..measure_object import THREADS, Measured, measure_body
 from ..stacks.many import measured_in_turn
 from ..stacks.stack import MeasuredStack, Stacked
-from .surface_distance import EXACT_DISTANCE, SurfaceDistance
+from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
 NOISE_FACTORS = 0.5, 1.0, 2.0  # of the level of noise, on which a unique frame does not depend
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
-CANDIDATE_NOISE = 1e-2, 1e-3, 1e-4, NOISE_LEVEL  # of moments whose symmetries the surface may have
-MAX_NOISE = 1e-6  # relative to the size: coordinates with more noise may hide corners from the moments
+MAX_MISFIT = 0.02  # relative to the size: coordinates that leave more tell no group
+COARSE_NOISE = 1e-4, 1e-3  # of moments of a ball with facets
 MAX_FACETS = 0.05  # relative to the size: between a body of revolution and the polygons that stand for it
 SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
 
@@ -159,16 +166,16 @@ class Shape:
         }
 
     def _point_group(self) -> dict[str, Any]:
-        """Return the body's point group, decided by the surface, and the order of moments that show it."""
+        """Return the body's point group and the order of the moments that it was found by.
+
+        The surface decides by its corners. Where moments are those of a body of revolution or of a ball, so is the body
+        if its surface is near one and it has no axis of a lower order than harmonics show.
+        """
         axial = self._harmonics if self._is_polygonal else None
         found = symmetry(self.moments, axial=axial)
-        group = found.group
+        group: str | None = found.group
         if self._is_polygonal:
-            exact = replace(self.moments, input_error=np.zeros_like(self.moments.raw))
-            candidates = [found, symmetry(exact, CANDIDATE_NOISE[0], axial)]
-            if any(len(each.operations) > 1 or len(each.revolution_axes) for each in candidates):
-                candidates += [symmetry(exact, noise, axial) for noise in CANDIDATE_NOISE[1:]]
-                group = self._confirmed_group(candidates)
+            group = self._confirmed_group(found)
         elif group in UNDECIDED:
             group = "{} or {}".format(UNDECIDED[group], group)
         return {"symmetry": group, "symmetry_order": found.order}
@@ -179,25 +186,27 @@ class Shape:
             self._known_harmonics[:] = [axial_harmonics(self.pieces(), self.center, frame, area=self._sheets)]
         return self._known_harmonics[0].in_frame(frame)
 
-    def _confirmed_group(self, candidates: list[Symmetry]) -> str:
-        """Return the largest group of candidate operations that the surface confirms, or all groups it may have."""
-        skin, first = SurfaceDistance(self), candidates[0]
-        for _ in skin.build():
-            pass
-        rough = MAX_FACETS * self.size
-        if len(first.revolution_axes):
-            found = confirm(first, self.center, skin.points, partial(skin.distance, within=rough), rough)
-            if len(found.revolution_axes):
-                return first.group
-        moved = max([float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()])
-        # Trees of single precision miss some narrow triangles: then not even the surface's own points lie on it.
-        near = max(NOISE_LEVEL * self.size + 4.0 * moved, 2.0 * float(skin.distance(skin.points).max()))
-        finite = [each for each in candidates if not len(each.revolution_axes)]
-        groups = [each.group for each in decide(finite, self.center, skin, near)]
-        # Noise may hide what a body has beside a body of revolution.
-        uncertain = candidates if moved > MAX_NOISE * self.size else [first]
-        groups += [each.group for each in uncertain if len(each.revolution_axes)]
-        return " or ".join(dict.fromkeys(groups))
+    def _confirmed_group(self, found: Symmetry) -> str | None:
+        """Return the group that the surface has, or the groups that it may have; None if coordinates are too coarse."""
+        moved = max(float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()) / self.size
+        near, far = NOISE_LEVEL + 4.0 * moved, 4.0 * NOISE_LEVEL + 16.0 * moved
+        if far > MAX_MISFIT:
+            return None
+        placed = self._placed_triangles(near, far)
+        is_round = len(found.revolution_axes) > 0 and placed.is_round(found, MAX_FACETS)
+        if is_round and max(map(placed.turn_order, found.revolution_axes)) > MAX_AXIAL_ORDER:
+            return found.group
+        finite = [Symmetry(each, np.empty((0, 3)), 0) for each in placed.groups() or ()]
+        names = [each.group for each in finite]
+        if is_round:
+            order = max([n for each in finite[:1] for _, n in each.axes], default=0)
+            # An axis of a higher order than harmonics show, or facets that are no misfit, count as round.
+            known = order > MAX_AXIAL_ORDER or placed.is_round(found, near)
+            names = [found.group] if known else [*names, found.group]
+        elif not finite:  # as many corners at one distance as a ball has
+            coarse = [symmetry(self.moments, noise, self._harmonics) for noise in COARSE_NOISE]
+            names = [each.group for each in coarse if len(each.revolution_axes) and placed.is_round(each, MAX_FACETS)]
+        return " or ".join(dict.fromkeys(names)) or None
 
     @property
     def _is_polygonal(self) -> bool:
@@ -241,13 +250,24 @@ class Shape:
         """Return the motion that lays this shape onto another one; `residual` as for `core.shape.match`."""
         return match(self.moments, target.moments, residual, target.size)
 
-    def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
+    def find_symmetries(self, tolerance: float) -> tuple[Symmetry, Symmetry]:
         """Return the symmetry of the surface and that of the moments; `tolerance` is relative to the size."""
-        moments = self.piece_moments()
         # The tolerance for moments is the same as for the surface.
-        allowed = symmetry(moments, max(NOISE_LEVEL, tolerance))
-        near = tolerance * self.size
-        return confirm(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
+        allowed = symmetry(self.piece_moments(), max(NOISE_LEVEL, tolerance))
+        placed, found = self._placed_triangles(tolerance, tolerance), allowed
+        is_round = placed.is_round(allowed, tolerance)
+        # Axes of a higher order than groups can have count as axes of revolution.
+        if not is_round and max(map(placed.turn_order, allowed.revolution_axes), default=np.inf) <= MAX_AXIS_ORDER:
+            operations = (placed.groups() or [np.eye(3)[None]])[0]
+            found = Symmetry(operations, np.empty((0, 3)), allowed.order)
+        held = [placed.holds(operation, tolerance) for operation in found.operations]
+        return replace(found, operations=found.operations[held]), allowed
+
+    def _placed_triangles(self, near: float, far: float) -> PlacedTriangles:
+        """Return the triangles about the center, in units of the size."""
+        whole = join_surfaces(list(self.pieces()))
+        points = (whole.points.astype(np.float64) - self.center) / self.size
+        return PlacedTriangles(points, whole.all_triangles()[0], near, far)
 
     def points_about_center(self) -> NDArray[np.float64]:
         """Return (n, 3) corners of all faces, relative to the center."""

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +26,7 @@ POINTS_PER_BATCH = 64  # points whose distances are found at once
 
 
 class SurfaceDistance:
-    """Distances of points from a shape's surface, available after `build`.
+    """Distances of points from a shape's surface.
 
     Lengths in meters, world axes. Blender's tree of triangles keeps float32 coordinates, so its points are about the
     center and in units of the size.
@@ -43,21 +42,7 @@ class SurfaceDistance:
         far = np.argsort(((used - self._center) ** 2).sum(axis=1), kind="stable")[-SURFACE_SAMPLES // 10 :]
         points = np.concatenate([used[far], thinned(used), middles])
         self.points = points.astype(np.float64, copy=False)
-
-    def build(self) -> Iterator[float]:
-        """Build the tree in steps, some tenths of a second for a million triangles; yield the finished share."""
-        points = _as_tuples(self._corners)
-        yield 0.2
-        triangles = _as_tuples(self._triangles)
-        yield 0.4
-        self._tree = BVHTree.FromPolygons(points, triangles, all_triangles=True)
-        yield 1.0
-
-    def nearest(self, points: NDArray) -> NDArray[np.float64]:
-        """Return (n, 3) points of the surface that are nearest to (n, 3) points, in single precision."""
-        scaled = ((points - self._center) / self._scale).tolist()
-        found = np.array([self._tree.find_nearest(row)[0] for row in scaled], np.float64)
-        return found * self._scale + self._center
+        self._tree = BVHTree.FromPolygons(_as_tuples(self._corners), _as_tuples(triangles), all_triangles=True)
 
     def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
         """Return (n,) distances of (n, 3) points; within: a limit, of which clear cases are single precision."""

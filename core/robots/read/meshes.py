@@ -1,12 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The meshes of robots as triangles: .stl, .obj, .glb and .dae, without Blender, which has no reader of the last."""
+"""The meshes of robots as triangles: .stl, .obj, .glb and .dae, without Blender, which no longer reads the last.
+
+COLLADA, which a third of published robots use: geometries of triangles, polylists and polygons, placed by the scene's
+nodes, in meters. Most readers of robots (RViz, MoveIt, hpp-fcl) ignore which axis the file says is up; some obey. So
+the file's own axes are kept, and the rotation that it asks for is returned beside them.
+"""
 
 from __future__ import annotations
 
 import json
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -19,11 +24,13 @@ from ...scans.findings import FILE_TYPE
 from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...streams.stl import StlFile
 from ...verdict.finding import FileError, finding, system_reason
+from ...verdict.number_text import parse_number, parse_numbers, parse_whole, parse_wholes
 from ..findings import MESH_UNREADABLE
+from ..stated import rotation_about
 from ..write.gltf import BINARY, JSON, chunks
-from .dae import read_dae
-from .triangles import Arrays, Gathered, fan
+from .xml import MAX_DEPTH, Node, parse
 
+Arrays = tuple[NDArray[np.floating], NDArray[np.integer]]
 MAX_MESH = 1 << 30  # bytes
 MAX_TRIANGLES = 50_000_000
 _COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -31,6 +38,10 @@ _DAMAGE = (
     *(ValueError, IndexError, KeyError, TypeError, OverflowError, RecursionError, struct.error),
     AttributeError,  # JSON with a text or a number in the place of an object.
 )
+TURNS = {
+    "Y_UP": np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]),
+    "X_UP": np.array([[0, -1.0, 0], [0, 0, -1.0], [1.0, 0, 0]]),
+}
 
 
 def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
@@ -133,6 +144,129 @@ def _accessor(document: dict, binary: bytes, index: int) -> NDArray:
         (count, width), _COMPONENTS[accessor["componentType"]], binary, offset, (stride, item.base.itemsize)
     )
     return rows.copy()
+
+
+def read_dae(path: Path) -> tuple[*Arrays, NDArray[np.float64] | None]:
+    """Return points (meters, the file's axes), triangles, and the rotation to z up, None if z is up."""
+    root = parse(path.read_bytes())
+    for node in root.walk():
+        node.tag = node.tag.rpartition("}")[2]
+    by_id = {node.get("id"): node for node in root.walk() if node.get("id")}
+    asset = root.find("asset")
+    unit = asset.find("unit") if asset else None
+    scale = parse_number(unit.get("meter", "1")) if unit else 1.0
+    up = asset.find("up_axis") if asset else None
+    matrix = np.diag([scale, scale, scale, 1.0])
+    gathered = Gathered()
+    for geometry, place in _instances(root, by_id):
+        for points, triangles in _geometry(geometry, by_id):
+            gathered.add(points, triangles, matrix @ place)
+    return *gathered.arrays(), TURNS.get(up.text.strip() if up else "Y_UP")
+
+
+def _instances(root: Node, by_id: dict[str, Node]) -> Iterator[tuple[Node, NDArray]]:
+    """Yield the geometries of the scene and their (4, 4) matrices; without a scene, all geometries of the file."""
+    scene = root.find("scene", "instance_visual_scene")
+    visual = by_id.get(scene.get("url").removeprefix("#")) if scene else None
+    if visual is None:
+        for library in root.all("library_geometries"):
+            yield from ((geometry, np.eye(4)) for geometry in library.all("geometry"))
+        return
+    waiting = [(node, np.eye(4), 0) for node in visual.all("node")]
+    while waiting:
+        node, above, depth = waiting.pop()
+        if depth > MAX_DEPTH:
+            raise ValueError("nodes")
+        matrix = above @ _matrix(node)
+        waiting += [(child, matrix, depth + 1) for child in node.all("node")]
+        for instance in node.all("instance_node"):
+            waiting.append((by_id[instance.get("url").removeprefix("#")], matrix, depth + 1))
+        for instance in node.all("instance_geometry"):
+            yield by_id[instance.get("url").removeprefix("#")], matrix
+
+
+def _matrix(node: Node) -> NDArray[np.float64]:
+    matrix = np.eye(4)
+    for child in node.children:
+        if child.tag not in ("matrix", "translate", "rotate", "scale"):
+            continue
+        values, step = np.array(parse_numbers(child.text)), np.eye(4)
+        if child.tag == "matrix":
+            step = values.reshape(4, 4)
+        elif child.tag == "translate":
+            step[:3, 3] = values
+        elif child.tag == "scale":
+            step[:3, :3] = np.diag(values)
+        else:
+            step[:3, :3] = rotation_about(values[:3], np.radians(values[3]))
+        matrix = matrix @ step
+    return matrix
+
+
+def _geometry(geometry: Node, by_id: dict[str, Node]) -> Iterator[Arrays]:
+    mesh = geometry.find("mesh")
+    for primitives in mesh.children if mesh else ():
+        if primitives.tag not in ("triangles", "polylist", "polygons"):
+            continue
+        inputs = primitives.all("input")
+        stride = max(parse_whole(element.get("offset", "0")) for element in inputs) + 1
+        vertex = next(element for element in inputs if element.get("semantic") == "VERTEX")
+        points = _positions(by_id[vertex.get("source").removeprefix("#")], by_id)
+        offset = parse_whole(vertex.get("offset", "0"))
+        lists = [np.array(parse_wholes(element.text), np.int64) for element in primitives.all("p")]
+        if not lists:
+            continue
+        corners = np.concatenate(lists).reshape(-1, stride)[:, offset]
+        if primitives.tag == "triangles":
+            yield points, corners.reshape(-1, 3)
+        elif primitives.tag == "polylist":
+            counts = primitives.find("vcount")
+            sizes = np.array(parse_wholes(counts.text if counts else ""), np.int64)
+            if sizes.sum() != len(corners):
+                raise ValueError("vcount")
+            yield points, fan(sizes, corners)
+        else:
+            yield points, fan(np.array([len(indices) // stride for indices in lists]), corners)
+
+
+def _positions(vertices: Node, by_id: dict[str, Node]) -> NDArray[np.float64]:
+    source = vertices
+    for element in vertices.all("input"):
+        if element.get("semantic") == "POSITION":
+            source = by_id[element.get("source").removeprefix("#")]
+    array, accessor = source.find("float_array"), source.find("technique_common", "accessor")
+    stride = parse_whole(accessor.get("stride", "3")) if accessor else 3
+    values = np.array(parse_numbers(array.text if array else ""))
+    return values[: len(values) // stride * stride].reshape(-1, stride)[:, :3]
+
+
+class Gathered:
+    """Points and triangles of parts, each placed by a (4, 4) matrix."""
+
+    def __init__(self) -> None:
+        self._points: list[NDArray] = []
+        self._triangles: list[NDArray] = []
+
+    def add(self, points: NDArray, triangles: NDArray, matrix: NDArray) -> None:
+        """Add (n, 3) points and (m, 3) triangles, whose order is reversed if the matrix mirrors."""
+        turned = triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0.0 else triangles
+        self._triangles.append(turned + sum(map(len, self._points)))
+        self._points.append(points @ matrix[:3, :3].T + matrix[:3, 3])
+
+    def arrays(self) -> Arrays:
+        """Return all points and triangles."""
+        none = np.zeros((0, 3))
+        return np.concatenate([none, *self._points]), np.concatenate([none.astype(np.int64), *self._triangles])
+
+
+def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return (m, 3) triangles: faces of given sizes, cut into fans about their first corners."""
+    starts = np.cumsum(sizes) - sizes
+    cut = np.maximum(sizes - 2, 0)
+    face = np.repeat(np.arange(len(sizes)), cut)
+    step = np.arange(cut.sum()) - np.repeat(np.cumsum(cut) - cut, cut)
+    first = starts[face]
+    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)
 
 
 READERS: dict[str, Callable[[Path], tuple]] = {".stl": read_stl, ".obj": read_obj, ".glb": read_glb, ".dae": read_dae}

@@ -21,7 +21,7 @@ from ...verdict.number_text import parse_number
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
 from ..stated import LEAST, MOST, Description, Place, StatedInertial, StatedLink, StatedShape, rotation_about
-from .triangles import fan
+from .meshes import fan
 from .xml import check_size
 
 _TOKEN = re.compile(
@@ -166,7 +166,7 @@ def read(data: bytes) -> Description:
     except UnicodeDecodeError as error:
         raise _invalid("", 0) from error
     try:
-        with np.errstate(all="ignore"):  # what becomes of wrong numbers is refused
+        with np.errstate(all="ignore"):  # wrong numbers are refused afterwards
             return _description(text, data)
     except (IndexError, KeyError, ValueError, RecursionError) as error:
         place = text.find(str(error)) if isinstance(error, ValueError) else -1

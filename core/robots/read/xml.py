@@ -142,7 +142,7 @@ def attempt(findings: list[Finding], node: Node | None, read: Callable[..., Valu
     if node is None:
         return None
     try:
-        with np.errstate(all="ignore"):  # what becomes of wrong numbers is refused
+        with np.errstate(all="ignore"):  # wrong numbers are refused afterwards
             return read(node, *more)
     except ValueError as error:
         findings.append(_unreadable(node, error))

@@ -19,7 +19,7 @@ from .text import unique_names
 
 MESH_FOLDER = "meshes"
 _MARKER = b"Body Moments".ljust(80, b"\0")  # The header of our files, which may be overwritten.
-_OBJ_MARKER = b"# Body Moments\n".rjust(80, b"#")  # As long as the other.
+_OBJ_MARKER = b"# Body Moments\n".rjust(80, b"#")  # It has the length of the other.
 MOST_TRIANGLES = 200_000  # MuJoCo refuses larger STL files.
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)

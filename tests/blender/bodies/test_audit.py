@@ -11,12 +11,11 @@ pytest.importorskip("bpy")
 import numpy as np
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.core.robots.audit import Auditor
+from body_moments.core.robots.audit import Auditor, repaired_copy
 from body_moments.core.robots.model import Inertial, Link, Pose, Robot, Shape
 from body_moments.core.robots.plausibility import impossible
 from body_moments.core.robots.read.descriptions import read_description
 from body_moments.core.robots.read.paths import Roots
-from body_moments.core.robots.repair import repaired_copy
 from body_moments.core.robots.write import mjcf, sdf, usd
 from body_moments.core.robots.write.stl import to_stl
 from body_moments.core.robots.write.text import roll_pitch_yaw

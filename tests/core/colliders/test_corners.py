@@ -8,8 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core.colliders.corners import correct_vertices
-from body_moments.core.colliders.effects import effect, uniform_masses
+from body_moments.core.colliders.effects import correct_vertices, effect, uniform_masses
 from body_moments.core.inertia import MassProperties
 from body_moments.core.mesh import Surface, convex_hull
 from body_moments.core.polyhedron import polyhedron_moments

@@ -13,7 +13,7 @@ from body_moments.core.inertia import MassProperties
 from body_moments.core.mesh import Surface
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.model import Pose, Shape
-from body_moments.core.robots.shapes import moments_of
+from body_moments.core.robots.primitives import moments_of
 from body_moments.core.verdict.finding import MeasureError
 
 from tests.core import bodies

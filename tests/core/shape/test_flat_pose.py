@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
 from body_moments.core.numerics.quadrature import triangle_rule
-from body_moments.core.shape.registration import _best_angles, flat_symmetry, match_flat
-from body_moments.core.shape.symmetries import holds_by_outline
+from body_moments.core.shape.registration import _best_angles, flat_symmetry, holds_by_outline, match_flat
 from body_moments.core.shape.zernike import degrees, disc_zernike
 
 from tests.core.bodies import rotation

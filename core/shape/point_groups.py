@@ -1,0 +1,271 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The finite groups that a surface of triangles may have, by its corners.
+
+A corner farthest from the center is a corner in every triangulation, and a symmetry takes it to another such corner. So
+it does with a corner farthest from the line through the first. Two pairs of them fix a rotation, and a rotation with a
+mirror: whatever moments show, every symmetry is a candidate.
+
+A candidate holds if images of all corners are near the surface, and each crease lies on a crease between such corners,
+or points of it and of the triangles lie on the surface. It is refuted by a point whose image is far from the surface.
+The candidates between leave a choice of groups.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.bvh import Bvh, sort_components
+from ..numerics.arrays import cross_rows, lengths
+from .symmetries import Symmetry, axis_rotation
+
+MAX_CORNERS = 4096  # farthest corners that are compared with each other
+MAX_CANDIDATES = 1 << 17
+PAIRS_PER_BLOCK = 1 << 22  # pairs of corners compared at once
+SKEW = np.array([0.5377, 0.6213, 0.5699])  # corners are sorted along this direction, across no usual edge
+MAX_TRIES = 64  # corners of nearly equal height along it that are compared
+FIRST_IMAGES = 12  # images of corners that refute most candidates
+FIRST_SAMPLES = 64  # corners that refute most of the others
+SAMPLES = 128  # corners, farthest corners and triangles that are compared if the tolerance is large
+MAX_BETWEEN = 2048  # triangles between other corners that are compared; of more, evenly many
+BETWEEN = np.array([[0.5, 0.5, 0.0], [0.7, 0.3, 0.0], [0.3, 0.3, 0.4]])  # weights of corners in points between them
+CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
+
+
+class PlacedTriangles:
+    """Triangles about the center of a body, and how far maps take them from themselves.
+
+    Maps that take no point farther than `near` from the surface hold, others that take one farther than `far` do not.
+    """
+
+    def __init__(self, points: NDArray, triangles: NDArray, near: float, far: float):
+        is_used = np.zeros(len(points), bool)
+        is_used[triangles] = True
+        self.points, self.triangles = points[is_used], (np.cumsum(is_used) - 1)[triangles]
+        self.near, self.far = near, far
+        height = self.points @ SKEW
+        self._order = np.argsort(height, kind="stable")
+        self._height = height[self._order]
+        self._witnesses = np.arange(0, len(self.points), 1 + len(self.points) // FIRST_SAMPLES)
+
+    @cached_property
+    def _first(self) -> NDArray[np.intp]:
+        return self._match(self.points)
+
+    @cached_property
+    def _tree(self) -> Bvh:
+        whole = sort_components(self.points, self.triangles, np.zeros(len(self.triangles), np.intp), 1)
+        return Bvh(self.points, whole, np.ones(1, bool))
+
+    def _distances(self, points: NDArray, within: float) -> NDArray[np.float64]:
+        return self._tree.distances(points - self._tree.origin, np.zeros(len(points), np.intp), within)
+
+    @cached_property
+    def _samples(self) -> NDArray[np.float64]:
+        n, m = len(self.points), len(self.triangles)
+        farthest = np.argsort(lengths(self.points)[:, 0], kind="stable")[-SAMPLES:]
+        middles = self.points[self.triangles[:: 1 + m // SAMPLES]].mean(axis=1)
+        return np.concatenate([self.points[farthest], self.points[:: 1 + n // SAMPLES], middles])
+
+    def holds(self, operation: NDArray, tolerance: float) -> bool:
+        """Return whether images of a sample of the surface are within a tolerance of it."""
+        images = self._samples @ operation.T
+        return all(np.isfinite(self._distances(part, tolerance)).all() for part in (images[::10], images))
+
+    def groups(self) -> list[NDArray[np.float64]] | None:
+        """Return the (k, 3, 3) operations of the group, then of larger possible ones; None if there are too many.
+
+        They are the groups at tolerances that grow from near to far.
+        """
+        operations = self._candidates()
+        if operations is None:
+            return None
+        levels = np.full(len(operations), np.nan)
+        held = np.zeros(len(operations), bool)
+        held[0], generators = True, []
+        for i in range(1, len(operations)):
+            if held[i] or not np.isnan(levels[i]):
+                continue
+            levels[i] = self._misfit(operations[i])
+            if levels[i] <= self.near:
+                trial = _closed(operations, held, [*generators, i], levels == np.inf)
+                held, generators = (held, generators) if trial is None else (trial, [*generators, i])
+            elif levels[i] == np.inf:
+                own = operations[held]
+                alike = _nearest((own[:, None] @ operations[i] @ own).reshape(-1, 3, 3), operations)
+                levels[alike[alike >= 0]] = np.inf
+        found = [(held, generators)]
+        for i in np.argsort(levels, kind="stable"):
+            if levels[i] < np.inf and not found[-1][0][i]:
+                generators = [*found[-1][1], i]
+                trial = _closed(operations, found[-1][0], generators, levels == np.inf)
+                if trial is not None:
+                    found.append((trial, generators))
+        return [operations[mask] for mask, _ in found]
+
+    def turn_order(self, axis: NDArray) -> int:
+        """Return the number of corners on the outermost ring about an axis if turns by one corner hold, or 1."""
+        height = self.points @ axis
+        radius = lengths(self.points - np.outer(height, axis))[:, 0]
+        outer = radius.argmax()
+        is_ring = (radius >= radius[outer] - 2.0 * self.far) & (np.abs(height - height[outer]) <= 2.0 * self.far)
+        count = len(self._distinct(np.flatnonzero(is_ring)))
+        return count if self._misfit(axis_rotation(axis, 2.0 * np.pi / count)) <= self.near else 1
+
+    def is_round(self, found: Symmetry, tolerance: float) -> bool:
+        """Return whether turns about the axes of revolution hold within the tolerance."""
+        turns = [axis_rotation(axis, angle) for axis in found.revolution_axes for angle in (1.0, 0.1, 0.01)]
+        return all(self.holds(turn, tolerance) for turn in turns)
+
+    def _candidates(self) -> NDArray[np.float64] | None:
+        """Return (k, 3, 3) maps of corners to corners, the identity first, then by their angles; None if too many."""
+        radius = lengths(self.points)[:, 0]
+        outer = self._distinct(np.flatnonzero(radius >= radius.max() - 2.0 * self.far))
+        if len(outer) > MAX_CORNERS:
+            return None
+        first, partners = outer[0] / np.linalg.norm(outer[0]), outer
+        across = lengths(partners - np.outer(partners @ first, first))[:, 0]
+        if across.max() <= 0.1 * radius.max():  # all on one line
+            partners = self.points
+            across = lengths(partners - np.outer(partners @ first, first))[:, 0]
+        second = partners[across.argmax()]
+        along, across = second @ first, across.max()
+        images = [np.eye(3)[None]]
+        start = _frames(first[None], second[None])[0]
+        step = max(1, PAIRS_PER_BLOCK // len(partners))
+        squares = (partners**2).sum(axis=1)
+        for begin in range(0, len(outer), step):
+            ways = outer[begin : begin + step] / lengths(outer[begin : begin + step])
+            height = ways @ partners.T
+            apart = np.sqrt(np.maximum(squares - height**2, 0.0))
+            way, partner = np.nonzero(
+                (np.abs(height - along) <= 4.0 * self.far) & (np.abs(apart - across) <= 4.0 * self.far)
+            )
+            frames = _frames(ways[way], partners[partner])
+            images += [frames @ start.T, frames * [1.0, 1.0, -1.0] @ start.T]
+            if sum(map(len, images)) > MAX_CANDIDATES:
+                return None
+        operations = np.concatenate(images)
+        worst = np.zeros(len(operations))
+        for i in self._witnesses[:: max(1, len(self._witnesses) // FIRST_IMAGES)]:
+            worst = np.maximum(worst, self._distances(operations @ self.points[i], self.far))
+            operations, worst = operations[np.isfinite(worst)], worst[np.isfinite(worst)]
+        worst[0] = -1.0  # the identity
+        proper = np.linalg.det(operations) > 0.0
+        order = np.lexsort([-operations.trace(axis1=1, axis2=2), ~proper])
+        operations, worst, kept, left = operations[order], worst[order], [], np.arange(len(order))
+        while len(left):
+            alike = np.einsum("nij,ij->n", operations[left], operations[left[0]]) > 3.0 - CLEAR_PRODUCT
+            kept.append(left[alike][worst[left[alike]].argmin()])
+            left = left[~alike]
+        return operations[kept]
+
+    def _distinct(self, rows: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Return the points of these rows, but one of those that lie together."""
+        return self.points[np.unique(self._first[rows])]
+
+    def _misfit(self, operation: NDArray) -> float:
+        """Return the largest distance of images from the surface; infinity if one is far from it."""
+        for rows in (self._witnesses, None):
+            images = (self.points if rows is None else self.points[rows]) @ operation.T
+            match = self._match(images)
+            left = np.flatnonzero(match < 0)
+            distances = self._distances(images[left], self.far)
+            if not np.isfinite(distances).all():
+                worst = left[np.argmax(distances)]
+                self._witnesses = np.append(self._witnesses[-FIRST_SAMPLES:], worst if rows is None else rows[worst])
+                return np.inf
+        level = float(distances.max(initial=0.0))
+        if level > self.near:
+            return level
+        creases, codes = self._creases
+        code = self._edge_codes(np.where(match < 0, -1, self._first[match])[creases[:, :2]])
+        new = creases[codes.take(np.searchsorted(codes, code), mode="clip") != code]
+        new = np.concatenate([new, self.triangles[(match[self.triangles] < 0).any(axis=1)]])
+        between = (BETWEEN @ images[new[:: 1 + len(new) // MAX_BETWEEN]]).reshape(-1, 3)
+        return max(level, float(self._distances(between, self.far).max(initial=0.0)))
+
+    def _match(self, images: NDArray) -> NDArray[np.intp]:
+        """Return (n,) the first corner near each of (n, 3) points, -1 if there is none."""
+        found, height = np.full(len(images), -1), images @ SKEW
+        at, left = np.searchsorted(self._height, height - self.near), np.arange(len(images))
+        for _ in range(MAX_TRIES):
+            left = left[at[left] < len(self._order)]
+            left = left[self._height[at[left]] <= height[left] + self.near]
+            if not len(left):
+                break
+            corner = self._order[at[left]]
+            is_near = lengths(self.points[corner] - images[left])[:, 0] <= self.near
+            found[left[is_near]] = corner[is_near]
+            left = left[~is_near]
+            at[left] += 1
+        return found
+
+    @cached_property
+    def _creases(self) -> tuple[NDArray[np.intp], NDArray[np.int64]]:
+        """(k, 3) corners of triangles that are not flush with another one at the first two, and their sorted codes."""
+        place, count = self._first[self.triangles], len(self.triangles)
+        code = np.concatenate([self._edge_codes(place[:, [i, i - 1]]) for i in range(3)])
+        order = np.argsort(code, kind="stable")
+        starts = np.flatnonzero(np.diff(code[order], prepend=-1))
+        pair = starts[np.diff(starts, append=len(code)) == 2]
+        (side, triangle), (other_side, other) = (np.divmod(order[k], count) for k in (pair, pair + 1))
+        a, b, c = (self.points[self.triangles[triangle, (side + i) % 3]] for i in range(3))
+        normal = cross_rows(b - a, c - a)
+        normal /= np.maximum(lengths(normal), np.finfo(float).tiny)
+        apex = self.points[self.triangles[other, (other_side + 1) % 3]]
+        is_crease = np.ones(len(code), bool)
+        across = cross_rows(normal, c - a)
+        is_flat = np.abs(((apex - a) * normal).sum(axis=1)) <= self.near / 4.0
+        is_flat &= ((apex - a) * across).sum(axis=1) * ((b - a) * across).sum(axis=1) <= 0.0
+        is_crease[order[pair[is_flat]]] = is_crease[order[pair[is_flat] + 1]] = False
+        side, triangle = np.divmod(np.flatnonzero(is_crease), count)
+        corners = np.stack([self.triangles[triangle, side - i] for i in range(3)], axis=1)
+        return corners, np.sort(code[is_crease])
+
+    def _edge_codes(self, corners: NDArray[np.intp]) -> NDArray[np.int64]:
+        """Return (k,) numbers of edges by (k, 2) numbers of corners, negative for edges with a corner -1."""
+        low, high = np.minimum(*corners.T), np.maximum(*corners.T)
+        return np.where(low < 0, -1, low * len(self.points) + high)
+
+
+def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+    """Return (k, 3, 3) rotations with a direction as first column, and the second one in the plane of two columns."""
+    second = second - (second * first).sum(axis=1)[:, None] * first
+    second = second / lengths(second)
+    return np.stack([first, second, cross_rows(first, second)], axis=2)
+
+
+def _nearest(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
+    """Return (k,) the first operation that each product is, but for noise; -1 if it is none."""
+    found = np.empty(len(products), np.intp)
+    flat, step = operations.reshape(-1, 9).T, max(1, PAIRS_PER_BLOCK // max(1, len(operations)))
+    for begin in range(0, len(products), step):
+        alike = products[begin : begin + step].reshape(-1, 9) @ flat
+        best = alike.argmax(axis=1)
+        found[begin : begin + step] = np.where(alike.max(axis=1) > 3.0 - CLEAR_PRODUCT, best, -1)
+    return found
+
+
+def _closed(
+    operations: NDArray, mask: NDArray[np.bool_], generators: list[int], refuted: NDArray[np.bool_]
+) -> NDArray[np.bool_] | None:
+    """Return the mask of the group of all generators, of which the masked ones are a part; None if one is refuted.
+
+    Coset by coset: a generator takes a coset of the masked group to a coset.
+    """
+    own, cosets, mask = operations[mask], [np.eye(3)], mask.copy()
+    for coset in cosets:  # the list grows meanwhile
+        for product in _nearest(operations[generators] @ coset, operations).tolist():
+            if product < 0:
+                return None
+            if not mask[product]:
+                members = _nearest(operations[product] @ own, operations)
+                if (members < 0).any() or refuted[members].any():
+                    return None
+                mask[members] = True
+                cosets.append(operations[product])
+    return mask
