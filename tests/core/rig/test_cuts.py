@@ -97,16 +97,6 @@ def test_a_chain_of_cylinders_gives_each_bone_its_cylinder(turn):
         start += length
 
 
-def test_left_and_right_are_mirror_images():
-    bodies = {made.NAMES[piece.bone]: MassProperties.from_moments(piece.moments()) for piece in cut(made.humanoid())}
-    for side in ("arm", "leg"):
-        left, right = bodies[side + ".L"], bodies[side + ".R"]
-        assert close(left.mass, right.mass, 1e-12)
-        assert np.abs(left.center * [-1, 1, 1] - right.center).max() <= 1e-12 * np.abs(left.center).max()
-        flip = np.diag([-1.0, 1.0, 1.0])
-        assert np.abs(flip @ left.inertia @ flip - right.inertia).max() <= 1e-12 * np.abs(left.inertia).max()
-
-
 def test_faces_without_weights_go_with_the_nearest_bone():
     character = made.humanoid(unweighted=range(10_000))
     faces, corners = character.corners
