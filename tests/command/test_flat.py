@@ -138,12 +138,6 @@ def test_faces_that_cover_nothing_have_no_transform(tmp_path, reported):
     assert reported.codes == ["section_encloses_nothing"] and not path.exists()
 
 
-def test_outlines_that_cross_are_the_reason():
-    sheet([(0, 0), (1, 1), (1, 0), (0, 1)])
-    found = document("--flat")
-    assert found["flat"] == [] and "cross" in found["errors"][0]["reason"]
-
-
 def test_operator_writes_transform_and_picture_of_a_flat_shape(tmp_path):
     text("R", "Letter")
     path = str(tmp_path / "letter.npz")

@@ -58,43 +58,6 @@ def test_high_order_moments_of_turned_boxes_are_exact():
     assert own[0, 4, 6] == pytest.approx(box_moment((0, 4, 6), (0, 0, 0), (1, 2, 3)), rel=1e-12)
 
 
-def test_high_orders_of_instances_are_the_sum_over_their_places():
-    box = files.add_box(center=(0, 0, 0), size=(1, 1, 1))
-    group = bpy.data.collections.new("Pair")
-    bpy.context.scene.collection.objects.unlink(box)
-    group.objects.link(box)
-    for x in (0.0, 5.0):
-        place = bpy.data.objects.new("Place", None)
-        place.instance_type, place.instance_collection = "COLLECTION", group
-        place.location.x, place.scale = x, (1.0, 1.0, 1.0 + x / 5.0)
-        bpy.context.scene.collection.objects.link(place)
-    found = [moments_of("--order", "8", "--object", name) for name in ("Place", "Place.001")]
-    for (volume, surface), x in zip(found, (0.0, 5.0), strict=True):
-        size = (1.0, 1.0, 1.0 + x / 5.0)
-        low, high = ([c + sign * s / 2 for c, s in zip((x, 0, 0), size)] for sign in (-1, 1))
-        for powers in volume:
-            exact = box_moment(powers, (x, 0, 0), size)
-            assert volume[powers] == pytest.approx(exact, rel=1e-12, abs=1e-11)
-            exact = box_surface_moment(powers, low, high)
-            assert surface[powers] == pytest.approx(exact, rel=1e-12, abs=1e-11)
-
-
-def test_high_orders_of_repaired_body_use_its_own_faces():
-    box = files.add_box(center=(0, 0, 0), size=(2, 2, 2))
-    bm = bmesh.new()
-    bm.from_mesh(box.data)
-    bm.faces.ensure_lookup_table()
-    top = next(face for face in bm.faces if face.normal.z > 0.9)
-    bm.faces.remove(top)
-    bm.to_mesh(box.data)
-    bm.free()
-    volume, surface = moments_of("--order", "6")
-    assert volume[0, 0, 6] == pytest.approx(box_moment((0, 0, 6), (0, 0, 0), (2, 2, 2)), rel=1e-12)
-    assert surface[0, 0, 0] == pytest.approx(20.0, rel=1e-12)  # the cap is no part of the area
-    assert surface[2, 0, 0] == pytest.approx(3 * 4 / 3 + 2 * 4.0, rel=1e-12)
-    assert surface[0, 0, 1] == pytest.approx(-4.0, rel=1e-12)
-
-
 @pytest.mark.parametrize("kind", ["solid", "shell"])
 def test_a_flat_part_adds_its_area_to_every_order(kind):
     box = files.add_box(center=(0, 0, 0), size=(2, 2, 2))

@@ -40,15 +40,6 @@ def test_refused_entity_is_an_error_beside_other_records(tmp_path):
     ] == [1]
 
 
-def test_an_iges_file_of_curves_and_one_that_is_none(tmp_path):
-    file = IgesFile()
-    file.add(110, [0.0] * 6)
-    for path in (file.write(tmp_path / "a.igs"), tmp_path / "b.igs"):
-        path.exists() or path.write_text("hello")
-        found = document(path)
-        assert not found["objects"] and found["status"] == "error" and len(found["errors"]) == 1
-
-
 CUBE = "o Cube\n" + "".join("v {} {} {}\n".format(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1))
 FACES = "f -8 -7 -5 -6\nf -4 -2 -1 -3\nf -8 -4 -3 -7\nf -6 -5 -1 -2\nf -8 -6 -2 -4\nf -7 -3 -1 -5\n"
 

@@ -193,16 +193,6 @@ def test_a_mirrored_sheared_child_is_laid_too(scene):
     assert support(obj).stands and len(support(obj).polygon) >= 3
 
 
-def test_mesh_selection_and_active_object_stay(scene):
-    other = objects.add(box((1.0, 1.0, 1.0)), "Other", location=(20.0, 0.0, 0.0))
-    obj = objects.add(box((4.0, 2.0, 6.0)), rotation=(0.3, 0.1, 0.0))
-    before = [vertex.co.copy() for vertex in obj.data.vertices]
-    bpy.ops.object.body_moments_rest_on_ground(pose=2)
-    assert [vertex.co for vertex in obj.data.vertices] == before
-    assert obj.select_get() and not other.select_get() and bpy.context.object == obj
-    assert tuple(other.location) == (20.0, 0.0, 0.0)
-
-
 def test_instances_stand_on_all_their_bodies(scene):
     part = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, 0.0)), "Leg")
     array = part.modifiers.new("Array", "ARRAY")

@@ -13,7 +13,6 @@ from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.core.verdict.finding import MeasureError, finding
 
 from tests.blender import batch_files as files
-from tests.close import close
 from tests.command.test_options import box_moment
 from tests.panels.drawing import Layout, labels
 
@@ -157,16 +156,3 @@ def test_moments_of_undone_edit_are_stale(box):
     bpy.context.view_layer.update()
     assert moments_table.computed_moments(obj).volume.total == pytest.approx(48.0)
     assert staleness.stale_reason(obj, bpy.context.scene, moments_table.stamp_of) == Stale.GEOMETRY
-
-
-@pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])
-def test_normalized_mass_moments_have_unit_gyration(box, frame):
-    from body_moments.blender.session.stored import moments as moments_table
-
-    box.body_moments.density = 2500.0
-    compute(2)
-    found = moments_table.in_frame(moments_table.computed_moments(box), "MASS", "NORMALIZED", frame, 2)
-    size = np.array((1.0, 2.0, 3.0) if frame == "OBJECT" else (2.0, 1.0, 3.0))
-    second = [found[2, 0, 0], found[0, 2, 0], found[0, 0, 2]]
-    assert close(found[0, 0, 0], 1.0, 1e-12) and close(second, size**2 / (size @ size), 1e-6)
-    assert np.abs([found[1, 0, 0], found[0, 1, 0], found[0, 0, 1], found[1, 1, 0]]).max() < 1e-6

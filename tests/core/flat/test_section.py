@@ -79,18 +79,6 @@ def test_rectangle_with_eccentric_hole_matches_closed_form(offset):
     assert math.tan(2 * section.angle) == pytest.approx(-2 * truth[2] / (truth[0] - truth[1]), rel=1e-9)
 
 
-def test_an_i_beam_has_the_values_of_its_table():
-    b, h, web, flange = 0.1, 0.2, 0.0056, 0.0085
-    section = measured(i_beam())
-    inner = h - 2 * flange
-    assert near(section.area, 2 * b * flange + inner * web)
-    assert close(section.second[0], (b * h**3 - (b - web) * inner**3) / 12, rel=1e-13)
-    assert close(section.second[1], (2 * flange * b**3 + inner * web**3) / 12, rel=1e-13)
-    assert close(section.moduli[0], section.second[0] / 0.1, rel=1e-14)
-    assert close(section.moduli[1], section.second[1] / 0.05, rel=1e-14)
-    assert np.abs(section.centroid).max() < 1e-16 and section.angle == 0.0
-
-
 def test_an_equal_angle_has_its_strong_axis_at_minus_45_degrees():
     a, t = 0.1, 0.01
     section = measured([(0, 0), (a, 0), (a, t), (t, t), (t, a), (0, a)])
@@ -124,12 +112,6 @@ def test_polygon_converges_to_the_circle_quadratically():
         truth = {"area": math.pi / 4, "polar": math.pi / 32, "perimeter": math.pi}
         errors.append([1.0 - getattr(section, name) / value for name, value in truth.items()])
     assert np.array(errors[0]) / errors[1] == pytest.approx([4.0] * 3, rel=0.01)
-
-
-def test_separate_regions_are_one_section():
-    section = measured(rectangle(0, 0, 2, 2), rectangle(0, 10, 2, 2))
-    assert (section.outlines, section.holes) == (2, 0)
-    assert section.second[0] == pytest.approx(2 * (16 / 12 + 4 * 25), rel=1e-14)
 
 
 @pytest.mark.parametrize("angle", [-80, -45, -10, 0, 30, 60, 89, 90])

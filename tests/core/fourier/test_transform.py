@@ -136,13 +136,6 @@ def test_grid_matches_the_list_of_its_vectors():
             assert np.abs(found.values - listed.values).max() <= 3e-14
 
 
-def test_opposite_frequencies_are_conjugate():
-    q = np.random.default_rng(1).normal(size=(40, 3)) * 10.0 ** np.linspace(-6, 3, 40)[:, None]
-    for transform in (solid_transform, surface_transform):
-        there, back = (transform(bodies.surface(bodies.sphere(2)), sign * q).values for sign in (1, -1))
-        assert np.abs(there - back.conj()).max() <= 1e-14
-
-
 def test_the_taylor_coefficients_are_the_moments():
     part = bodies.moved(bodies.sphere(2), [[1, 0.2, 0], [0, 0.8, 0.1], [0.3, 0, 1.1]], (0.2, -0.1, 0.4))
     raw = dict(zip(exact.MONOMIALS, map(float, exact.volume_moments(*part))))

@@ -177,16 +177,6 @@ def test_shell_volume_moments_match_its_thin_volume():
     assert record.record(shell, order=0)["moments"]["volume"] == {"0,0,0": 0.5}
 
 
-def test_the_total_of_two_halves_is_the_whole():
-    whole = box(low=(0, 0, 0), high=(1, 2, 3))
-    halves = [box("A", (0, 0, 0), (1, 2, 1)), box("B", (0, 0, 1), (1, 2, 3))]
-    total, expected = record.total(halves), record.record(whole)
-    assert total["mass"] == expected["mass"] and total["volume"] == expected["volume"]
-    for name in ("center_of_mass", "principal_moments"):
-        np.testing.assert_allclose(total[name], expected[name], rtol=1e-13)
-    np.testing.assert_allclose(total["inertia"], expected["inertia"], rtol=1e-13, atol=1e-10)
-
-
 def test_the_total_weighs_each_object_by_its_own_density():
     total = record.total([box("A", (0, 0, 0), (1, 1, 1), 1.0), box("B", (2, 0, 0), (3, 1, 1), 3.0)])
     assert total["mass"] == 4.0

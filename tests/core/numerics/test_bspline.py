@@ -4,15 +4,13 @@
 
 from fractions import Fraction
 from itertools import product
-from math import comb, factorial
+from math import comb
 
 import numpy as np
 import pytest
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.numerics.quadrature import gauss_legendre, gauss_legendre_with_ends, triangle_rule
 from body_moments.core.nurbs.blender_knots import blender_knots, blender_space, is_valid
 
-from tests.close import close
 from tests.core.exact_splines import span_polynomials
 
 SPACES = [clamped_space(order, (0.25, 0.5, 0.5)) for order in range(2, 7)] + [
@@ -97,30 +95,6 @@ def test_span_in_bezier_form_is_unchanged(space):
         part = space.bezier_weights(np.array([span]), np.array([[low + 0.25 * (high - low), high]]))[0]
         wanted = space.derivatives(np.full(9, span), low + (0.25 + 0.75 * share) * (high - low), 0)[0]
         assert np.abs(bernstein @ part - wanted).max() <= 1e-13
-
-
-@pytest.mark.parametrize("points", [1, 2, 5, 12, 27])
-def test_gauss_is_exact_to_its_degree_and_not_beyond(points):
-    nodes, weights = gauss_legendre(points)
-    for degree in range(2 * points):
-        assert abs(weights @ nodes**degree - 1.0 / (degree + 1)) <= 1e-14
-    if points <= 5:
-        assert abs(weights @ nodes ** (2 * points) - 1.0 / (2 * points + 1)) > 1e-8
-    wider, more = gauss_legendre_with_ends(points)
-    assert wider.tolist() == [0.0, *nodes, 1.0] and more.tolist() == [0.0, *weights, 0.0]
-    assert not any(row.flags.writeable for row in (nodes, weights, wider, more))  # they are kept
-
-
-@pytest.mark.parametrize("n", range(1, 25))
-def test_the_rules_on_triangles_are_exact_to_their_degree(n):
-    places, weights = triangle_rule(n)
-    assert len(weights) == (7 if n == 3 else n * n)
-    assert (places > 0.0).all() and (weights > 0.0).all()
-    assert places.sum(axis=0) == pytest.approx(1.0)
-    for p in range(2 * n):
-        for q in (0, (2 * n - 1 - p) // 2, 2 * n - 1 - p):
-            true = factorial(p) * factorial(q) / factorial(p + q + 2)
-            assert close((weights * places[1] ** p * places[2] ** q).sum(), true, rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -44,14 +44,6 @@ def test_the_wire_of_a_circle():
     assert close(body.principal.moments, 12.0 * np.pi * np.array([2.0, 2.0, 4.0]), rel=1e-13)
 
 
-def test_the_wire_of_straight_pieces_is_the_sum_of_rods():
-    points = np.array([(0, 0, 0), (3, 0, 0), (3, 4, 0), (3, 4, 12.0)]) + 100.0
-    moments = length_moments([polyline(points)])
-    assert abs(moments.total - 19.0) <= 1e-12
-    middles, lengths = (points[1:] + points[:-1]) / 2.0, np.array([3.0, 4.0, 12.0])
-    assert np.abs(moments.center - (middles * lengths[:, None]).sum(axis=0) / 19.0).max() <= 1e-12
-
-
 def test_the_length_of_a_parabola_is_its_closed_form():
     parabola = Curve(clamped_space(3), [(0, 0, 0), (0.5, 0, 0), (1, 1, 0)])  # y = x²
     exact = np.sqrt(5.0) / 2.0 + np.arcsinh(2.0) / 4.0

@@ -11,7 +11,7 @@ from body_moments.core.mesh import Surface
 from body_moments.core.moments.exponents import monomials
 from body_moments.core.moments.moments import sum_moments
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.rig.cuts import bone_pieces, bones_of_caps, dominant_bones
+from body_moments.core.rig.cuts import bone_pieces, dominant_bones
 
 from tests.close import close
 from tests.core import characters as made
@@ -97,16 +97,6 @@ def test_a_chain_of_cylinders_gives_each_bone_its_cylinder(turn):
         start += length
 
 
-def test_left_and_right_are_mirror_images():
-    bodies = {made.NAMES[piece.bone]: MassProperties.from_moments(piece.moments()) for piece in cut(made.humanoid())}
-    for side in ("arm", "leg"):
-        left, right = bodies[side + ".L"], bodies[side + ".R"]
-        assert close(left.mass, right.mass, 1e-12)
-        assert np.abs(left.center * [-1, 1, 1] - right.center).max() <= 1e-12 * np.abs(left.center).max()
-        flip = np.diag([-1.0, 1.0, 1.0])
-        assert np.abs(flip @ left.inertia @ flip - right.inertia).max() <= 1e-12 * np.abs(left.inertia).max()
-
-
 def test_faces_without_weights_go_with_the_nearest_bone():
     character = made.humanoid(unweighted=range(10_000))
     faces, corners = character.corners
@@ -116,16 +106,6 @@ def test_faces_without_weights_go_with_the_nearest_bone():
     centers = character.points[character.quads].mean(axis=1)
     hand = centers[:, 0] > 5.5
     assert hand.any() and (bone[hand] == made.NAMES.index("arm.L")).all()
-
-
-def test_caps_go_with_the_faces_beside_them():
-    character = made.box_skeleton()
-    faces, corners = character.corners
-    bone, _ = dominant_bones(faces, corners, character.points, character.weights, character.bones)
-    triangles, bone = character.triangles, np.repeat(bone, 2)
-    foot = (character.points[triangles][:, :, 2] == -5).all(axis=1)
-    given = np.where(foot, -1, bone)
-    assert (bones_of_caps(triangles, foot, given) == bone).all()
 
 
 def test_cut_is_closed_to_its_centroid_at_any_place():

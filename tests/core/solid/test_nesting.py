@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.bvh import Bvh, overlapping_box_pairs, sort_components
+from body_moments.core.mesh.bvh import Bvh, sort_components
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure import measure_solid
 from body_moments.core.solid.nesting import (
@@ -56,23 +56,6 @@ def test_shells_are_measured_one_by_one_in_any_triangle_order():
         assert set(map(tuple, shells.triangles[shells.start[k] : shells.start[k + 1]])) == set(
             map(tuple, triangles[shell == k])
         )
-
-
-@holds(10)
-@given(seed=seeds)
-def test_overlapping_boxes_match_a_comparison_of_all_pairs(seed):
-    rng = np.random.default_rng(seed)
-    low = rng.integers(0, 10, size=(60, 3)).astype(float)
-    high = low + rng.integers(0, 4, size=(60, 3))
-    i, j, skipped = overlapping_box_pairs(low, high, 1e-9, 10_000)
-    expected = {
-        (a, b)
-        for a in range(60)
-        for b in range(a)
-        if np.all(np.minimum(high[a], high[b]) - np.maximum(low[a], low[b]) > 1e-9)
-    }
-    assert {(max(pair), min(pair)) for pair in zip(i.tolist(), j.tolist())} == expected
-    assert len(i) == len(expected) and skipped == 0
 
 
 @pytest.mark.parametrize("spin", [None, 1, 2])

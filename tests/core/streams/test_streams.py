@@ -88,14 +88,6 @@ def test_streamed_moments_match_moments_in_memory(tmp_path, small_blocks, name, 
 
 
 @pytest.mark.parametrize("name", FORMS)
-def test_large_blocks_are_the_same(tmp_path, name):
-    part = moved(torus(9, 7))
-    found = measured(tmp_path, name, FORMS[name](part), 4, 4, threads=2)
-    assert found.closed and (found.volume.input_error > 0.0).any() == (name != "double.ply")
-    same(found, in_memory(part, 4, found.volume.about))
-
-
-@pytest.mark.parametrize("name", FORMS)
 @pytest.mark.parametrize(
     "part, closed",
     [

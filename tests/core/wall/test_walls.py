@@ -213,14 +213,6 @@ def test_prisms_have_no_negative_jacobian_up_to_the_limit(seed):
             assert least(limit * (1 + 1e-6)) < 0.0
 
 
-def test_a_mirrored_body_has_the_same_shell():
-    part = bodies.moved(bodies.torus(7, 5), SHEAR)
-    mirrored = part[0] * [-1.0, 1.0, 1.0], part[1][:, ::-1]
-    one, other = (wall(body, "inward", 0.02) for body in (part, mirrored))
-    sign = (-1.0) ** monomials(3)[:, 0]
-    assert np.abs(one.raw - sign * other.raw).max() < 1e-14
-
-
 def test_loose_triangles_are_joined_at_common_edges():
     assert abs(wall(bodies.soup(cube()), "inward", 0.1).total - (1 - 0.8**3)) <= 1e-14
 

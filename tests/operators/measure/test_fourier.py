@@ -129,19 +129,6 @@ def test_fourier_of_fins_is_refused():
     assert found.values[0] == pytest.approx(0.5 + 0.5 + 2**0.5 / 2, rel=1e-12)
 
 
-def test_overlapping_shells_count_twice_or_are_united():
-    box = files.add_box(center=(0, 0, 0), size=(1, 1, 1))
-    other = files.add_box("Other", center=(0.5, 0, 0), size=(1, 1, 1))
-    objects.only(box, other)
-    bpy.ops.object.join()
-    twice = box_spectrum(Q, np.ones(3), np.zeros(3)) + box_spectrum(Q, np.ones(3), np.array([0.5, 0, 0]))
-    found, findings = transform(bpy.context.object)
-    assert np.abs(found.values - twice).max() <= 1e-13 and said(findings) == {"components_overlap": {"count": 2}}
-    found, findings = transform(bpy.context.object, options=MeasureOptions(overlap="union"))
-    once = box_spectrum(Q, np.array([1.5, 1, 1]), np.array([0.25, 0, 0]))
-    assert np.abs(found.values - once).max() <= 1e-5 and "union_by_boolean" in said(findings)
-
-
 def test_one_object_is_needed_and_a_refusal_is_an_error(tmp_path, wave_vectors):
     files.add_box("a")
     files.add_box("b")

@@ -141,12 +141,6 @@ def test_a_sheared_object_is_measured_as_it_is_seen(height):
     assert np.abs(frame - np.array(obj.matrix_world.decompose()[1].to_matrix())).max() < 1e-6
 
 
-def test_nested_outlines_are_holes_and_islands():
-    section, _, _ = section_of(add(curve_of(square(0, 0, 8), square(1, 1, 6), square(3, 3, 2)[::-1], square(9, 0, 1))))
-    assert section.area == 64 - 36 + 4 + 1
-    assert (section.outlines, section.holes) == (3, 1)
-
-
 def test_holes_of_letters_count_and_letters_add_up():
     obj = add(text_of("A"))
     single, _, findings = section_of(obj)

@@ -133,14 +133,6 @@ def test_a_letter_comes_to_lie_on_another_one_front_on_front(body):
     assert np.abs(place(copy) - place(target)).max() < 2e-6
 
 
-def test_mirrored_letter_stays_in_place(reported):
-    target, image = text("R", "Target"), text("R", "Image", scale=(-1, 1, 1), location=(5, 0, 0))
-    was = place(image)
-    only(target, image)
-    assert run("match_pose") == {"CANCELLED"}
-    assert (place(image) == was).all() and "mirror_image" in reported.codes
-
-
 @pytest.mark.filterwarnings("error")
 def test_overflowing_or_distant_flat_shape_is_refused():
     obj = sheet(regular(5))

@@ -235,16 +235,6 @@ def test_symmetry_group_of_blender_primitives_is_found(make, group):
     assert obj.body_moments_symmetry.group == group
 
 
-def test_nothing_of_the_objects_is_touched():
-    scene_of_shapes()
-    before = {obj.name: (place(obj), [tuple(vertex.co) for vertex in obj.data.vertices]) for obj in bpy.data.objects}
-    run("find_similar", select=False)
-    run("find_symmetry")
-    for obj in bpy.data.objects:
-        assert (place(obj) == before[obj.name][0]).all()
-        assert [tuple(vertex.co) for vertex in obj.data.vertices] == before[obj.name][1]
-
-
 def test_symmetry_is_stale_after_edit_not_after_motion():
     from body_moments.blender.session.tracking import staleness
 

@@ -267,19 +267,6 @@ def test_other_users_of_balanced_mesh_become_stale(reported):
     assert reasons == [None, Stale.GEOMETRY]
 
 
-def test_undo_brings_the_vertices_back():
-    obj = figure()
-    group(obj)
-    before = points(obj)
-    bpy.ops.ed.undo_push(message="Before")
-    bpy.context.scene.cursor.location = (0.1, 0.0, 0.0)
-    assert balance("EXEC_DEFAULT", True) == {"FINISHED"}
-    obj = bpy.data.objects["Figure"]
-    assert np.abs(points(obj) - before).max() > 0
-    bpy.ops.ed.undo()
-    assert np.array_equal(points(bpy.data.objects["Figure"]), before)
-
-
 def test_distant_fine_mesh_is_balanced_to_float32():
     mesh = bpy.data.meshes.new("Fine")
     work = bmesh.new()
