@@ -227,7 +227,7 @@ def test_urdf(tmp_path, seed):
         '<box size="{}"/>'.format(text([a, b, c])): ("box", (a, b, c), ""),
         "<box/>": ("box", (1, 1, 1), ""),
         '<sphere radius="{!r}"/>'.format(float(a)): ("sphere", (a,), ""),
-        '<what/><cylinder radius="{!r}" length="{!r}"/>'.format(*map(float, (a, b))): ("cylinder", (a, b), ""),
+        '<cylinder radius="{!r}" length="{!r}"/>'.format(*map(float, (a, b))): ("cylinder", (a, b), ""),
         '<capsule radius="{!r}" length="{!r}"/>'.format(*map(float, (a, b))): ("capsule", (a, b), ""),
     }
     content = """<robot name="bot" note="a>b"><link name="first"><inertial note="'>">{}<mass value="{!r}"/><inertia {}/>

@@ -265,7 +265,7 @@ def test_usd_shapes_are_as_large_as_each_axis_says(tmp_path):
         text = scale.format(", ".join(map(str, np.multiply(signs, (2, 3, 5)).tolist())))
         inside = "".join("{}\n{}}}\n".format(prim, text) for prim in prims)
         (link,) = bodies(tmp_path, BODY.format("b", inside), "(\nmetersPerUnit = 1\n)\n")
-        assert [one.values["text"] for one in link.findings] == ["(3, 4)"]  # not the default in its place
+        assert [one.values["text"] for one in link.findings] == ["(3, 4)", "Cone"]  # not the default in its place
         for stated, size, own in zip(link.shapes, sizes, turns, strict=True):
             assert near(np.array(stated.shape.size), np.array(size, float), 1e-15)
             assert near(stated.shape.pose.rotation, turn @ own, 1e-15)

@@ -54,6 +54,9 @@ def remember():
     bpy.ops.object.body_moments_compute_moments()
     moments_table.current_numbers(obj, bpy.context.scene)
     displayed.total(bpy.context)
+    scene, view_layer = bpy.context.scene, bpy.context.view_layer
+    displayed.listing(scene, view_layer, "", displayed.SortBy.NAME, False)
+    displayed.listed_masses(scene, view_layer)
     obj.body_moments.density = 500.0
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
