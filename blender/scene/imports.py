@@ -269,7 +269,7 @@ def read_placed(
 
 
 def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
-    """Write the scan whole, with `unit` meters per unit and a background unlike any value; return the least value."""
+    """Write the scan whole, with `unit` meters per unit and a background of 0 or less; return the least value."""
     scan, target, matrix = placed.scan, placed.target, placed.matrix.copy()
     matrix[:3] /= unit
     least, exact = np.inf, True

@@ -102,7 +102,7 @@ class CharacterMotion(BalanceGroup):
 
     @property
     def touching(self) -> NDArray[np.bool_]:
-        """(f,) whether anything touches the ground."""
+        """Mask (f,) of the frames in which the character touches the ground."""
         return np.array([support is not None for support in self.supports])
 
     def find_carrier(self, context: Context, name: str, turns: bool, as_layer: bool) -> None:

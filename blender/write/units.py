@@ -139,12 +139,12 @@ class Units(NamedTuple):
 
     @property
     def _has_default_mass(self) -> bool:
-        """Whether nobody has chosen another unit of mass than that of a new scene."""
+        """True if the scene has the default unit of mass."""
         return self.system == "METRIC" and self.mass == "KILOGRAMS"
 
     @property
     def shows_grams(self) -> bool:
-        """Whether masses are in grams, because lengths are in centimeters or less, or as chosen."""
+        """True if masses are in grams: by choice, or because lengths are in centimeters or less."""
         return self.mass == "GRAMS" or self._has_default_mass and self.length in SMALL_LENGTHS
 
     def _length(self, value: float) -> tuple[float, str]:

@@ -14,7 +14,7 @@ from ...core.verdict.finding import Finding, finding, unique
 
 @dataclass
 class Contents:
-    """What was measured in a file: entries of its document.
+    """Measured entries of a file's document.
 
     measured: names, objects in Blender and measurements, in the order of `objects`. caveats: about the total.
     """

@@ -184,7 +184,7 @@ def _faces(element: _Element, points: NDArray, weights: NDArray, for_blender: bo
 
 
 def _indices(words: list[str], count: int) -> NDArray[np.int64]:
-    """Return the vertex indices of words, from 0. count: vertices before them. ValueError if one does not exist."""
+    """Convert vertex references to indices from 0, or raise ValueError. count: vertices so far, for negative ones."""
     numbers = np.array([parse_whole(word.partition("/")[0]) for word in words], np.int64)
     numbers = np.where(numbers > 0, numbers - 1, numbers + count)
     if (numbers < 0).any() or (numbers >= count).any():

@@ -165,7 +165,7 @@ def _moments_about(
 
 
 def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
-    """Yield the first indices and the coefficients of blocks, with about COEFFICIENTS_PER_BLOCK at most."""
+    """Yield the first indices and the coefficients of blocks of about COEFFICIENTS_PER_BLOCK or fewer."""
     if callable(coefficients):
         for (x, y, z), array in coefficients():
             for (i, j, k), piece in _pieces(array):

@@ -261,7 +261,7 @@ def _require_body(moments: Moments, fixed: ThirdMomentFrames) -> None:
 
 
 def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDArray[np.float64]:
-    """Return the frame nearest to the preferred axes, (3, 3) each with the axes as columns."""
+    """Return the equivalent frame nearest to the preferred axes. Both are (3, 3), with the axes as columns."""
     free = undetermined_axes(equivalent.revolution_axes)
     frames = complete_free_axes(equivalent.frames, free, preferred_axes)
     return nearest_frames(frames[None], preferred_axes[None], equivalent.tilt)[0]

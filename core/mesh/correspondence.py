@@ -56,12 +56,12 @@ class Correspondence:
 
     @property
     def is_still(self) -> bool:
-        """Whether the similarity is the identity."""
+        """True if the similarity is the identity."""
         return bool((self.linear == np.eye(3)).all() and not self.offset.any())
 
     @property
     def is_ordered(self) -> bool:
-        """Whether vertices and corners have the same numbers in both meshes."""
+        """True if vertices and corners have the same numbers in both meshes."""
         return all((indices == np.arange(len(indices))).all() for indices in (self.vertices, self.corners))
 
 

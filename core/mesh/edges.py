@@ -140,7 +140,7 @@ class Edges:
         return self.first[two], last[two]
 
     def adjacency(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return (k,) and (k,) triangles, linked so that all the triangles at an edge are connected."""
+        """Return pairs of triangles as two (k,) arrays; the pairs connect all triangles at an edge."""
         side = np.arange(len(self.of_side))
         first = self.first[self.of_side]
         later = first != side

@@ -148,7 +148,7 @@ def assess(
     stored: float,
     findings: Sequence[Finding] = (),
 ) -> PatchIntegrals:
-    """Combine moments `measured` by `volume_moments` of `oriented_parts`, turned or left out, with findings."""
+    """Sum the `measured` moments of the parts, inverted ones turned and uncounted ones left out; add findings."""
     size = patches_size(patches)
     caps = np.zeros(topology.number)
     for loop in topology.loops:

@@ -175,7 +175,7 @@ class StreamIntegrator:
                     yield _FaceBatch(points, faces[start : start + step], size, half_ulp)
 
     def _size(self, faces: NDArray) -> int:
-        """Return the number of faces in a block: even, equal for each of 2 or 4 threads."""
+        """Return the number of faces in a block, even, so that 2 or 4 threads get equally many blocks."""
         corners = faces.shape[1]
         # The kernel takes two triangles that share an edge as one face.
         ours = 2 if corners == 3 and quad_corners(faces[:2]) is not None else 1

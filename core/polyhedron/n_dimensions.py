@@ -342,7 +342,7 @@ def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | Non
 def _sorted_corners(
     points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """Return the facets with an extent, their sorted corners, points of a place as one, and orientations, 1 or -1."""
+    """Return the facets with an extent, their sorted corners with equal points merged, and orientations, 1 or -1."""
     simplices = np.asarray(simplices)
     _, place = np.unique(np.asarray(points, np.float64) + 0.0, axis=0, return_inverse=True)
     corners = place.reshape(-1)[simplices]

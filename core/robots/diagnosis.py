@@ -68,7 +68,7 @@ class Reference:
     origins: tuple[NDArray[np.float64], ...] = ()
 
     def compare(self, stated: StatedInertial) -> float:
-        """Return the larger of the center's difference per radius of gyration and the inertia's relative difference."""
+        """Return the larger relative difference: of the centers, per radius of gyration, or of the inertia."""
         turned = np.linalg.norm(stated.inertia / stated.mass - self.inertia) / np.linalg.norm(self.inertia)
         return max(self.compare_centers(stated), float(turned))
 

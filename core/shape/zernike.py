@@ -224,7 +224,7 @@ def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:
 
 @lru_cache
 def _disc_radial(n: int, m: int) -> list[tuple[int, float]]:
-    """Return (s, the coefficient of r^s) of R_nm."""
+    """Return the terms of the radial polynomial R_nm as pairs (exponent, coefficient)."""
     return [
         (
             n - 2 * k,

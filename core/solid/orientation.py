@@ -26,9 +26,9 @@ from .repaired_mesh import RepairedMesh, copy_with
 class ComponentComparison:
     """Result of comparing the components of a body; masks are (c,).
 
-    `flipped`: components to turn. `solid`: with a volume. `nested`, `cavities`: outward and inward ones in material of
-    others. `intersecting`: sharing a part of their interiors with others, except `breaking` ones: cavities that break
-    through the wall around them, by at most `breakthrough` (unit). `host`: as `ClosedParts.host_part`.
+    `flipped`: components to turn. `solid`: with a volume. `nested`, `cavities`: outward and inward ones inside the
+    material of another. `intersecting`: overlapping others, except `breaking` ones: cavities that break through the
+    wall around them, by at most `breakthrough` (unit). `host`: as `ClosedParts.host_part`.
     `undecided_pairs`: number of pairs that would have been too much work.
     """
 

@@ -82,7 +82,7 @@ class Parts:
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """What touches the ground.
+    """Contacts of a character with the ground.
 
     points: (k, 3). bones: (k,) indices of pose bones, -1 for points without one. names: of the bones that carry.
     lifted: of those that should and do not. height: of the lowest point above the ground; None if there is no point.

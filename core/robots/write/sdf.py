@@ -36,7 +36,7 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def _is_whole(joint: Joint) -> bool:
-    """Return whether the format has the joint as one."""
+    """Return whether SDF can write the joint as a single joint."""
     return len(joint.free) < 2 or joint.is_ball or _joint_type(joint) == "universal"
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes of links as binary STL, which all readers of robots know; above MuJoCo's limit for STL as OBJ."""
+"""Meshes of links: binary STL, which all readers accept, or OBJ if MuJoCo would refuse the size as STL."""
 
 from __future__ import annotations
 
