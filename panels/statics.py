@@ -61,9 +61,10 @@ def _support(layout: UILayout, context: Context, support: Support) -> None:
     else:
         row = column.row(align=True)
         row.label(text="Tips Over", icon="ERROR")
-        button = row.operator("object.body_moments_sculpt_balance", text="Balance...")
-        edge = support.foot + support.margin * support.direction
-        button.target, button.point = "POINT", (edge + support.polygon.mean(axis=0)) / 2.0
+        if len(support.polygon) > 2:  # on an edge or a corner nothing stands
+            button = row.operator("object.body_moments_sculpt_balance", text="Balance...")
+            edge = support.foot + support.margin * support.direction
+            button.target, button.point = "POINT", (edge + support.polygon.mean(axis=0)) / 2.0
     margin = support.margin * unit
     angle = degrees(support.tipping_angle)
     toward = degrees(atan2(support.direction[1], support.direction[0]))

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sculpt Balance: chosen vertices of a mesh are moved least so that its center of mass comes over a point.
 
+Without chosen vertices the body leans: each vertex moves in proportion to its height, so that no face turns over.
 The change is made on the mesh itself, and the object is measured again in the usual way. If faces that are not flat are
 then cut into other triangles, the change is solved again for these. A change that misses the point is undone.
 """
@@ -20,11 +21,11 @@ from numpy.typing import NDArray
 
 from ...core.bodies.reading import Part
 from ...core.measurement.measurement import Measurement
-from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
 from ...core.numerics.float32 import shortest_decimal
-from ...core.statics.balancing import BalanceResult, balance
-from ...core.verdict.finding import EditRefusedError
+from ...core.statics.balancing import balance
+from ...core.statics.findings import BALANCE_SHORT
+from ...core.verdict.finding import EditRefusedError, MeasureError
 from ...core.verdict.findings import LINKED_OBJECT
 from ...core.verdict.method import Method, Verdict
 from ..bodies.measure_object import measure_object
@@ -56,11 +57,10 @@ class Balanced:
     end: list[float]
 
 
-def _horizontal_directions(scene: bpy.types.Scene) -> NDArray[np.float64]:
-    """Return the two directions (2, 3) across gravity, or across Z without gravity."""
-    down = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
-    axis: NDArray[np.float64] = down if down.any() else np.eye(3)[2]
-    return np.linalg.svd(axis[None])[2][1:]
+def _up(scene: bpy.types.Scene) -> NDArray[np.float64]:
+    """Return the (3,) vector against gravity, or Z without gravity."""
+    up = -np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
+    return up if up.any() else np.eye(3)[2]
 
 
 class _EditedMesh:
@@ -119,15 +119,30 @@ class _GroupedMesh:
         self.mesh.vertices[0].co = self.mesh.vertices[0].co  # makes Blender update normals and bounding box
 
 
+class _WholeMesh(_GroupedMesh):
+    """The mesh of an object in Object Mode without vertex groups, all of which leans."""
+
+    def __init__(self, obj: Object):
+        self.mesh, self.is_changed = obj.data, False
+        self.start = np.empty((len(self.mesh.vertices), 3), np.float32)
+        self.mesh.attributes["position"].data.foreach_get("vector", self.start.ravel())
+        self.movable = np.arange(len(self.start))
+
+
 def balance_mesh(
     context: Context, obj: Object, group: str, target: Sequence[float], across: str, limit: float
 ) -> Balanced:
     """Move vertices so that the center of mass comes over a point, or raise MeasureError and leave them in place."""
-    mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, group)
+    mesh: _EditedMesh | _GroupedMesh
+    if obj.mode == "EDIT":
+        mesh = _EditedMesh(obj)
+    else:
+        mesh = _GroupedMesh(obj, group) if group or obj.vertex_groups else _WholeMesh(obj)
+    up = _up(context.scene)
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
-    directions = np.eye(3) if across == "ALL" else _horizontal_directions(context.scene)
+    directions = np.eye(3) if across == "ALL" else np.linalg.svd(up[None])[2][1:]
     with tracking_paused():  # a trial that is undone is not an edit
-        balanced = _balance(context, obj, mesh, np.array(target, np.float64) * unit, directions, limit * unit, unit)
+        balanced = _balance(context, obj, mesh, np.array(target, np.float64) * unit, directions, limit * unit, unit, up)
     obj.data.update_tag()  # for other objects with the mesh it is an edit
     return balanced
 
@@ -140,6 +155,7 @@ def _balance(
     across: NDArray,
     limit: float,
     unit: float,
+    up: NDArray,
 ) -> Balanced:
     """Carry out the change, or undo all of it; lengths in m."""
     _require_balanceable(obj)
@@ -150,33 +166,49 @@ def _balance(
     size = float(np.linalg.norm(np.ptp(start.points, axis=0)))
     tolerance = REACHED_RTOL * size + 4.0 * FLOAT32 * np.abs(start.points).max()
     with _restored_on_error(context, mesh):
-        surface = start
+        surface, moves, center = start, np.zeros_like(start.points), before.mass_properties.center
         for _ in range(MAX_ATTEMPTS):
-            balanced = balance(
-                surface,
-                mesh.movable,
-                target,
-                across=across,
-                weights=mesh.weights,
-                limit=limit or size,
-                shell=before.kind == "shell",
-            )
-            points = _mesh_coordinates(mesh, balanced, start, linear)
+            if isinstance(mesh, _WholeMesh):
+                moves += _lean(start.points, before.mass_properties.center, across.T @ (across @ (target - center)), up)
+                if (far := float(np.linalg.norm(moves, axis=1).max())) > (limit or np.inf):
+                    raise MeasureError(
+                        BALANCE_SHORT, distance=float(np.linalg.norm(target - center)) * (1 - limit / far), limit=limit
+                    )
+            else:
+                moves = (
+                    balance(
+                        surface,
+                        mesh.movable,
+                        target,
+                        across=across,
+                        weights=mesh.weights,
+                        limit=limit or size,
+                        shell=before.kind == "shell",
+                    ).points
+                    - start.points
+                )
+            points = _mesh_coordinates(mesh, moves, linear)
             mesh.set_points(points)
             after = _measure(context, obj)
-            off = np.abs(across @ (target - after.mass_properties.center)).max()
-            if off <= tolerance:
+            center = after.mass_properties.center
+            if np.abs(across @ (target - center)).max() <= tolerance:
                 break
             surface = replace(_read_surface(context, obj, None).surface.transform(linear, offset), points=start.points)
         else:
             raise EditRefusedError(BALANCE_TRIANGULATION_VARIES)
-    moves = (points[mesh.movable].astype(np.float64) - mesh.start[mesh.movable]) @ linear.T
-    number, largest = int(np.count_nonzero(moves.any(axis=1))), float(np.linalg.norm(moves, axis=1).max())
+    moved = (points[mesh.movable].astype(np.float64) - mesh.start[mesh.movable]) @ linear.T
+    number, largest = int(np.count_nonzero(moved.any(axis=1))), float(np.linalg.norm(moved, axis=1).max())
     centers = [
         np.where(np.abs(center) < ROUNDING * size, 0.0, center).tolist()
         for center in (before.mass_properties.center, after.mass_properties.center)
     ]
     return Balanced(number, largest, centers[0], centers[1])
+
+
+def _lean(points: NDArray, center: NDArray, shift: NDArray, up: NDArray) -> NDArray[np.float64]:
+    """Return (n, 3) moves in proportion to the height above the lowest of the points, by `shift` at the center."""
+    height = points @ up
+    return np.multiply.outer((height - height.min()) / (center @ up - height.min()), shift)
 
 
 @contextmanager
@@ -225,12 +257,9 @@ def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMes
     return part
 
 
-def _mesh_coordinates(
-    mesh: _EditedMesh | _GroupedMesh, balanced: BalanceResult, start: Surface, linear: NDArray
-) -> NDArray[np.float32]:
+def _mesh_coordinates(mesh: _EditedMesh | _GroupedMesh, moves: NDArray, linear: NDArray) -> NDArray[np.float32]:
     """Return the (n, 3) new coordinates of the mesh; vertices that are not movable stay to the bit."""
     points = mesh.start.copy()
-    moves = balanced.points[mesh.movable] - start.points[mesh.movable]
-    local = mesh.start[mesh.movable].astype(np.float64) + np.linalg.solve(linear, moves.T).T
+    local = mesh.start[mesh.movable].astype(np.float64) + np.linalg.solve(linear, moves[mesh.movable].T).T
     points[mesh.movable] = local.astype(np.float32)
     return points

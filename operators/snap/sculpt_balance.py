@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sculpt Balance: move chosen vertices least so that the center of mass comes over a point, "make it stand".
 
-The vertices are the selected ones in Edit Mode, or a vertex group in Object Mode, as freely as their weights say.
+The vertices are the selected ones in Edit Mode, or a vertex group in Object Mode, as freely as their weights say;
+without groups the whole body leans.
 """
 
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
 from bpy.types import Context, Operator
 
 from ...blender import scene, session
+from ...blender.session import stored
 from ...blender.write import reports
 from ...core.verdict.finding import MeasureError
 from .. import selection
@@ -20,8 +22,8 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
     bl_idname = "object.body_moments_sculpt_balance"
     bl_label = "Sculpt Balance"
     bl_description = (
-        "Make it stand: move the selected vertices (in Object Mode those of a vertex group) as little as possible to "
-        "bring the center of mass over a point"
+        "Make it stand: move the selected vertices (in Object Mode those of a vertex group) as little as "
+        "possible, or lean an object without vertex groups, to bring the center of mass over a point"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -60,7 +62,8 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
     group: StringProperty(
         name="Vertex Group",
         description=(
-            "Vertices that may move in Object Mode, in proportion to their weights. If empty, the active group"
+            "Vertices that may move in Object Mode, in proportion to their weights. If empty, the active group; "
+            "an object without groups leans as a whole"
         ),
     )
 
@@ -71,8 +74,6 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
             return reports.unavailable(cls, "Make a mesh object active")
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
             return reports.unavailable(cls, "Switch to Edit Mode and select the vertices that may move")
-        if context.mode == "OBJECT" and not obj.vertex_groups:
-            return reports.unavailable(cls, "Select the vertices that may move in Edit Mode, or add a vertex group")
         return True
 
     def draw(self, context: Context) -> None:
@@ -94,6 +95,8 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         except MeasureError as error:
             return selection.refuse(self, reports.failure(obj.name_full, error))
         session.remeasure(context, [obj])
+        if stored.stability.is_known(obj):
+            session.check_stability(context, obj, [])
         texts = [
             reports.phrase(
                 "Moved {count} vertex by at most {distance:length}; the center of mass went from {start:point} to "

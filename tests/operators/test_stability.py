@@ -114,6 +114,14 @@ def test_a_wedge_tips_over_its_edge(scene, size):
     assert close(found.direction[:2], (np.cos(0.9), np.sin(0.9)), BLENDER * 10.0)
 
 
+def test_balance_makes_a_wedge_stand(scene):
+    obj = objects.add(wedge(), rotation=(0.0, 0.0, 0.9))
+    bpy.ops.object.body_moments_stability()
+    bpy.ops.object.body_moments_sculpt_balance(target="POINT", point=support(obj).polygon.mean(axis=0))
+    found = support(obj)
+    assert found.stands and close(found.margin, 0.5, BLENDER * 10.0)
+
+
 def test_an_edit_puts_it_out_of_date(scene):
     from body_moments.blender.session.stored import stability
     from body_moments.blender.session.tracking.staleness import stale_reason

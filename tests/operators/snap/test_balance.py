@@ -93,6 +93,24 @@ def object_mode():
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
+@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
+def test_object_without_groups_leans(kind):
+    obj = figure(rotation=(0.3, 0.2, 0.1), scale=(1.0, 2.0, 0.5))
+    only(obj)
+    obj.body_moments.kind = kind
+    before = world(obj, points(obj))
+    height = before[:, 2] - before[:, 2].min()
+    bpy.context.scene.cursor.location = (0.7, -0.4, 0.0)
+    assert balance() == {"FINISHED"}
+    moves = world(obj, points(obj)) - before
+    assert close(center(obj)[:2], (0.7, -0.4), 2e-6)
+    assert np.abs(moves - np.multiply.outer(height / height.max(), moves[height.argmax()])).max() < 1e-6
+    assert balance(limit=1e-6) == {"FINISHED"}  # it is there
+    bpy.context.scene.cursor.location = (0.0, 0.0, 0.0)
+    there = points(obj)
+    assert balance(limit=0.1) == {"CANCELLED"} and (points(obj) == there).all()
+
+
 def test_balance_moves_selection_and_puts_center_over_cursor():
     obj = figure()
     selected = edit(obj)
