@@ -11,7 +11,7 @@ MODULES = (
     "statics",
     *("export." + name for name in ("robot", "audit")),
     "rig",
-    *("shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
+    *("shape." + name for name in ("match_pose", "find_similar", "find_symmetry", "link_copies")),
     "batch",
     ".blender.session.subscriptions",  # is removed first: its last notes need the properties of all others
 )

@@ -85,12 +85,12 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
 
     options = arguments.parse(argv, file_needed)
 
-    from ..command.measure import supervised
+    from ..command.measure import run_files
 
     if (options.files or options.manifest) and not options.no_supervisor:
         bpy = sys.modules.get("bpy")
-        return supervised.measure(options, channel, bpy.data.filepath if bpy else None)
-    options.files = supervised.files_of(options)
+        return run_files.measure(options, channel, bpy.data.filepath if bpy else None)
+    options.files = run_files.files_of(options)
 
     from ..command.files import output
     from ..command.measure.run import Run

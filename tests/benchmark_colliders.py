@@ -270,7 +270,7 @@ def hull_sum(sets) -> float:
 def main(names: list[str]) -> None:
     load_package()
     from body_moments.core import Surface
-    from body_moments.core.colliders.pieces import cut_into_pieces
+    from body_moments.core.colliders.convex_pieces import cut_into_pieces
     from body_moments.core.polyhedron.integration import volume_and_center
 
     ratios = []

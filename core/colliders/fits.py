@@ -25,7 +25,7 @@ from ..numerics.quadrature import spread_directions
 from ..polyhedron.integration import volume_and_center
 from ..robots.model import Inertial, Pose, Shape
 from ..robots.primitives import equal_inertia_shape, primitive_moments
-from .pieces import cut_into_pieces
+from .convex_pieces import cut_into_pieces
 
 AXES_CORNERS = 48  # of the hull whose faces and edges give the directions of boxes
 BALL_RTOL = 1e-12  # points outside a ball by less are on it

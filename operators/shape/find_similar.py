@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Find Similar: the objects of the scene, or the bodies of a library, nearest in shape to the active one; Link Copies.
+"""Find Similar: the objects of the scene, or the bodies of a library, nearest in shape to the active one.
 
-Matches are kept with the scene, for the panel; objects are not changed except, on request, their selection. Link Copies
-lets equal objects share one mesh.
+Matches are kept with the scene, for the panel; objects are not changed except, on request, their selection.
 """
 
 from collections import Counter
@@ -12,11 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, FloatProperty, StringProperty
 from bpy.types import Context, Event, Operator, PropertyGroup, Scene
 
-from ...blender import scene, session
-from ...blender.read.tracking import tracking_paused
+from ...blender import session
 from ...blender.read.visibility import measurable_objects
 from ...blender.write import reports
 from ...core.verdict.finding import Finding, MeasureError, system_reason
@@ -24,7 +22,6 @@ from .. import selection
 from ..modal import ModalSteps
 
 if TYPE_CHECKING:
-    from ...blender.scene.copies import Copies
     from ...blender.session.similar import Match
 
 MAX_LISTED_BODIES = 20
@@ -202,110 +199,10 @@ class OBJECT_OT_body_moments_select_found(Operator):
 
 
 POINTERS = {(Scene, "body_moments_search"): BodyMomentsSearch}
-
-
-MAX_LISTED = 10  # groups that the dialog lists
-NOTHING = "There are no copies."
-
-
-class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
-    """Let equal meshes, moved, turned, mirrored or scaled, become one mesh that objects share; nothing moves"""
-
-    bl_idname = "object.body_moments_link_copies"
-    bl_label = "Link Copies"
-
-    tolerance: FloatProperty(
-        name="Tolerance",
-        description="Largest distance between equal vertices, relative to the size of the mesh",
-        default=1e-5,
-        min=1e-6,
-        max=1e-2,
-        precision=6,
-    )
-    may_differ: EnumProperty(
-        name="May Differ",
-        description="What the copies may have of their own; the shared mesh has that of the first one",
-        items=(
-            ("UV", "UV Maps", "Copies get the UV maps of the shared mesh"),
-            ("ATTRIBUTES", "Attributes", "Copies get colors, normals and other attributes of the shared mesh"),
-            ("MATERIALS", "Materials", "Copies keep their materials, linked to the object"),
-            ("GROUPS", "Vertex Groups", "Copies get the vertex groups of the shared mesh"),
-            ("PROPERTIES", "Custom Properties", "Copies get the custom properties of the shared mesh"),
-        ),
-        options={"ENUM_FLAG"},
-    )
-    _objects = None  # the dialog's, while it is open
-    _found: tuple | None = None  # the settings of the last search, and its kinds of meshes
-
-    def _kinds(self, context: Context) -> list["Copies"]:
-        """Return the kinds of meshes among the selected objects, or all visible ones if none is selected."""
-        key = self.tolerance, frozenset(self.may_differ)
-        if self._found is None or self._found[0] != key:
-            chosen = self._objects or context.selected_objects or context.visible_objects
-            objects = [obj for obj in chosen if obj.type == "MESH"]
-            with reports.progress(len(objects)) as step:
-                self._found = key, scene.copies.find_copies(objects, self.tolerance, set(key[1]), step)
-        return self._found[1]
-
-    def invoke(self, context: Context, _event: Event) -> set[str]:
-        self._objects = [*context.selected_objects]
-        self._kinds(context)
-        return context.window_manager.invoke_props_dialog(self, width=420)
-
-    def check(self, context: Context) -> bool:
-        self._kinds(context)
-        return True
-
-    def draw(self, context: Context) -> None:
-        column = self.layout.column()
-        column.use_property_split = True
-        column.prop(self, "tolerance")
-        column.prop(self, "may_differ")
-        if self._found is None:  # the redo panel
-            return
-        kinds = sorted((kind for kind in self._found[1] if kind.members), key=lambda kind: -len(kind.members))
-        count, size = sum(len(kind.members) for kind in kinds), _size(sum(kind.saved_bytes for kind in kinds))
-        summary = reports.phrase("Groups: {groups}. Objects to link: {count}", groups=len(kinds), count=count)
-        column.label(text="{:s}. {:s}".format(summary, size), icon="LINKED", translate=False)
-        for kind in kinds[:MAX_LISTED]:
-            row = self.layout.row(align=True)
-            members = [*kind.objects, *(obj for obj, *_ in kind.members)]
-            text = reports.phrase("{count} objects as {object}", count=len(members), object=kind.data.mesh.name)
-            row.label(text="{:s}, {:s}".format(text, _size(kind.saved_bytes)), translate=False)
-            button = row.operator("object.body_moments_select_found", text="", icon="RESTRICT_SELECT_OFF")
-            button.name = "\n".join(obj.name_full for obj in members)
-        if len(kinds) > MAX_LISTED:
-            self.layout.label(text=reports.phrase("And {count} more", count=len(kinds) - MAX_LISTED), translate=False)
-
-    def execute(self, context: Context) -> set[str]:
-        kinds, self._found, self._objects = self._kinds(context), None, None
-        keeps_materials = "MATERIALS" in self.may_differ
-        with session.stored.assembly.kept_up_to_date(context):
-            with tracking_paused(), reports.progress(sum(len(kind.members) for kind in kinds)) as step:
-                linked = scene.copies.link_copies(context, kinds, self.tolerance, keeps_materials, step)
-            session.remeasure(context, linked.objects)
-        session.tracking.staleness.mark_axes_changed(linked.objects)
-        left_out = [reports.failure(obj.name_full, reason) for obj, reason in linked.left_out]
-        done = reports.phrase(
-            "{count} object linked, {size} saved, vertices moved by up to {maximum:length}",
-            "{count} objects linked, {size} saved, vertices moved by up to {maximum:length}",
-            count=len(linked.objects),
-            size=_size(linked.saved),
-            maximum=linked.farthest * context.scene.unit_settings.scale_length,
-        )
-        total = len(linked.objects) + len(left_out)
-        return selection.summarize(self, len(linked.objects), total, done, left_out, nothing=NOTHING)
-
-
-def _size(size: int) -> str:
-    return "{:.3g} MB".format(size / 1e6) if size >= 1e6 else "{:.3g} kB".format(size / 1e3)
-
-
 CLASSES = (
     BodyMomentsSimilar,
     BodyMomentsSearch,
     OBJECT_OT_body_moments_find_similar,
     OBJECT_OT_body_moments_find_in_library,
     OBJECT_OT_body_moments_select_found,
-    OBJECT_OT_body_moments_link_copies,
 )

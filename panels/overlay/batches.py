@@ -27,7 +27,7 @@ from ...blender.session.tracking import handlers
 from ...blender.settings.scene import BodyMomentsOverlaySettings
 from ...core.numerics.float32 import shortest_decimal
 from . import appearance as look
-from . import lines
+from . import discs, lines
 from .bodies import Bodies, Entry, collect
 from .details import list_details
 from .draw import drawn_objects
@@ -148,8 +148,8 @@ def _axis_colors() -> tuple[tuple[float, float, float], ...]:
     return tuple(tuple(color) for color in (theme.axis_x, theme.axis_y, theme.axis_z))
 
 
-def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> lines.View:
-    return lines.View(np.array(view, np.float64), np.array(projection, np.float64), np.array(size, np.float64))
+def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> discs.View:
+    return discs.View(np.array(view, np.float64), np.array(projection, np.float64), np.array(size, np.float64))
 
 
 def _fill_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
@@ -175,13 +175,13 @@ def _line_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
     return tuple(batch_for_shader(shader, "LINES", {"pos": points, "color": tint}) for tint in (faint, colors))
 
 
-def _discs(bodies: Bodies, view: lines.View, labeled: int) -> tuple[Batch, ...]:
+def _discs(bodies: Bodies, view: discs.View, labeled: int) -> tuple[Batch, ...]:
     if not len(bodies.centers):
         return ()
-    discs = lines.disc_triangles(bodies, view, _scale(), labeled)
-    if discs is None:
+    made = discs.disc_triangles(bodies, view, _scale(), labeled)
+    if made is None:
         return ()
-    points, colors, triangles = discs
+    points, colors, triangles = made
     shader = gpu.shader.from_builtin("FLAT_COLOR")
     return tuple(
         batch_for_shader(shader, "TRIS", {"pos": points, "color": tints}, indices=triangles) for tints in colors

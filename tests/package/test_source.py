@@ -92,7 +92,7 @@ def test_the_supervisor_needs_neither_numpy_nor_blender():
         "sys.modules['body_moments'] = module = importlib.util.module_from_spec(spec)\n"
         "spec.loader.exec_module(module)\n"
         "assert not {'numpy', 'bpy', 'body_moments.core', 'body_moments.operators'} & set(sys.modules)\n"
-        "import body_moments.command.measure.supervised\n"
+        "import body_moments.command.measure.run_files\n"
         "assert not {'numpy', 'bpy', 'mathutils'} & set(sys.modules)\n"
     )
     subprocess.run([sys.executable, "-P", "-S", "-c", code, str(ROOT)], check=True, timeout=480)

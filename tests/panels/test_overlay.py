@@ -11,7 +11,7 @@ from tests.close import close
 @pytest.fixture
 def view(registered):
     """A perspective of 60° from (3, -4, 5) at an odd size, rolled."""
-    from body_moments.panels.overlay.lines import View
+    from body_moments.panels.overlay.discs import View
 
     rotation = np.linalg.qr(np.random.default_rng(3).standard_normal((3, 3)))[0]
     rotation *= np.sign(np.linalg.det(rotation))
@@ -76,7 +76,7 @@ def test_axes_are_as_long_as_the_largest_gyration(registered):
 
 @pytest.mark.parametrize("size", [1e-4, 0.01, 0.3, 3.0])
 def test_disc_is_never_larger_than_its_ball(view, size):
-    from body_moments.panels.overlay import lines
+    from body_moments.panels.overlay import discs
     from body_moments.panels.overlay.bodies import Bodies
 
     centers = in_front(view)
@@ -84,7 +84,7 @@ def test_disc_is_never_larger_than_its_ball(view, size):
     gyration = np.full((count, 3), size * np.sqrt(0.4))
     for verdict in range(5):
         bodies = Bodies(centers, np.tile(np.eye(3), (count, 1, 1)), gyration, np.full(count, verdict))
-        points, _, _ = lines.disc_triangles(bodies, view, 1.0, -1)
+        points, _, _ = discs.disc_triangles(bodies, view, 1.0, -1)
         order = np.argsort(-view.depths(centers), kind="stable")
         pixels = view.pixels(points.astype(float)).reshape(count, -1, 2) - view.pixels(centers)[order][:, None]
         ball = size / view.pixel_sizes(centers)[order].max(axis=1)

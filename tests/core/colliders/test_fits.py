@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from body_moments.core.colliders.convex_pieces import cut_into_pieces
 from body_moments.core.colliders.fits import Wanted, distances, make_colliders
-from body_moments.core.colliders.pieces import cut_into_pieces
 from body_moments.core.inertia import MassProperties
 from body_moments.core.mesh import Surface
 from body_moments.core.polyhedron import polyhedron_moments

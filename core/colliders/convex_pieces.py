@@ -21,7 +21,7 @@ from ..mesh.point_triangle import triangle_distances
 from ..mesh.surface import Surface, triangle_areas
 from ..numerics.graph import connected_components
 from ..numerics.quadrature import spread_directions
-from .cuts import ON_PLANE_RTOL, Piece, connected_parts, cut, piece_from_surface
+from .plane_cuts import ON_PLANE_RTOL, Piece, connected_parts, cut, piece_from_surface
 
 HULL_RTOL = 1e-6  # of the resulting hulls
 SEARCH_RTOL = 1e-4  # of hulls that are only compared
