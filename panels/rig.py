@@ -122,7 +122,7 @@ def _standing(layout: UILayout, weight: Weight, unit: float) -> None:
     shown, support, contacts = [("Mass", "mass", weight.parts.mass)], weight.support, weight.contacts
     if support is not None:
         shown += [("Margin", "length", support.margin * unit), ("Height", "length", support.height * unit)]
-    rows.quantities(layout.column(align=True), rows.scene_units(), shown)
+    rows.quantities(layout.column(align=True), shown)
     missing = [name for name, mass in zip(weight.parts.names, weight.parts.masses) if not mass]
     if missing:
         rows.remark(layout, "Not measured: {objects}", icon="ERROR", objects=missing)
