@@ -24,7 +24,7 @@ from ...core.measurement.measurement import Measurement
 from ...core.moments.moments import Measure
 from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.balancing import balance
-from ...core.statics.findings import BALANCE_SHORT
+from ...core.statics.findings import BALANCE_NO_EFFECT, BALANCE_SHORT
 from ...core.verdict.finding import EditRefusedError, MeasureError
 from ...core.verdict.findings import LINKED_OBJECT
 from ...core.verdict.method import Method, Verdict
@@ -124,6 +124,8 @@ class _WholeMesh(_GroupedMesh):
 
     def __init__(self, obj: Object):
         self.mesh, self.is_changed = obj.data, False
+        if not self.mesh.vertices:
+            raise EditRefusedError(BALANCE_NO_VERTICES)
         self.start = np.empty((len(self.mesh.vertices), 3), np.float32)
         self.mesh.attributes["position"].data.foreach_get("vector", self.start.ravel())
         self.movable = np.arange(len(self.start))
@@ -170,10 +172,10 @@ def _balance(
         for _ in range(MAX_ATTEMPTS):
             if isinstance(mesh, _WholeMesh):
                 moves += _lean(start.points, before.mass_properties.center, across.T @ (across @ (target - center)), up)
-                if (far := float(np.linalg.norm(moves, axis=1).max())) > (limit or np.inf):
-                    raise MeasureError(
-                        BALANCE_SHORT, distance=float(np.linalg.norm(target - center)) * (1 - limit / far), limit=limit
-                    )
+                most, far = limit or size, float(np.linalg.norm(moves, axis=1).max())
+                if far > most:
+                    short = float(np.linalg.norm(across @ (target - center))) * (1.0 - most / far)
+                    raise MeasureError(BALANCE_SHORT, distance=short, limit=most)
             else:
                 moves = (
                     balance(
@@ -206,9 +208,15 @@ def _balance(
 
 
 def _lean(points: NDArray, center: NDArray, shift: NDArray, up: NDArray) -> NDArray[np.float64]:
-    """Return (n, 3) moves in proportion to the height above the lowest of the points, by `shift` at the center."""
-    height = points @ up
-    return np.multiply.outer((height - height.min()) / (center @ up - height.min()), shift)
+    """Return (n, 3) moves in proportion to the height above the lowest of the points, by `shift` at the center.
+
+    Raise MeasureError if the center is, or would come to be, no higher than the lowest point.
+    """
+    heights = points @ up - (points @ up).min()
+    rise = center @ up - (points @ up).min()
+    if min(rise, rise + shift @ up) <= REACHED_RTOL * np.linalg.norm(np.ptp(points, axis=0)) * np.linalg.norm(up):
+        raise MeasureError(BALANCE_NO_EFFECT)
+    return np.multiply.outer(heights / rise, shift)
 
 
 @contextmanager

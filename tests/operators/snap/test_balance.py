@@ -93,6 +93,19 @@ def object_mode():
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
+def test_what_cannot_lean_is_refused(reported):
+    flat = add(bpy.data.meshes.new("Flat"), "Flat")
+    flat.data.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [], [(0, 1, 2, 3)])
+    flat.body_moments.kind = "SHELL"
+    only(flat)
+    unchanged(flat, points(flat), "balance_no_effect", reported)
+    only(figure())
+    bpy.context.scene.cursor.location = (0.0, 0.0, -2.0)  # below the ground
+    unchanged(bpy.context.object, points(bpy.context.object), "balance_no_effect", reported, axes="ALL")
+    only(add(bpy.data.meshes.new("Empty"), "Empty"))
+    assert balance() == {"CANCELLED"}
+
+
 @pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
 def test_object_without_groups_leans(kind):
     obj = figure(rotation=(0.3, 0.2, 0.1), scale=(1.0, 2.0, 0.5))
@@ -171,8 +184,8 @@ def test_no_vertex_moves_further_than_the_limit():
     assert np.abs(center(obj)[:2] - (0.06, 0.0)).max() < 1e-6
 
 
-def unchanged(obj, before, code, reported):
-    assert balance() == {"CANCELLED"}
+def unchanged(obj, before, code, reported, **more):
+    assert balance(**more) == {"CANCELLED"}
     assert np.array_equal(points(obj), before)
     assert code in reported.codes
 
