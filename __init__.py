@@ -15,7 +15,8 @@ def __getattr__(name: str) -> Any:
     """Return `describe`, which needs Blender, or a public name of the core."""
     if name == "describe":
         return import_module(__name__ + ".blender.session.describe").describe
-    core = None if name.startswith("_") else import_module(__name__ + ".core")
+    is_alone = "__path__" not in globals()  # pytest loads this file alone if the folder's name is no identifier
+    core = None if name.startswith("_") or is_alone else import_module(__name__ + ".core")
     if core is None or name not in core.__all__:
         raise AttributeError("module {!r} has no attribute {!r}".format(__name__, name))
     return getattr(core, name)

@@ -3,6 +3,7 @@
 """Allowed imports between parts of the add-on, as docs/architecture.md draws them, read off the syntax trees."""
 
 import ast
+import importlib.util
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -146,3 +147,11 @@ def test_every_folder_describes_its_contents():
     for module, path in MODULES.items():
         if module[-1] == "__init__":
             assert ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))), path
+
+
+def test_root_alone_has_no_public_names():
+    """As pytest loads it in a folder whose name is no identifier, such as body-moments."""
+    spec = importlib.util.spec_from_file_location("__init__", ROOT / "__init__.py")
+    alone = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(alone)
+    assert not hasattr(alone, "setUpModule") and not hasattr(alone, "mass_properties")
