@@ -118,32 +118,18 @@ np.save({file!r}, np.where(hollow, 0.9, 0.0).astype(np.float32))
 spacing = {{"use_spacing": True, "spacing": (0.004, 0.004, 0.004)}}
 bpy.ops.object.body_moments_import_scan("EXEC_DEFAULT", True, filepath={file!r}, **spacing)
 """
-ARM = """
-import math
-def box(name, size, location):
-    bpy.ops.mesh.primitive_cube_add(size=1, location=location, scale=size)
-    bpy.ops.object.transform_apply(location=False, rotation=False)
-    bpy.context.object.name = name
-    return bpy.context.object
-def hinge(name, first, second, location):
-    bpy.ops.object.empty_add(location=location, rotation=(math.pi / 2, 0, 0), radius=0.08)
-    bpy.context.object.name = name
-    bpy.ops.rigidbody.constraint_add(type="HINGE")
-    joint = bpy.context.object.rigid_body_constraint
-    joint.object1, joint.object2 = first, second
-base = box("base", (0.3, 0.3, 0.1), (0, 0, 0.05))
-bpy.ops.rigidbody.object_add(type="PASSIVE")
-upper, fore = box("upper", (0.06, 0.06, 0.4), (0, 0, 0.32)), box("fore", (0.3, 0.04, 0.04), (0.15, 0, 0.52))
-hinge("shoulder", base, upper, (0, 0, 0.12))
-hinge("elbow", upper, fore, (0, 0, 0.52))
-for part in (upper, fore, base):
+# The tutorial's own script, without its file.
+SCRIPT = (ROOT / "docs" / "tutorial-arm.md").read_text(encoding="utf-8").split("```python")[1].partition("```")[0]
+KEPT = [line for line in SCRIPT.splitlines() if "bpy.ops.wm" not in line]
+SELECT_ARM = """
+bpy.ops.object.select_all(action="DESELECT")
+for part in (fore, upper, base):
     part.select_set(True)
+bpy.context.view_layer.objects.active = base
 """
-
 LETTER = """
 bpy.ops.object.text_add()
-letter = bpy.context.object
-letter.data.body = "E"
+bpy.context.object.data.body = "E"
 """
 # picture: the scene, the panels that are open, and the operator of the button that is pressed
 PAGES = {
@@ -160,7 +146,7 @@ PAGES = {
         ("Density",),
         "object.body_moments_measure",
     ),
-    "arm": (ARM, (), "object.body_moments_measure"),
+    "arm": ("\n".join(KEPT) + SELECT_ARM, (), "object.body_moments_measure"),
     "section": (LETTER, ("Section",), "object.body_moments_measure_section"),
     "moments": ("bpy.ops.mesh.primitive_cone_add()\n", ("Advanced", "Moments"), "object.body_moments_compute_moments"),
 }
