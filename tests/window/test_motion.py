@@ -83,7 +83,7 @@ def test_spin_is_keyed_and_the_path_is_traced(jump):
     assert "Traceback" not in window.output()
 
 
-@pytest.mark.skipif("BODY_MOMENTS_FILM" not in os.environ, reason="takes minutes; set BODY_MOMENTS_FILM for the film")
+@pytest.mark.skipif("BODY_MOMENTS_FILM" not in os.environ, reason="needs BODY_MOMENTS_FILM: makes the film, in minutes")
 def test_jump_is_filmed_floaty_and_falling(run_blender, cube_file, tmp_path):
     """Ten seconds for docs/weight.md, left among the artefacts as jump.webp."""
     image = pytest.importorskip("PIL.Image")
