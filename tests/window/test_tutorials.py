@@ -84,9 +84,8 @@ bpy.ops.mesh.primitive_plane_add(size=8)
 bpy.ops.rigidbody.object_add(type="PASSIVE")
 for shard in [obj for obj in bpy.data.objects if obj.name.startswith("Shard")]:
     shard.location.z += 0.4
-scene = bpy.context.scene
 for frame in range(1, 32):
-    scene.frame_set(frame)
+    bpy.context.scene.frame_set(frame)
 """
 FIGURE = """
 import sys
