@@ -21,9 +21,9 @@ from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
 from ..core.inertia.plain_body import ENTRIES, PlainBody
 from ..core.measurement.documents import plain
-from ..core.measurement.trust import Trust
 from ..core.verdict.finding import Finding, Severity
 from ..core.verdict.sentences import fill, severity
+from ..core.verdict.trust import Trust
 
 # share of a row for its label, for one of up to 3 letters, and for one of 1 letter
 LABEL_SHARE, SHORT_LABEL_SHARE, INDEX_LABEL_SHARE = 0.36, 0.3, 0.12

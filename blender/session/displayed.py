@@ -17,11 +17,11 @@ from bpy.types import ID, Context, Object, PoseBone, Scene, ViewLayer
 
 from ...core.inertia.plain_body import PlainBody, add_bodies
 from ...core.lazy import loaded_module
-from ...core.measurement.trust import Trust, open_body_caveats, trust_of
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
 from ...core.verdict.method import Method, Verdict
 from ...core.verdict.sentences import Group, grouped
+from ...core.verdict.trust import Trust, open_body_caveats, trust_of
 from .. import read
 from ..read.fingerprint import has_transform
 from ..write import properties

@@ -6,27 +6,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from math import inf, isfinite
-from types import MappingProxyType
-from typing import Any
 
 import bpy
 import numpy as np
-from bpy.types import Collection, Context, Depsgraph, Object, PoseBone, RigidBodyConstraint, Scene
+from bpy.types import Collection, Context, Depsgraph, Object
 from numpy.typing import NDArray
 
 from ...core.bodies.reading import float64_matrix
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.numerics.rotations import polar_rotation, rotation_matrix
-from ...core.robots.findings import JOINT_VALUE_UNUSABLE, ROBOT_WITHOUT_LINKS
+from ...core.robots.findings import ROBOT_WITHOUT_LINKS
 from ...core.robots.links import Candidate, Connection, assemble_robot, make_candidate
-from ...core.robots.model import VALUES, FreeAxis, Link, Mimic, Pose, Robot, Shape
+from ...core.robots.model import Link, Pose, Robot, Shape
 from ...core.robots.write.shapes import with_colliders
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.rig import measure_rig
 from ..bodies.stacks.many import measured_in_turn
+from ..read.joints import bone_freedom, bone_parents, constraint_connections, is_passive, joint_values
 from ..read.objects import read_object
 from ..read.visibility import measurable
 from ..scene.colliders import colliders_by_body, read_colliders
@@ -204,104 +202,6 @@ def object_candidate(
     return make_candidate(label, measurement, parents, obj.matrix_world.to_scale(), is_fixed=is_passive(obj))
 
 
-def is_passive(obj: Object) -> bool:
-    """Return whether an object is a passive rigid body, which nothing moves."""
-    return obj.rigid_body is not None and obj.rigid_body.type == "PASSIVE"
-
-
-# For each kind of constraint, its free axes: the kind, the index of an axis of the constraint, the sign of the limits.
-# Blender counts angles of the first object relative to the second, but a piston's and all lengths of the second
-# relative to the first. A generic constraint moves along its axes, then turns about z, y and x.
-_ROTATIONS = (("rotate", 2, -1.0), ("rotate", 1, -1.0), ("rotate", 0, -1.0))
-_GENERIC = (*(("translate", axis, 1.0) for axis in range(3)), *_ROTATIONS)
-CONSTRAINTS: dict[str, tuple[tuple[str, int, float], ...]] = {
-    "FIXED": (),
-    "POINT": _ROTATIONS,
-    "HINGE": (("rotate", 2, -1.0),),
-    "SLIDER": (("translate", 0, 1.0),),
-    "PISTON": (("translate", 0, 1.0), ("rotate", 0, 1.0)),
-    "GENERIC": _GENERIC,
-    "GENERIC_SPRING": _GENERIC,
-}
-
-
-def constraint_connections(
-    scene: Scene, labels: Mapping[Object, str], unit: float
-) -> tuple[list[Connection], list[Candidate], list[Finding]]:
-    """Return the constraints of labeled objects as joints, frames of unlabeled passive objects, and findings."""
-    connections: list[Connection] = []
-    bases: dict[str, Candidate] = {}
-    findings: list[Finding] = []
-    for holder in scene.objects:
-        constraint = holder.rigid_body_constraint
-        if constraint is None or not constraint.enabled or constraint.type not in CONSTRAINTS:
-            continue
-        sides = [constraint.object1, constraint.object2]
-        names = ["" if side is None else labels.get(side, "") for side in sides]
-        if not any(names):
-            continue
-        for index, side in enumerate(sides):
-            if side is not None and not names[index] and is_passive(side):
-                names[index] = name = side.name_full
-                bases[name] = Candidate(name, Link(name, pose=_pose(side, unit), is_fixed=True))
-        values, mimic, unusable = joint_values(holder)
-        findings += unusable
-        free = _freedom(constraint, values, unit)
-        connections.append(Connection(holder.name_full, names[0], names[1], _pose(holder, unit), free, mimic))
-    connections.sort(key=lambda one: one.name)
-    return connections, [bases[name] for name in sorted(bases)], findings
-
-
-def _pose(obj: Object, unit: float) -> Pose:
-    """Return an object's location and rotation, m."""
-    matrix = float64_matrix(obj.matrix_world)
-    turn = polar_rotation(matrix[None])[0][0]
-    return Pose(matrix[:3, 3] * unit, turn * np.sign(np.linalg.det(turn)))
-
-
-def _freedom(constraint: RigidBodyConstraint, values: Mapping[str, float], unit: float) -> tuple[FreeAxis, ...]:
-    """Return the free axes of a constraint, with the values of its springs unless `values` states them."""
-    free = []
-    for kind, index, sign in CONSTRAINTS[constraint.type]:
-        turns, axis, lower, upper = kind == "rotate", "xyz"[index], -inf, inf
-        name, length = ("ang_" if turns else "lin_") + axis, 1.0 if turns else unit
-        if constraint.type != "POINT" and getattr(constraint, "use_limit_" + name):
-            lower, upper = (getattr(constraint, "limit_{}_{}".format(name, end)) for end in ("lower", "upper"))
-            if lower == upper:
-                continue
-            # Bullet takes a lower limit above the upper one as none.
-            ends = sorted((sign * lower * length, sign * upper * length))
-            lower, upper = ends if lower < upper else (-inf, inf)
-        spring = {}
-        name, torque = ("ang_" if turns else "") + axis, unit**2 if turns else 1.0
-        # Springs of the other type have a damping without a unit.
-        is_spring = constraint.type == "GENERIC_SPRING" and constraint.spring_type == "SPRING2"
-        if is_spring and getattr(constraint, "use_spring_" + name):
-            spring["stiffness"] = getattr(constraint, "spring_stiffness_" + name) * torque
-            spring["damping"] = getattr(constraint, "spring_damping_" + name) * torque
-        free.append(FreeAxis(kind, np.eye(3)[index], lower, upper, {**spring, **values}))
-    return tuple(free)
-
-
-def joint_values(
-    owner: Object | PoseBone,
-) -> tuple[dict[str, float], Mimic | None, list[Finding]]:
-    """Return the values of a joint that are custom properties, its mimic, and findings about unusable properties."""
-    values: dict[str, float] = {}
-    findings: list[Finding] = []
-    for name in (*VALUES, "mimic_multiplier", "mimic_offset"):
-        value: Any = owner.get("joint_" + name)
-        is_number = isinstance(value, (int, float)) and isfinite(value)
-        # A motor without effort or velocity would not move.
-        if is_number and (name.startswith("mimic") or value > 0 or value == 0 and name not in ("effort", "velocity")):
-            values[name] = float(value)
-        elif value is not None:
-            findings.append(finding(JOINT_VALUE_UNUSABLE, joint=owner.name, key="joint_" + name, value=str(value)))
-    factors = values.pop("mimic_multiplier", 1.0), values.pop("mimic_offset", 0.0)
-    leader = owner.get("joint_mimic")
-    return values, None if leader is None else Mimic(str(leader), *factors), findings
-
-
 def link_surface(objects: Iterable[Object], depsgraph: Depsgraph, pose: Pose, unit: float) -> Surface | None:
     """Return the surface of a link's objects as triangles in m, in the link's frame; None without visible faces."""
     pieces, to_link = [], pose.inverse()
@@ -321,50 +221,6 @@ def sheared_objects(objects: Iterable[Object]) -> list[str]:
         return []
     _, sheared = polar_rotation(np.array([float64_matrix(obj.matrix_world) for obj in located]))
     return [obj.name_full for obj, skew in zip(located, sheared) if skew]
-
-
-def bone_freedom(
-    bone: PoseBone, values: Mapping[str, float] = MappingProxyType({}), unit: float = 1.0
-) -> tuple[FreeAxis, ...]:
-    """Return a bone's unlocked axes of movement and of rotation with limits, in m, by constraints and IK."""
-    turns = {
-        axis: (getattr(bone, "ik_min_" + axis), getattr(bone, "ik_max_" + axis))
-        for axis in "xyz"
-        if getattr(bone, "use_ik_limit_" + axis)
-    } | _bone_limits(bone, "LIMIT_ROTATION", "use_limit_")
-    is_connected = bone.parent is not None and bone.bone.use_connect
-    slides = {} if is_connected else _bone_limits(bone, "LIMIT_LOCATION", "use_min_", "use_max_")
-    rest = float64_matrix(bone.id_data.matrix_world)[:3, :3] @ float64_matrix(bone.bone.matrix_local)[:3, :3]
-    free = []
-    for index, axis in enumerate("xyz"):
-        lower, upper = slides.get(axis, (0.0, 0.0))
-        if lower < upper and not bone.lock_location[index]:
-            length = unit * float(np.linalg.norm(rest[:, index]))
-            free.append(FreeAxis("translate", np.eye(3)[index], lower * length, upper * length, values))
-    for index, axis in reversed([*enumerate("xyz")]):
-        lower, upper = turns.get(axis, (-inf, inf))
-        if lower < upper and not bone.lock_rotation[index] and not getattr(bone, "lock_ik_" + axis):
-            free.append(FreeAxis("rotate", np.eye(3)[index], lower, upper, values))
-    return tuple(free)
-
-
-def _bone_limits(bone: PoseBone, kind: str, *uses: str) -> dict[str, tuple[float, float]]:
-    """Return the limits of a bone's constraints of a kind in local space, by axis. uses: switches of both ends."""
-    limits = {}
-    for constraint in bone.constraints:
-        if constraint.type != kind or constraint.owner_space != "LOCAL" or not constraint.enabled:
-            continue
-        for axis in "xyz":
-            used = [getattr(constraint, use + axis) for use in uses]
-            if any(used):
-                lower = getattr(constraint, "min_" + axis) if used[0] else -inf
-                limits[axis] = lower, getattr(constraint, "max_" + axis) if used[-1] else inf
-    return limits
-
-
-def bone_parents(bone: PoseBone, labels: Mapping[str, str]) -> list[str]:
-    """Return the labels of a bone's parents, the nearest first; `labels` maps the names of bones that are links."""
-    return [labels[above.name] for above in bone.parent_recursive if above.name in labels]
 
 
 USD_ROOT = "root"  # Blender's exporter puts everything under it

@@ -24,12 +24,12 @@ from ...core.cad.surface_file import read_meshes
 from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import Settings
-from ...core.measurement.trust import open_body_caveats
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.scans import formats as scans
 from ...core.streams.file_mesh import FileMesh
 from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, MeasureError, QueryError, finding, system_reason
+from ...core.verdict.trust import open_body_caveats
 from .. import measure
 from ..files.suffixes import STREAMED, check_file, file_suffix
 from ..findings import FOURIER_OBJECT_COUNT, RESULTS_NEED_BLEND, STREAM_OPTIONS

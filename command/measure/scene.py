@@ -28,9 +28,9 @@ from ...blender.write.properties import store
 from ...core.bodies.findings import DENSITY_DEFAULTED
 from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
-from ...core.measurement.trust import open_body_caveats
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
+from ...core.verdict.trust import open_body_caveats
 from ..files.files import newer_version, open_file, requested_file
 from ..files.references import Opened, blocked_scripts, missing_links, scripts_of_open_file
 from ..files.saving import Place, write_assets

@@ -25,7 +25,3 @@ AXES_FROM_THIRD_ORDER = warning(
     "higher orders and may differ.",
 )
 DENSITY_FROM_MEMBERS = note("density_from_members", "members")
-TOTAL_OF_OPEN_OBJECTS = warning(
-    "total_of_open_objects",
-    "The total depends on the reference point, as these are open: {objects}. Close them, or leave them out.",
-)

@@ -28,9 +28,9 @@ from ..moments.moments import Moments, U, monomials
 from ..polyhedron.n_dimensions import multi_indices
 from ..verdict.finding import Finding, MeasureError, Severity
 from ..verdict.sentences import sentence, severity
+from ..verdict.trust import trust_of
 from .documents import plain
 from .measurement import UNIFORM_DENSITIES, Measurement
-from .trust import trust_of
 
 MAX_ELEMENTS = 1000  # Limit for one finding.
 _FIRST, _SECOND = ((1, 0, 0), (0, 1, 0)), ((2, 0, 0), (0, 2, 0), (1, 1, 0))

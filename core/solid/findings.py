@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/solid`."""
 
-from ..verdict.finding import error, note, warning
+from ..verdict.finding import error, note, repair, warning
 
 INVALID_FACES = error(
     "invalid_faces", "Faces use vertices that do not exist. Run mesh.validate() in the Python Console."
@@ -14,11 +14,11 @@ NON_FINITE_VERTICES = error(
     "{count} of {total} vertices have no finite coordinates. Delete them, or fix the modifier, driver or import "
     "that made them.",
 )
-VERTICES_WELDED = warning(
+VERTICES_WELDED = repair(
     "vertices_welded",
     "Open edges were welded: vertices moved by up to {share:percent} of the size. Use Mesh > Merge > By Distance.",
 )
-DUPLICATE_FACES_IGNORED = warning(
+DUPLICATE_FACES_IGNORED = repair(
     "duplicate_faces_ignored",
     "Duplicate face left out: {elements}. Delete it.",
     "{count} duplicate faces left out: {elements}. Delete them.",
@@ -33,11 +33,11 @@ T_JUNCTIONS = note(
     "{count} gap without area (T-junction) was taken as closed.",
     "{count} gaps without area (T-junctions) were taken as closed.",
 )
-INVERTED_COMPONENTS = warning(
+INVERTED_COMPONENTS = repair(
     "inverted_components",
     "Inside-out components measured as reversed: {count} of {total}. Use Mesh > Normals > Recalculate Outside.",
 )
-HOLES_CAPPED = warning(
+HOLES_CAPPED = repair(
     "holes_capped",
     "Holes capped: {count} ({flat} flat, {curved} curved; {share:percent} of the area). Use Mesh > Clean Up > Fill "
     "Holes.",

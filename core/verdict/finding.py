@@ -43,21 +43,24 @@ class Code(str):
     """The code of a finding, with its severity and its English sentence. Packages declare theirs in `findings.py`.
 
     `text`: a `str.format` template over the finding's values (`core/verdict/sentences.py`) and the key of translations.
-    `plural`: the template for a `count` other than 1.
+    `plural`: the template for a `count` other than 1. `is_repair`: True if the surface was repaired on a copy.
     """
 
     severity: Severity
     text: str
     plural: str | None
+    is_repair: bool
 
-    def __new__(cls, code: str, severity: Severity, text: str, plural: str | None = None) -> Self:
+    def __new__(
+        cls, code: str, severity: Severity, text: str, plural: str | None = None, is_repair: bool = False
+    ) -> Self:
         self = super().__new__(cls, code)
-        self.severity, self.text, self.plural = severity, text, plural
+        self.severity, self.text, self.plural, self.is_repair = severity, text, plural, is_repair
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return the constructor and its arguments, for copies."""
-        return Code, (str(self), self.severity, self.text, self.plural)
+        return Code, (str(self), self.severity, self.text, self.plural, self.is_repair)
 
 
 def note(code: str, text: str, plural: str | None = None) -> Code:
@@ -68,6 +71,11 @@ def note(code: str, text: str, plural: str | None = None) -> Code:
 def warning(code: str, text: str, plural: str | None = None) -> Code:
     """Declare a finding that questions the numbers."""
     return Code(code, Severity.WARNING, text, plural)
+
+
+def repair(code: str, text: str, plural: str | None = None) -> Code:
+    """Declare a warning about a repair: a body with such warnings alone counts as repaired."""
+    return Code(code, Severity.WARNING, text, plural, is_repair=True)
 
 
 def error(code: str, text: str, plural: str | None = None) -> Code:

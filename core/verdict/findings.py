@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/verdict`."""
 
-from .finding import error, note, warning
+from .finding import error, note, repair, warning
 
 NO_FACES = error("no_faces", "No faces. Add faces, or select another object.")
 OBJECT_TOO_LARGE = error("object_too_large", "Too large to be measured. Scale the object down.")
 OBJECT_TOO_SMALL = error("object_too_small", "Too small to be measured. Scale the object up.")
-FLIPPED_FACES = warning(
+FLIPPED_FACES = repair(
     "flipped_faces",
     "Flipped face measured as reversed: {elements}. Use Mesh > Normals > Recalculate Outside.",
     "{count} flipped faces measured as reversed: {elements}. Use Mesh > Normals > Recalculate Outside.",
@@ -16,6 +16,10 @@ SELF_INTERSECTION = warning(
     "self_intersection",
     "The surface intersects itself: about {share:percent} of the volume counts twice or as negative. Set Overlaps "
     "to Count as Union, or repair the mesh.",
+)
+TOTAL_OF_OPEN_OBJECTS = warning(
+    "total_of_open_objects",
+    "The total depends on the reference point, as these are open: {objects}. Close them, or leave them out.",
 )
 LINKED_OBJECT = error(
     "linked_object",

@@ -16,7 +16,7 @@ from ...blender.session.tracking.staleness import stale_reason
 from ...blender.settings.assembly import active_assembly, settings_of
 from ...blender.write import properties
 from ...core.inertia.plain_body import PlainBody, add_bodies
-from ...core.measurement.trust import Trust
+from ...core.verdict.trust import Trust
 from . import appearance as look
 
 Entry = Displayed | PlainBody  # one body, or several as one

@@ -7,16 +7,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from enum import StrEnum
 
-from ..solid.findings import DUPLICATE_FACES_IGNORED, HOLES_CAPPED, INVERTED_COMPONENTS, VERTICES_WELDED
-from ..verdict.finding import Finding, Severity, finding
-from ..verdict.findings import FLIPPED_FACES
-from ..verdict.method import Method, Verdict
-from ..verdict.sentences import severity
+from .catalog import declared
+from .finding import Finding, Severity, finding
 from .findings import TOTAL_OF_OPEN_OBJECTS
+from .method import Method, Verdict
+from .sentences import severity
 
 REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
-# Warnings about repairs of the surface: a body with these warnings alone counts as repaired.
-REPAIRS = frozenset({VERTICES_WELDED, DUPLICATE_FACES_IGNORED, FLIPPED_FACES, INVERTED_COMPONENTS, HOLES_CAPPED})
 
 
 class Trust(StrEnum):
@@ -30,8 +27,8 @@ class Trust(StrEnum):
 
 def trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:
     """Return the trust in numbers that are up to date, by their method and findings."""
-    warnings = [found.code for found in findings if severity(found) != Severity.NOTE]
-    if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
+    warnings = [declared(found.code) for found in findings if severity(found) != Severity.NOTE]
+    if method is None or method.verdict == Verdict.OPEN or not all(code.is_repair for code in warnings):
         return Trust.DOUBTFUL
     return Trust.REPAIRED if warnings or method.verdict in REPAIRED else Trust.EXACT
 
