@@ -43,20 +43,18 @@ def parse(argv: list[str]) -> argparse.Namespace:
     )
     parser.add_argument("command", metavar=command)
     parser.add_argument("paths", nargs="+", metavar=names)
-    parser.add_argument("--output", type=Path, metavar="PATH", help="(standard output)")
-    parser.add_argument("--force", action="store_true", help="replace any file at --output (only results)")
+    parser.value("--output", Path, "PATH", "(standard output)")
+    parser.flag("--force", "replace any file at --output (only results)")
     if command == "manifest":
         parts = "divide the list into this many parts, for `measure --part K` (1)"
-        parser.add_argument("--parts", type=count, default=1, metavar="N", help=parts)
+        parser.value("--parts", count, "N", parts, default=1)
     if command == "merge":
         whole = "refuse results in which a file of this list is missing or has two documents, or with other files"
-        parser.add_argument("--manifest", type=Path, metavar="LIST", help=whole)
+        parser.value("--manifest", Path, "LIST", whole)
     if command == "compare":
-        parser.add_argument("--quiet", action="store_true", help="print only what differs by more than it may")
+        parser.flag("--quiet", "print only what differs by more than it may")
         parser.add_argument("--tolerance", type=positive, default=0.0, help="relative to each number's own size (0)")
-        parser.add_argument(
-            "--align", action="store_true", help="compare in each body's own pose: it may have moved (needs --pose)"
-        )
+        parser.flag("--align", "compare in each body's own pose: it may have moved (needs --pose)")
     return parser.parse_args(argv)
 
 
