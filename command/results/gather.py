@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.measurement.checked import check_document, check_journal_line, parse_json
-from ...core.measurement.documents import count_findings, to_csv, to_json_lines
+from ...core.measurement.documents import bound_of, count_findings, to_csv, to_json_lines
 from ...core.measurement.page import to_html
 from ...core.measurement.plain_text import counted, visible
 from ...core.verdict.finding import system_reason
@@ -165,7 +165,8 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         codes += count_findings(document)
         for entry in (*document["objects"], *document.get("flat", ())):
             methods[entry.get("method", "flat")] += 1
-            bound, size = _bound(entry), entry.get("volume") or entry["area"]
+            name = "volume" if entry.get("volume") else "area"
+            bound, size = bound_of(entry, name), entry[name]
             if bound is not None and size:
                 share = bound / abs(size), "{}: {}".format(file, entry["name"])
                 widest = sorted([*widest, share], reverse=True)[:_LISTED]
@@ -182,14 +183,6 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         lines += ["", "Widest bounds of the volume or area, of its size:"]
         lines += ["{:>10.1e}  {}".format(*one) for one in widest]
     return (visible(line) + "\n" for line in lines), 0
-
-
-def _bound(entry: dict[str, Any]) -> float | None:
-    """Return the error bound of the volume, else of the area: rounding plus input."""
-    bounds = entry["error_bound"] or {}
-    name = "volume" if entry.get("volume") else "area"
-    known = [one for one in (bounds.get(name), (bounds.get("input") or {}).get(name)) if one is not None]
-    return sum(known) if known else None
 
 
 def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:
