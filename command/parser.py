@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import argparse
-from typing import NoReturn
+from collections.abc import Callable, Sequence
+from typing import Any, NoReturn
 
 from ..core.measurement.plain_text import visible
 
@@ -39,6 +40,18 @@ class HelpRequested(Exception):
 
 class Parser(argparse.ArgumentParser):
     """A parser that escapes control characters in its messages, and raises HelpRequested instead of printing help."""
+
+    def flag(self, name: str, text: str) -> None:
+        """Add an option without a value, and its help."""
+        self.add_argument(name, action="store_true", help=text)
+
+    def value(self, name: str, kind: Callable[[str], Any], metavar: str, text: str, **more: Any) -> None:
+        """Add an option with a value of a kind, the value's name, and its help."""
+        self.add_argument(name, type=kind, metavar=metavar, help=text, **more)
+
+    def choice(self, name: str, choices: Sequence[str], text: str, **more: Any) -> None:
+        """Add an option with one of several words, and its help."""
+        self.add_argument(name, choices=choices, help=text, **more)
 
     def print_help(self, file: object = None) -> NoReturn:
         raise HelpRequested(self.format_help())

@@ -47,12 +47,11 @@ def parse(argv: list[str]) -> argparse.Namespace:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    add = parser.add_argument
-    add("command", metavar="simplex")
-    add("file", type=Path, metavar="FILE.npz")
-    add("--order", type=types.order, default=2, metavar="N", help="all |α| up to this (2)")
-    add("--about", type=_point, metavar="X,Y,...", help="the point that they are about (the origin)")
-    add("--boundary", action="store_true", help="add the moments of the boundary itself: length, area, …")
+    parser.add_argument("command", metavar="simplex")
+    parser.add_argument("file", type=Path, metavar="FILE.npz")
+    parser.value("--order", types.order, "N", "all |α| up to this (2)", default=2)
+    parser.value("--about", _point, "X,Y,...", "the point that they are about (the origin)")
+    parser.flag("--boundary", "add the moments of the boundary itself: length, area, …")
     return parser.parse_intermixed_args(join_negative_values(argv))
 
 

@@ -5,10 +5,10 @@
 An assembly is a collection, or an empty with its children; the rows of its tree are kept beside its settings.
 """
 
-from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Collection, Context, Object, PoseBone, PropertyGroup
 
-from .given import GivenPartProperties, density_property, mass_property, shows_collection
+from .given import GivenPartProperties, choice_property, density_property, mass_property, shows_collection
 from .hooks import part_changed
 
 Root = Object | Collection
@@ -18,16 +18,14 @@ class BodyMomentsAssemblyRow(PropertyGroup):
     """One member in the tree of an assembly, as it was measured. `name`: of the object or collection."""
 
     depth: IntProperty(name="Depth", description="How many assemblies the member is in")
-    member: EnumProperty(
-        name="Member",
-        description="What the member is",
-        items=(
-            ("COLLECTION", "Collection", "All members of a collection"),
-            ("INSTANCE", "Instance", "An instance of a collection whose members have densities of their own"),
-            ("EMPTY", "Empty", "All children of an empty"),
-            ("OBJECT", "Object", "An object"),
-            ("POINT", "Point Mass", "An empty with a given mass"),
-        ),
+    member: choice_property(
+        "Member",
+        "What the member is",
+        ("COLLECTION", "Collection", "All members of a collection"),
+        ("INSTANCE", "Instance", "An instance of a collection whose members have densities of their own"),
+        ("EMPTY", "Empty", "All children of an empty"),
+        ("OBJECT", "Object", "An object"),
+        ("POINT", "Point Mass", "An empty with a given mass"),
     )
     is_counted: BoolProperty(name="Counted", description="Whether the member is part of the total")
     is_open: BoolProperty(name="Open", description="Show the members of this one", default=True)
@@ -39,13 +37,11 @@ class BodyMomentsAssemblyRow(PropertyGroup):
 class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
     """Settings of an assembly's mass, and its last measurement."""
 
-    mass_from: EnumProperty(
-        name="Specify",
-        description="Whether the mass is the sum of the members or given, as of a bought part",
-        items=(
-            ("MEMBERS", "Members", "Add up the members"),
-            ("MASS", "Mass", "Enter the mass of the whole; the members give its center and inertia unless entered"),
-        ),
+    mass_from: choice_property(
+        "Specify",
+        "Whether the mass is the sum of the members or given, as of a bought part",
+        ("MEMBERS", "Members", "Add up the members"),
+        ("MASS", "Mass", "Enter the mass of the whole; the members give its center and inertia unless entered"),
         update=part_changed,
     )
     mass: mass_property("Mass of the whole in kilograms, independent of the scene units", part_changed)
@@ -75,14 +71,12 @@ def settings_of(data: Root) -> PropertyGroup:
 class BodyMomentsBoneSettings(PropertyGroup):
     """Settings of the material of a bone's part."""
 
-    mass_from: EnumProperty(
-        name="Specify",
-        description="Where the mass of the bone's part comes from",
-        items=(
-            ("MESH", "Mesh", "The density of each mesh that the part is of"),
-            ("DENSITY", "Density", "A density for what is skinned to the bone; objects parented to it keep theirs"),
-            ("MASS", "Mass", "The mass of the bone's whole part"),
-        ),
+    mass_from: choice_property(
+        "Specify",
+        "Where the mass of the bone's part comes from",
+        ("MESH", "Mesh", "The density of each mesh that the part is of"),
+        ("DENSITY", "Density", "A density for what is skinned to the bone; objects parented to it keep theirs"),
+        ("MASS", "Mass", "The mass of the bone's whole part"),
         update=part_changed,
     )
     density: density_property(

@@ -7,7 +7,7 @@ A given center and inertia count only if the mass is given.
 
 from typing import Any, NamedTuple
 
-from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty
 from bpy.types import Object, PropertyGroup
 
 from ...core.measurement.documents import plain
@@ -18,6 +18,11 @@ GIVEN_PROPERTIES = ("use_center", "given_center", "use_inertia", "given_inertia_
 Row = tuple[float, ...]
 COLLIDER = "body_collider"  # ID property of a collider: kind, size in m and mass in kg; its parent is the body
 COLLIDERS = "body_colliders"  # ID property of a body with colliders: what they do to its physics
+
+
+def choice_property(name: str, description: str, *items: tuple[str, str, str], **special: Any) -> Any:
+    """Return a property with one of several values."""
+    return EnumProperty(name=name, description=description, items=items, **special)
 
 
 def mass_property(description: str, update: Hook, name: str = "Mass") -> Any:

@@ -11,12 +11,12 @@ import sys
 from pathlib import Path
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, FloatProperty, IntProperty
 from bpy.types import AddonPreferences, Context, Scene, UILayout
 
 from ...core.density.materials import BY_NAME, MATERIALS
 from ...core.numerics.float32 import shortest_decimal
-from .given import density_property
+from .given import choice_property, density_property
 from .hooks import default_density_changed
 
 ADDON_ID = __name__.removesuffix(".blender.settings.preferences")
@@ -32,23 +32,19 @@ COPIED = ("frame", "density_unit", "digits", "digit_grouping", "default_material
 class SceneDefaults:
     """Properties common to the preferences and the settings of a scene."""
 
-    frame: EnumProperty(
-        name="Frame",
-        description="Axes and origin in which the center of mass, the axes and the tensor are shown",
-        items=(
-            ("WORLD", "World", "World axes and origin"),
-            ("OBJECT", "Object", "Location and rotation of the object, with unit scale"),
-        ),
+    frame: choice_property(
+        "Frame",
+        "Axes and origin in which the center of mass, the axes and the tensor are shown",
+        ("WORLD", "World", "World axes and origin"),
+        ("OBJECT", "Object", "Location and rotation of the object, with unit scale"),
     )
-    density_unit: EnumProperty(
-        name="Density Unit",
-        description="Unit in which densities are shown and entered",
-        items=(
-            ("AUTO", "By Unit System", "kg/m³, in scenes with imperial units lb/ft³"),
-            ("KG_M3", "kg/m³", "Kilograms per cubic meter"),
-            ("G_CM3", "g/cm³", "Grams per cubic centimeter"),
-            ("LB_IN3", "lb/in³", "Pounds per cubic inch"),
-        ),
+    density_unit: choice_property(
+        "Density Unit",
+        "Unit in which densities are shown and entered",
+        ("AUTO", "By Unit System", "kg/m³, in scenes with imperial units lb/ft³"),
+        ("KG_M3", "kg/m³", "Kilograms per cubic meter"),
+        ("G_CM3", "g/cm³", "Grams per cubic centimeter"),
+        ("LB_IN3", "lb/in³", "Pounds per cubic inch"),
     )
     digits: IntProperty(
         name="Precision",
@@ -57,23 +53,19 @@ class SceneDefaults:
         min=2,
         max=15,
     )
-    digit_grouping: EnumProperty(
-        name="Digit Grouping",
-        description="What separates groups of three digits in numbers of five digits and more",
-        items=(
-            ("SPACE", "Space", "20 000"),
-            ("COMMA", "Comma", "20,000"),
-            ("NONE", "None", "20000"),
-        ),
+    digit_grouping: choice_property(
+        "Digit Grouping",
+        "What separates groups of three digits in numbers of five digits and more",
+        ("SPACE", "Space", "20 000"),
+        ("COMMA", "Comma", "20,000"),
+        ("NONE", "None", "20000"),
     )
-    default_material: EnumProperty(
-        name="Default Material",
-        description="Material of objects whose density has not been set",
-        items=[
-            ("NONE", "None", "1000 kg/m³, with a note"),
-            ("CUSTOM", "Custom", "The density below"),
-            *MATERIAL_ITEMS,
-        ],
+    default_material: choice_property(
+        "Default Material",
+        "Material of objects whose density has not been set",
+        ("NONE", "None", "1000 kg/m³, with a note"),
+        ("CUSTOM", "Custom", "The density below"),
+        *MATERIAL_ITEMS,
         update=default_density_changed,
     )
     default_density: density_property(

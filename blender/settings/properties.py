@@ -5,14 +5,24 @@
 The given mass has no unit type: Blender would scale it by scale_length³, while a part weighs the same in all units.
 """
 
+from functools import partial
+from typing import Any
+
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import FloatProperty, IntProperty, PointerProperty, StringProperty
 from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
 from ...core.density.materials import BY_NAME, CT_DENSITIES, DENSITY_UNITS, density_unit
 from ...core.numerics.float32 import shortest_decimal
 from .density import object_density
-from .given import GIVEN_PROPERTIES, GivenPartProperties, density_property, is_point_mass, mass_property
+from .given import (
+    GIVEN_PROPERTIES,
+    GivenPartProperties,
+    choice_property,
+    density_property,
+    is_point_mass,
+    mass_property,
+)
 from .hooks import changed, density_changed, threshold_changed, wall_changed
 
 TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Blender's own translations
@@ -23,6 +33,9 @@ COPIED_PROPERTIES = (
     *("grid", "grid_as", "threshold", "threshold_fill", "values_from", "value_density", "transfer_table"),
     *("spline_order", *GIVEN_PROPERTIES),
 )
+
+
+_choice = partial(choice_property, update=changed)
 
 
 def _density_changed(settings: PropertyGroup, context: Context) -> None:
@@ -53,6 +66,11 @@ def _density_in(unit: str, description: str):
     )
 
 
+def _text(name: str, description: str, **special: Any) -> Any:
+    """Return a property with a text."""
+    return StringProperty(name=name, description=description, update=changed, **special)
+
+
 def _shown_density(settings: PropertyGroup) -> float:
     if isinstance(settings.id_data, Object):
         return object_density(settings, bpy.context.scene)
@@ -62,79 +80,58 @@ def _shown_density(settings: PropertyGroup) -> float:
 class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
     """Settings of one object's body."""
 
-    kind: EnumProperty(
-        name="Kind",
+    kind: _choice(
+        "Kind",
+        "What the geometry of the object represents",
+        ("SOLID", "Solid", "The surface bounds a volume filled with material"),
+        ("SHELL", "Shell", "The surface is a sheet or wall of the given thickness"),
+        ("WIRE", "Wire", "The curve is a wire of the given mass per length"),
         translation_context=TRANSLATION_CONTEXT,
-        description="What the geometry of the object represents",
-        items=(
-            ("SOLID", "Solid", "The surface bounds a volume filled with material"),
-            ("SHELL", "Shell", "The surface is a sheet or wall of the given thickness"),
-            ("WIRE", "Wire", "The curve is a wire of the given mass per length"),
-        ),
-        update=changed,
     )
-    mass_from: EnumProperty(
-        name="Specify",
-        description="Whether density or mass is entered; the other is computed",
-        items=(
-            ("DENSITY", "Density", "Enter the density and compute the mass"),
-            ("MASS", "Mass", "Enter the measured mass and compute the mean density"),
-        ),
+    mass_from: _choice(
+        "Specify",
+        "Whether density or mass is entered; the other is computed",
+        ("DENSITY", "Density", "Enter the density and compute the mass"),
+        ("MASS", "Mass", "Enter the measured mass and compute the mean density"),
         update=density_changed,
     )
-    density_from: EnumProperty(
-        name="Density From",
-        description="Source of the density",
-        items=(
-            ("VALUE", "One Value", "The same density everywhere"),
-            (
-                "MATERIALS",
-                "Materials",
-                "Density of each material, per face of a shell and per closed component of a solid. Faces whose "
-                "material has no density use the object's",
-            ),
-            (
-                "POLYNOMIAL",
-                "Polynomial",
-                "Polynomial in x, y and z, in kg/m³ for coordinates in meters",
-            ),
-            (
-                "ATTRIBUTE",
-                "Vertex Attribute",
-                "Float attribute on the vertices of a shell, in kg/m³, interpolated linearly",
-            ),
-            ("VOLUME", "Volume Object", "Grid of a Volume object around a solid, constant in each voxel"),
+    density_from: _choice(
+        "Density From",
+        "Source of the density",
+        ("VALUE", "One Value", "The same density everywhere"),
+        (
+            "MATERIALS",
+            "Materials",
+            "Density of each material, per face of a shell and per closed component of a solid. Faces whose "
+            "material has no density use the object's",
         ),
+        ("POLYNOMIAL", "Polynomial", "Polynomial in x, y and z, in kg/m³ for coordinates in meters"),
+        (
+            "ATTRIBUTE",
+            "Vertex Attribute",
+            "Float attribute on the vertices of a shell, in kg/m³, interpolated linearly",
+        ),
+        ("VOLUME", "Volume Object", "Grid of a Volume object around a solid, constant in each voxel"),
         update=density_changed,
     )
-    density_polynomial: StringProperty(
-        name="Polynomial",
-        description=(
-            "Density in kg/m³ for x, y and z in meters, such as 1000 + 20*z. Alternatively the coefficients of 1, x, "
-            "y, z, x², xy, xz, y², yz, z², … separated by commas"
-        ),
+    density_polynomial: _text(
+        "Polynomial",
+        "Density in kg/m³ for x, y and z in meters, such as 1000 + 20*z. Alternatively the coefficients of 1, x, "
+        "y, z, x², xy, xz, y², yz, z², … separated by commas",
         default="1000",
-        update=changed,
     )
-    density_frame: EnumProperty(
-        name="Coordinates",
-        description="Coordinate system of x, y and z in the polynomial",
-        items=(
-            (
-                "OBJECT",
-                "Object",
-                "Meters along the object's axes from its origin, mirrored by a negative scale. Each instance has its "
-                "own",
-            ),
-            ("WORLD", "World", "Meters along the world axes from the world origin"),
+    density_frame: _choice(
+        "Coordinates",
+        "Coordinate system of x, y and z in the polynomial",
+        (
+            "OBJECT",
+            "Object",
+            "Meters along the object's axes from its origin, mirrored by a negative scale. Each instance has its own",
         ),
-        update=changed,
+        ("WORLD", "World", "Meters along the world axes from the world origin"),
     )
-    density_attribute: StringProperty(
-        name="Attribute",
-        description="Float attribute on the vertices with the density in kg/m³, after modifiers",
-        default="density",
-        update=changed,
+    density_attribute: _text(
+        "Attribute", "Float attribute on the vertices with the density in kg/m³, after modifiers", default="density"
     )
     density: density_property("Density in kg/m³, independent of the scene units", _density_changed, soft_min=0.01)
     density_kg_m3: _density_in("KG_M3", "Density in {:s}")
@@ -147,19 +144,13 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
     mass: mass_property(
         "Mass in kilograms, independent of the scene units. Type pounds as 5*0.45359237", density_changed
     )
-    wall: EnumProperty(
-        name="Wall",
-        description="Position of the material relative to the surface",
-        items=(
-            ("THIN", "Thin", "Area times thickness, for thin sheets"),
-            ("INWARD", "Inward", "Real thickness behind the faces, with mitered corners"),
-            ("OUTWARD", "Outward", "Real thickness in front of the faces, with mitered corners"),
-            (
-                "CENTERED",
-                "Centered",
-                "Real thickness, half behind and half in front of the faces, with mitered corners",
-            ),
-        ),
+    wall: _choice(
+        "Wall",
+        "Position of the material relative to the surface",
+        ("THIN", "Thin", "Area times thickness, for thin sheets"),
+        ("INWARD", "Inward", "Real thickness behind the faces, with mitered corners"),
+        ("OUTWARD", "Outward", "Real thickness in front of the faces, with mitered corners"),
+        ("CENTERED", "Centered", "Real thickness, half behind and half in front of the faces, with mitered corners"),
         update=wall_changed,
     )
     thickness: FloatProperty(
@@ -171,38 +162,20 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         unit="LENGTH",
         update=wall_changed,
     )
-    overlap: EnumProperty(
-        name="Overlaps",
-        description="How overlapping or nested components of the object count",
-        items=(
-            (
-                "SIGNED",
-                "Count Each Shell",
-                "Every component counts fully; shared space counts twice, with a warning",
-            ),
-            ("UNION", "Count as Union", "Components are united first by Blender's exact Boolean"),
-        ),
-        update=changed,
+    overlap: _choice(
+        "Overlaps",
+        "How overlapping or nested components of the object count",
+        ("SIGNED", "Count Each Shell", "Every component counts fully; shared space counts twice, with a warning"),
+        ("UNION", "Count as Union", "Components are united first by Blender's exact Boolean"),
     )
-    material: StringProperty(
-        name="Material",
-        description="Material that the density was taken from",
-        update=changed,
-    )
-    grid: StringProperty(
-        name="Grid",
-        description="Grid to measure. If empty, “density” or else the first suitable grid",
-        update=changed,
-    )
-    grid_as: EnumProperty(
-        name="Measure As",
-        description="What the values of the grid represent",
-        items=(
-            ("DENSITY", "Density", "The values determine the density of each voxel"),
-            ("SOLID", "Solid", "The grid is a level set that bounds a solid filled with material"),
-            ("THRESHOLD", "Threshold", "The body where the values, linear between voxels, are at least a threshold"),
-        ),
-        update=changed,
+    material: _text("Material", "Material that the density was taken from")
+    grid: _text("Grid", "Grid to measure. If empty, “density” or else the first suitable grid")
+    grid_as: _choice(
+        "Measure As",
+        "What the values of the grid represent",
+        ("DENSITY", "Density", "The values determine the density of each voxel"),
+        ("SOLID", "Solid", "The grid is a level set that bounds a solid filled with material"),
+        ("THRESHOLD", "Threshold", "The body where the values, linear between voxels, are at least a threshold"),
     )
     threshold: FloatProperty(
         name="Threshold",
@@ -212,23 +185,17 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         precision=4,
         update=threshold_changed,
     )
-    threshold_fill: EnumProperty(
-        name="Filled With",
-        description="What the body within the threshold is made of",
-        items=(
-            ("MATERIAL", "Material", "One density, as for any solid"),
-            ("GRID", "Grid", "The density that the values of the grid represent"),
-        ),
-        update=changed,
+    threshold_fill: _choice(
+        "Filled With",
+        "What the body within the threshold is made of",
+        ("MATERIAL", "Material", "One density, as for any solid"),
+        ("GRID", "Grid", "The density that the values of the grid represent"),
     )
-    values_from: EnumProperty(
-        name="Values",
-        description="How grid values are converted to densities",
-        items=(
-            ("FACTOR", "Factor", "Multiply the values by a density"),
-            ("TABLE", "Table", "Use a transfer table, for example for CT numbers"),
-        ),
-        update=changed,
+    values_from: _choice(
+        "Values",
+        "How grid values are converted to densities",
+        ("FACTOR", "Factor", "Multiply the values by a density"),
+        ("TABLE", "Table", "Use a transfer table, for example for CT numbers"),
     )
     value_density: density_property(
         "Density in kg/m³ where the grid value is 1",
@@ -238,14 +205,11 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         step=100,
         precision=4,
     )
-    transfer_table: StringProperty(
-        name="Transfer Table",
-        description=(
-            "Pairs of a grid value and a density in kg/m³, separated by commas. Linear in between, constant beyond. "
-            "The default converts CT numbers to tissue densities"
-        ),
+    transfer_table: _text(
+        "Transfer Table",
+        "Pairs of a grid value and a density in kg/m³, separated by commas. Linear in between, constant beyond. "
+        "The default converts CT numbers to tissue densities",
         default=CT_DENSITIES,
-        update=changed,
     )
     spline_order: IntProperty(
         name="Spline Order",
@@ -255,17 +219,15 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         max=6,
         update=changed,
     )
-    sample_positions: StringProperty(
-        name="Sample Positions",
-        description="Where the samples of an imported scan stand along x, y and z, in voxels, if not evenly",
+    sample_positions: _text(
+        "Sample Positions",
+        "Where the samples of an imported scan stand along x, y and z, in voxels, if not evenly",
         options={"HIDDEN"},
-        update=changed,
     )
-    accepted: StringProperty(
-        name="Accepted Findings",
-        description="Codes of the warnings that were accepted for this object and are notes",
+    accepted: _text(
+        "Accepted Findings",
+        "Codes of the warnings that were accepted for this object and are notes",
         options={"HIDDEN"},
-        update=changed,
     )
     density_volume: PointerProperty(
         name="Volume",

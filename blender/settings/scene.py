@@ -5,10 +5,11 @@
 Inertia and moments are shown about the reference.
 """
 
-from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty, PointerProperty
+from bpy.props import BoolProperty, FloatVectorProperty, IntProperty, PointerProperty
 from bpy.types import Object, PropertyGroup, Scene
 
 from ...core.measurement.documents import MAX_ORDER
+from .given import choice_property
 from .preferences import BodyMomentsPreferences, SceneDefaults
 from .properties import TRANSLATION_CONTEXT
 
@@ -36,14 +37,12 @@ class BodyMomentsOverlaySettings(PropertyGroup):
         description="Draw a line from the center of mass straight down or up to the floor, Z = 0",
         default=True,
     )
-    equivalent: EnumProperty(
-        name="Equal Inertia",
-        description="Draw the body of uniform density that has the same mass and the same principal moments",
-        items=(
-            ("NONE", "None", "Draw no equivalent body"),
-            ("BOX", "Box", "Draw the box with the same inertia"),
-            ("ELLIPSOID", "Ellipsoid", "Draw the ellipsoid with the same inertia"),
-        ),
+    equivalent: choice_property(
+        "Equal Inertia",
+        "Draw the body of uniform density that has the same mass and the same principal moments",
+        ("NONE", "None", "Draw no equivalent body"),
+        ("BOX", "Box", "Draw the box with the same inertia"),
+        ("ELLIPSOID", "Ellipsoid", "Draw the ellipsoid with the same inertia"),
     )
     show_sum: BoolProperty(
         name="Sum of Selection",
@@ -68,18 +67,16 @@ class BodyMomentsOverlaySettings(PropertyGroup):
 class BodyMomentsReferenceSettings(PropertyGroup):
     """Settings of the reference of inertia and moments."""
 
-    about: EnumProperty(
-        name="About",
-        description="Point and axes that inertia and moments are referred to",
+    about: choice_property(
+        "About",
+        "Point and axes that inertia and moments are referred to",
+        ("CENTER", "Center of Mass", "The center of mass, along the world axes"),
+        ("ORIGIN", "Object Origin", "Origin and axes of the measured object"),
+        ("WORLD", "World Origin", "World origin and axes"),
+        ("CURSOR", "3D Cursor", "Location and axes of the 3D cursor"),
+        ("OBJECT", "Other Object", "Origin and axes of another object"),
+        ("AXIS", "Axis", "The axis from one point to another"),
         translation_context=TRANSLATION_CONTEXT,
-        items=(
-            ("CENTER", "Center of Mass", "The center of mass, along the world axes"),
-            ("ORIGIN", "Object Origin", "Origin and axes of the measured object"),
-            ("WORLD", "World Origin", "World origin and axes"),
-            ("CURSOR", "3D Cursor", "Location and axes of the 3D cursor"),
-            ("OBJECT", "Other Object", "Origin and axes of another object"),
-            ("AXIS", "Axis", "The axis from one point to another"),
-        ),
         default="WORLD",
     )
     object: PointerProperty(name="Object", description="Object whose origin and axes are the reference", type=Object)
@@ -119,35 +116,31 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
         max=MAX_ORDER,
         soft_max=20,
     )
-    moments_of: EnumProperty(
-        name="Domain",
-        description="What the moments integrate over",
-        items=(
-            ("VOLUME", "Volume", "Volume. For shells, area times thickness"),
-            ("SURFACE", "Surface", "Area of the faces"),
-            ("MASS", "Mass", "Volume, or for shells the area, times the density wherever it comes from"),
-            ("FLAT", "Area", "Area of a flat shape in its own plane, ∫ x^p y^q dA"),
-        ),
+    moments_of: choice_property(
+        "Domain",
+        "What the moments integrate over",
+        ("VOLUME", "Volume", "Volume. For shells, area times thickness"),
+        ("SURFACE", "Surface", "Area of the faces"),
+        ("MASS", "Mass", "Volume, or for shells the area, times the density wherever it comes from"),
+        ("FLAT", "Area", "Area of a flat shape in its own plane, ∫ x^p y^q dA"),
     )
-    moments_about: EnumProperty(
-        name="About",
-        translation_context=TRANSLATION_CONTEXT,
-        description="Point that the coordinates are relative to",
-        items=(
-            ("ORIGIN", "Frame Origin", "Origin of the chosen frame"),
-            ("CENTER", "Center", "Center of the volume or surface: central moments"),
-            (
-                "NORMALIZED",
-                "Center, Normalized",
-                "Central moments of the shape scaled to a volume or area of 1, independent of size",
-            ),
-            (
-                "INVARIANT",
-                "Invariants",
-                "Numbers of a flat shape that do not depend on its place, rotation and size: Hu's, then Flusser's",
-            ),
-            ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
+    moments_about: choice_property(
+        "About",
+        "Point that the coordinates are relative to",
+        ("ORIGIN", "Frame Origin", "Origin of the chosen frame"),
+        ("CENTER", "Center", "Center of the volume or surface: central moments"),
+        (
+            "NORMALIZED",
+            "Center, Normalized",
+            "Central moments of the shape scaled to a volume or area of 1, independent of size",
         ),
+        (
+            "INVARIANT",
+            "Invariants",
+            "Numbers of a flat shape that do not depend on its place, rotation and size: Hu's, then Flusser's",
+        ),
+        ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
+        translation_context=TRANSLATION_CONTEXT,
     )
 
 

@@ -182,7 +182,6 @@ class BareFile:
                     more["thumbnail"] = thumbnail(points, triangles, properties.center, properties.principal.axes)
                 self._add(contents, measurement, findings, more)
             except MeasureError as refusal:
-                refusal.about(mesh.name)
                 contents.errors.append(failure(mesh.name, refusal.finding))
 
     def _add(

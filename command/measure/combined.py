@@ -7,14 +7,13 @@ With asset metadata, collections that are assets are included.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import partial
 from typing import Any
 
 import bpy
-from bpy.types import Object, Scene
+from bpy.types import Scene
 
 from ...blender.bodies.assembly.assembly import Assembly, measure_assembly
 from ...blender.bodies.rig import Rig, measure_rig
@@ -26,18 +25,15 @@ from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import MeasureError
 from ...core.verdict.method import Verdict
-from .entries import failure
-
-Internal = Callable[[str | None, Exception], dict[str, Any]]
+from .entries import Contents
 
 
 @dataclass(frozen=True, eq=False)
 class Combined:
-    """Measurements of assemblies and rigs, and the entries about failures."""
+    """Measurements of assemblies and rigs."""
 
     assemblies: list[Assembly] = field(default_factory=list)
     rigs: list[Rig] = field(default_factory=list)
-    errors: list[dict[str, Any]] = field(default_factory=list)
 
     def measurements(self) -> dict[Root, Measurement]:
         """Return the measurements of the assemblies by their objects or collections."""
@@ -55,20 +51,20 @@ class Combined:
         found = {"assemblies": sorted(assemblies, key=lambda entry: entry["name"]), "bones": bones}
         return {name: entries for name, entries in found.items() if entries}
 
-    def store(self, internal: Internal) -> Iterator[dict[str, Any]]:
-        """Store the results on their assemblies and rigs; yield the entries about failures."""
+    def store(self, contents: Contents) -> None:
+        """Store the results on their assemblies and rigs."""
         for assembly in self.assemblies:
-            work = partial(stored_assembly.store, bpy.context, assembly)
-            yield from _tried(assembly.measurement.name, work, internal)
+            with contents.attempt(assembly.measurement.name):
+                stored_assembly.store(bpy.context, assembly)
         for rig in self.rigs:
-            yield from _tried(rig.armature.name, partial(results.store_rig, rig), internal)
+            with contents.attempt(rig.armature.name):
+                results.store_rig(rig)
 
 
-def measure_combined(options: MeasureOptions, internal: Internal, assets: bool = False) -> Combined:
+def measure_combined(options: MeasureOptions, contents: Contents, assets: bool) -> Combined:
     """Measure the assemblies and the rigs of the open scene that have results or a given mass.
 
-    `options` override the members' settings; `internal` returns the entry about an unexpected error; `assets` adds
-    assets that have a mass.
+    `options` override the members' settings; `contents` gets the failures; `assets` adds assets that have a mass.
     """
     scene, found = bpy.context.scene, Combined()
     wanted = replace(options, order=None)
@@ -76,32 +72,22 @@ def measure_combined(options: MeasureOptions, internal: Internal, assets: bool =
     def add_assembly(root: Root) -> None:
         found.assemblies.append(measure_assembly(root, bpy.context.evaluated_depsgraph_get(), wanted))
 
-    def add_rig(armature: Object) -> None:
-        found.rigs.append(measure_rig(bpy.context, armature))
-
     roots = dict.fromkeys(_roots(scene))
     measured = [
         root for root in roots if root.get("body_method") == Verdict.ASSEMBLY or settings_of(root).mass_from == "MASS"
     ]
     for root in measured:
-        found.errors.extend(_tried(root.name, partial(add_assembly, root), internal))
+        with contents.attempt(root.name):
+            add_assembly(root)
     for root in roots if assets else ():
         if root.asset_data is not None and root.library is None and root not in measured:
             with suppress(MeasureError):  # assemblies of lamps, or of objects that are left out
                 add_assembly(root)
     for armature in sorted(scene.objects, key=lambda obj: obj.name):
         if armature.type == "ARMATURE" and armature.get("body_method") == Verdict.ASSEMBLY:
-            found.errors.extend(_tried(armature.name, partial(add_rig, armature), internal))
+            with contents.attempt(armature.name):
+                found.rigs.append(measure_rig(bpy.context, armature))
     return found
-
-
-def _tried(name: str, work: Callable[[], object], internal: Internal) -> Iterator[dict[str, Any]]:
-    try:
-        work()
-    except MeasureError as refusal:
-        yield failure(name, refusal.finding)
-    except Exception as error:
-        yield internal(name, error)
 
 
 def _roots(scene: Scene) -> Iterator[Root]:

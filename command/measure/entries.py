@@ -4,27 +4,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
 from ...core.measurement.measurement import Measurement
-from ...core.verdict.finding import Finding, finding, unique
+from ...core.verdict.finding import Finding, MeasureError, finding, unique
 
 
 @dataclass
 class Contents:
     """Measured entries of a file's document.
 
-    measured: names, objects in Blender and measurements, in the order of `objects`. caveats: about the total.
+    internal: returns the entry about an unexpected error. measured: names, objects in Blender and measurements, in the
+    order of `objects`. caveats: about the total.
     """
 
+    internal: Callable[[str | None, Exception], dict[str, Any]]
     objects: list[dict[str, Any]] = field(default_factory=list)
     measured: list[tuple[str, Any, Measurement]] = field(default_factory=list)
     flats: list[dict[str, Any]] = field(default_factory=list)
     errors: list[dict[str, Any]] = field(default_factory=list)
     left_out: list[dict[str, Any]] = field(default_factory=list)
     caveats: list[Finding] = field(default_factory=list)
+
+    @contextmanager
+    def attempt(self, name: str) -> Iterator[None]:
+        """End the block at an error about the object with this name, and add the entry about it."""
+        try:
+            yield
+        except MeasureError as refusal:
+            self.errors.append(failure(name, refusal.finding))
+        except Exception as error:
+            self.errors.append(self.internal(name, error))
 
 
 def failure(name: str | None, reason: Finding) -> dict[str, Any]:

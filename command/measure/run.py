@@ -71,11 +71,11 @@ class Run:
 
     def document(self, path: str | None) -> dict[str, Any]:
         """Measure one file, or the open scene, and return its document."""
-        options, contents, status = self.options, Contents(), None
+        options, contents, status = self.options, Contents(self.internal_error), None
         if path is not None and is_bare(path, options, self.memory):
             source = BareFile(path, options, self.threads, self.memory, self.progress)
         else:
-            source = measure.scene.Scene(path, options, self.threads, self.internal_error)
+            source = measure.scene.Scene(path, options, self.threads)
         file = path or measure.scene.open_name()
         try:
             source.measure(contents)

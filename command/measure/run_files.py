@@ -153,14 +153,11 @@ class _Supervised:
         self._faults = 0
         cores = processes.cores()
         self._count = max(1, min(options.jobs or cores, len(self.tasks)))
-        self._limits = Limits(options.timeout or DEFAULT_TIMEOUT, self._memory())
+        given = options.memory_mb
+        memory = processes.memory_share(self._count) if given is None else int(given * 1e6)
+        self._limits = Limits(options.timeout or DEFAULT_TIMEOUT, memory)
         threads = max(1, cores // self._count)
-        self._setup = {"words": options.words, "threads": threads, "memory": self._limits.memory}
-
-    def _memory(self) -> int | None:
-        if self._options.memory_mb is not None:
-            return int(self._options.memory_mb * 1e6)
-        return processes.memory_share(self._count)
+        self._setup = {"words": options.words, "threads": threads, "memory": memory}
 
     def measure(self, channel: int) -> int:
         """Measure the files missing in the journal, write the result, and return the exit code."""

@@ -73,18 +73,11 @@ def measure_options(options: Namespace, threads: int) -> MeasureOptions:
 class Scene:
     """The file at a path, once it is open, or the open file if there is no path.
 
-    internal: returns the entry about an unexpected error. has_opened, has_saved: whether the file has become the open
-    scene, and whether it was saved in place.
+    has_opened, has_saved: whether the file has become the open scene, and whether it was saved in place.
     """
 
-    def __init__(
-        self,
-        path: str | None,
-        options: Namespace,
-        threads: int,
-        internal: Callable[[str | None, Exception], dict[str, Any]],
-    ) -> None:
-        self._path, self.options, self._internal = path, options, internal
+    def __init__(self, path: str | None, options: Namespace, threads: int) -> None:
+        self._path, self.options = path, options
         self._wanted = measure_options(options, threads)
         self._combined = Combined()
         self._is_open = self.has_opened = self.has_saved = False
@@ -93,35 +86,30 @@ class Scene:
         """Open the file and measure its objects. Raises MeasureError."""
         path, options = self._path, self.options
         self._place = self._place_of_results()
-        opened = self._open(path, path or open_name())
+        opened = self._open()
         self._is_open = True
         # Not set in the scene, whose unit scale is a float32 with limits.
-        unit = (options.unit_scale or 1.0) if is_unitless(path) else None
-        wanted = self._wanted = replace(self._wanted, unit_scale=unit)
-        chosen, contents.left_out, errors = objects_to_measure(options.object, options.all, opened.hidden)
-        contents.errors = errors
-        errors += [failure(None, reason) for reason in (*opened.errors, *missing_links())]
-        of_file = (*opened.notes, *file_findings(path, options), *blocked_scripts(), *newer_version())
-        objects, measured, contents.flats = self._measure_each(chosen, wanted, of_file, opened, errors)
-        contents.objects, contents.measured = objects, measured
+        self._wanted = replace(self._wanted, unit_scale=(options.unit_scale or 1.0) if is_unitless(path) else None)
+        chosen, contents.left_out, contents.errors = objects_to_measure(options.object, options.all, opened.hidden)
+        contents.errors += [failure(None, reason) for reason in (*opened.errors, *missing_links())]
+        self._measure_each(chosen, opened, contents)
         contents.caveats += scripts_of_open_file() if path is None else ()
-        contents.caveats += open_body_caveats((label, one.method) for label, _, one in measured)
+        contents.caveats += open_body_caveats((label, one.method) for label, _, one in contents.measured)
         if options.object is None:  # A user who names objects knows what their total means.
-            contents.caveats += total_caveats([obj for _, obj, _ in measured], bpy.context.view_layer)
+            contents.caveats += total_caveats([obj for _, obj, _ in contents.measured], bpy.context.view_layer)
             contents.caveats += other_scenes(bpy.context.scene)
-            self._combined = measure_combined(wanted, self._internal, options.asset_metadata is not None)
-            errors += self._combined.errors
+            self._combined = measure_combined(self._wanted, contents, options.asset_metadata is not None)
         if options.fourier:
-            errors.extend(self._fourier(chosen, wanted, [*objects, *contents.flats]))
-        if not objects and not contents.flats and not errors:
-            errors.append(failure(None, why_nothing(len(contents.left_out))))
+            contents.errors.extend(self._fourier(chosen, contents))
+        if not contents.objects and not contents.flats and not contents.errors:
+            contents.errors.append(failure(None, why_nothing(len(contents.left_out))))
 
     def store(self, contents: Contents) -> None:
         """Save results and the metadata of assets, if they are requested. Raises MeasureError."""
         path, options = self._path, self.options
         if options.write:
-            contents.errors.extend(self._store(path, contents.measured, self._wanted))
-            contents.errors.extend(self._combined.store(self._internal))
+            self._store(contents)
+            self._combined.store(contents)
         is_changed = options.write
         if options.asset_metadata and path is not None and file_suffix(path) == BLEND:
             of_objects = {obj: one for _, obj, one in contents.measured}
@@ -151,49 +139,28 @@ class Scene:
         target = self._path or bpy.data.filepath
         return Place.of_file(target) if is_saved and is_blend and os.path.isfile(target) else None
 
-    def _measure_each(
-        self,
-        chosen: list[tuple[str, bpy.types.Object]],
-        wanted: MeasureOptions,
-        of_file: tuple[Finding, ...],
-        opened: Opened,
-        errors: list[dict[str, Any]],
-    ) -> tuple[list[dict[str, Any]], list[tuple[str, bpy.types.Object, Measurement]], list[dict[str, Any]]]:
-        """Return the records and measurements of bodies, and the records of flat shapes.
-
-        Failures are added to `errors`. of_file: findings about the file.
-        """
-        objects, measured, flats = [], [], []
+    def _measure_each(self, chosen: list[tuple[str, bpy.types.Object]], opened: Opened, contents: Contents) -> None:
+        """Add the records and measurements of bodies, and the records of flat shapes."""
+        of_file = (*opened.notes, *file_findings(self._path, self.options), *blocked_scripts(), *newer_version())
         operands = operands_of(bpy.context.scene.objects) if self.options.object is None else {}
-        in_turn = measured_together([obj for _, obj in chosen], self.options, wanted)
+        in_turn = measured_together([obj for _, obj in chosen], self.options, self._wanted)
         for label, obj in chosen:
             user = operands.get(obj)
             cut = [] if user is None else [finding(SOLID_OPERAND_MEASURED, object=user.name)]
-            try:
+            with contents.attempt(label):
                 about = (*opened.by_object.get(obj.name, ()), *of_file, *cut)
-                one, entry = self._measure_record(label, obj, wanted, in_turn, about, errors)
-            except MeasureError as refusal:
-                errors.append(failure(label, refusal.finding))
-            except Exception as error:
-                errors.append(self._internal(label, error))
-            else:
-                if one is None:
-                    flats.append(entry)
-                else:
-                    objects.append(entry)
-                    measured.append((label, obj, one))
-        return objects, measured, sorted(flats, key=lambda entry: entry["name"])
+                self._measure_object(label, obj, in_turn, about, contents)
+        contents.flats.sort(key=lambda entry: entry["name"])
 
-    def _measure_record(
+    def _measure_object(
         self,
         label: str,
         obj: bpy.types.Object,
-        measure_options: MeasureOptions,
         in_turn: Callable[[bpy.types.Object], Measured | Stacked] | None,
         findings: tuple[Finding, ...],
-        errors: list[dict[str, Any]],
-    ) -> tuple[Measurement | None, dict[str, Any]]:
-        """Return an object's measurement and its record, or None and the record of a flat shape.
+        contents: Contents,
+    ) -> None:
+        """Add an object's measurement and its record, or the record of a flat shape.
 
         A body with a mass but without moments of the requested order gets a record without them, and an error is added.
         in_turn: measures the objects together; None if each has to be measured by itself. findings: about the object's
@@ -203,16 +170,18 @@ class Scene:
         set_density(obj, self.options)
         try:
             measurement, more, of_shape = (
-                (in_turn(obj).measurement, {}, ()) if in_turn else measure_shape(obj, self.options, measure_options)
+                (in_turn(obj).measurement, {}, ()) if in_turn else measure_shape(obj, self.options, self._wanted)
             )
         except MeasureError as refusal:
             if self.options.flat and refusal.finding.code in NO_BODY:
-                return None, record_of_flat(label, obj, self.options, measure_options.unit_scale, refusal, findings)
+                unit = self._wanted.unit_scale
+                contents.flats.append(record_of_flat(label, obj, self.options, unit, refusal, findings))
+                return
             if order is None:
                 raise
-            lower = replace(measure_options, order=None)
+            lower = replace(self._wanted, order=None)
             measurement, more, of_shape = measure_shape(obj, self.options, lower)
-            errors.append(failure(label, _unavailable("moments of this order", refusal)))
+            contents.errors.append(failure(label, _unavailable("moments of this order", refusal)))
             order = None
         surface = measurement.area_moments if self.options.surface_moments and order is not None else None
         findings = (
@@ -223,8 +192,10 @@ class Scene:
         colliders = session.colliders.collider_record(obj, measurement, bpy.context) if COLLIDERS in obj else None
         more |= {} if colliders is None else {"colliders": colliders}
         if self.options.thumbnails:
-            more["thumbnail"] = thumbnail_of(obj, measurement, measure_options.unit_scale)
-        return measurement, record.record(named, self.options.frame, order, surface, more, self.options.about)
+            more["thumbnail"] = thumbnail_of(obj, measurement, self._wanted.unit_scale)
+        entry = record.record(named, self.options.frame, order, surface, more, self.options.about)
+        contents.objects.append(entry)
+        contents.measured.append((label, obj, measurement))
 
     def _default_density(self, obj: bpy.types.Object, measurement: Measurement) -> Iterator[Finding]:
         """Yield a finding if neither an option nor the object sets the density."""
@@ -234,61 +205,47 @@ class Scene:
         if unset is not None:
             yield finding(DENSITY_DEFAULTED, density="1 kg/m" if unset == "linear_density" else "1000 kg/m³")
 
-    def _open(self, path: str | None, file: str | None) -> Opened:
-        """Open `path`, if given, and return the findings. FileError if no path is given and `file` is not loaded."""
-        if path is not None:
-            unresolved = open_file(path)
+    def _open(self) -> Opened:
+        """Open the path, if there is one, and return the findings. FileError if Blender has not loaded its file."""
+        if self._path is not None:
+            opened = open_file(self._path)
             self.has_opened = True
-            return unresolved
-        if file and not bpy.data.filepath:
+            return opened
+        if open_name() and not bpy.data.filepath:
             raise FileError(FILE_UNREADABLE, error="it is missing or incomplete")
         return Opened()
 
-    def _fourier(
-        self,
-        chosen: list[tuple[str, bpy.types.Object]],
-        measure_options: MeasureOptions,
-        objects: list[dict[str, Any]],
-    ) -> Iterator[dict[str, Any]]:
+    def _fourier(self, chosen: list[tuple[str, bpy.types.Object]], contents: Contents) -> Iterator[dict[str, Any]]:
         """Write the Fourier transform of the one measured object, and add the findings to its record."""
         if len(chosen) != 1:
             yield failure(None, finding(FOURIER_OBJECT_COUNT, count=len(chosen)))
             return
-        if not objects:
+        if not (contents.objects or contents.flats):
             return  # the reason is among the errors already
-        (label, obj), (entry,) = chosen[0], objects
+        (label, obj), (entry,) = chosen[0], (*contents.objects, *contents.flats)
         try:
-            record.add_findings(entry, write_transform(obj, self.options, measure_options))
+            record.add_findings(entry, write_transform(obj, self.options, self._wanted))
         except MeasureError as refusal:
             yield failure(label, _unavailable("Fourier transform", refusal))
         except OSError as error:
             file = str(self.options.fourier)
             yield failure(label, finding(FILE_NOT_WRITTEN, file=file, error=system_reason(error)))
         except Exception as error:
-            yield self._internal(label, error)
+            yield contents.internal(label, error)
 
-    def _store(
-        self,
-        path: str | None,
-        measured: list[tuple[str, bpy.types.Object, Measurement]],
-        wanted: MeasureOptions,
-    ) -> Iterator[dict[str, Any]]:
-        """Store the results of all objects, and yield the entries about failures.
+    def _store(self, contents: Contents) -> None:
+        """Store the results of all objects.
 
         It follows all measurements, as drivers may read results. Given settings are stored too, so that results fit.
         """
-        if not bpy.data.filepath or path is not None and file_suffix(path) != BLEND:
+        if not bpy.data.filepath or self._path is not None and file_suffix(self._path) != BLEND:
             raise FileError(RESULTS_NEED_BLEND)
-        for label, obj, one in measured:
-            try:
+        for label, obj, one in contents.measured:
+            with contents.attempt(label):
                 store(obj, one)
                 with tracking_paused():  # the stored results already belong to these settings
-                    settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
-            except MeasureError as refusal:
-                yield failure(label, refusal.finding)
-            except Exception as error:
-                yield self._internal(label, error)
-        mark_up_to_date(bpy.context, [obj for _, obj, _ in measured])
+                    settings.apply_options(obj.body_moments, self._wanted, bpy.context.scene)
+        mark_up_to_date(bpy.context, [obj for _, obj, _ in contents.measured])
 
 
 def _unavailable(part: str, refusal: MeasureError) -> Finding:

@@ -88,18 +88,15 @@ def words(names: Iterable[str]) -> list[str]:
 
 
 def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
-    """Return the options that influence records by name, with paths as text."""
-    names = vars(options).keys() - _OF_RUNS | ({"format"} if options.format in ROBOT_FORMATS else set())
-    values = {name: getattr(options, name) for name in names}
-    return {name: str(value) if isinstance(value, Path) else value for name, value in values.items()}
+    """Return the options that influence records by name, as JSON would return them."""
+    names = _defaults().keys() - _OF_RUNS | ({"format"} if options.format in ROBOT_FORMATS else set())
+    return {name: _as_json(getattr(options, name)) for name in sorted(names)}
 
 
 def run_of(options: argparse.Namespace) -> dict[str, Any]:
     """Return the entry `run` of documents: the add-on's version and the given options that influence records."""
-    names = _defaults().keys() - _OF_RUNS | ({"format"} if options.format in ROBOT_FORMATS else set())
-    given = {name: _as_json(getattr(options, name)) for name in sorted(names)}
-    changed = {"--" + name.replace("_", "-"): value for name, value in given.items() if value != _defaults()[name]}
-    return {"addon": version(), "options": changed}
+    given = {name: value for name, value in of_numbers(options).items() if value != _defaults()[name]}
+    return {"addon": version(), "options": dict(zip(words(given), given.values()))}
 
 
 @functools.cache

@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from ...core.measurement.documents import radius_of_gyration
+from ...core.measurement.documents import bound_of, radius_of_gyration
 
 _SCALARS = ("mass", "volume", "area", "density", "length", "linear_density", "thickness")
 _DOMAINS = ("volume", "surface", "length", "mass", "area")  # domains of moments
@@ -28,34 +28,30 @@ def differences(
     body's own pose, and skip numbers about a point that did not move with the body.
     """
     others = {document["file"]: document for document in second}
-    lines, failed, compared = [], 0, 0
+    rows: list[tuple[str, bool]] = []  # lines, and whether they pass
+    compared = 0
     for document in first:
         other = others.pop(document["file"], None)
         if other is None:
-            lines.append("only in the first: {}".format(document["file"]))
-            failed += 1
+            rows.append(("only in the first: {}".format(document["file"]), False))
             continue
         if document["status"] != other["status"]:
-            lines.append("FAIL  {}: status {} and {}".format(document["file"], document["status"], other["status"]))
-            failed += 1
+            text = "FAIL  {}: status {} and {}".format(document["file"], document["status"], other["status"])
+            rows.append((text, False))
         names = _bodies(other)
         for name, entry in _bodies(document).items():
             label = "{}: {}".format(document["file"], name)
             match = names.pop(name, None)
             if match is None:
-                lines.append("only in the first: {}".format(label))
-                failed += 1
+                rows.append(("only in the first: {}".format(label), False))
                 continue
             compared += 1
-            for line, passes in _numbers(label, entry, match, tolerance, align):
-                lines.append(line)
-                failed += not passes
-        lines += ["only in the second: {}: {}".format(document["file"], name) for name in names]
-        failed += len(names)
-    lines += ["only in the second: {}".format(file) for file in others]
-    failed += len(others)
-    lines.append("{} bodies compared, {} differences beyond what is allowed".format(compared, failed))
-    return lines, bool(failed)
+            rows += _numbers(label, entry, match, tolerance, align)
+        rows += [("only in the second: {}: {}".format(document["file"], name), False) for name in names]
+    rows += [("only in the second: {}".format(file), False) for file in others]
+    failed = sum(not passes for _, passes in rows)
+    summary = "{} bodies compared, {} differences beyond what is allowed".format(compared, failed)
+    return [*(line for line, _ in rows), summary], bool(failed)
 
 
 def _bodies(document: dict[str, Any]) -> dict[str, dict[str, Any]]:
@@ -121,8 +117,8 @@ def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
 
 def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     """Return the numbers of a flat shape. align: only numbers that do not depend on its place."""
-    area, bounds = entry["area"], entry["error_bound"]
-    found: dict[str, Number] = {"area": (area, area or 0.0, _flat_bound(bounds, "area"))}
+    area = entry["area"]
+    found: dict[str, Number] = {"area": (area, area or 0.0, bound_of(entry, "area") or 0.0)}
     for one in entry.get("invariants", ()):
         size = math.hypot(one["real"] or 0.0, one["imaginary"] or 0.0)
         for part in ("real", "imaginary"):
@@ -132,7 +128,7 @@ def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     second = entry["second_moments"]
     square = (second["xx"] or 0.0) + (second["yy"] or 0.0)
     gyration = math.sqrt(max(square / area, 0.0)) if area else 0.0
-    bound = _flat_bound(bounds, "centroid")
+    bound = bound_of(entry, "centroid") or 0.0
     found |= {"centroid[{}]".format(axis): (value, gyration, bound) for axis, value in zip("xyz", entry["centroid"])}
     turned = found["area"][2] / area if area else 0.0  # The axes are known to that accuracy at best.
     for name in ("x", "y", "normal"):
@@ -140,13 +136,9 @@ def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
             "plane.{}[{}]".format(name, axis): (value, 1.0, turned) for axis, value in zip("xyz", entry["plane"][name])
         }
     largest = _largest(second.values())
-    bound = _flat_bound(bounds, "second_moments")
+    bound = bound_of(entry, "second_moments") or 0.0
     found |= {"second_moments[{}]".format(name): (value, largest, bound) for name, value in second.items()}
     return found | _moments(entry.get("moments") or {})
-
-
-def _flat_bound(bounds: dict[str, Any], name: str) -> float:
-    return (bounds.get(name) or 0.0) + (bounds["input"].get(name) or 0.0)
 
 
 def _tensor(name: str, rows: Matrix, bound: float) -> dict[str, Number]:
@@ -188,13 +180,12 @@ def _product(first: Matrix, second: Matrix) -> Matrix:
 
 
 def _bound(entry: dict[str, Any], name: str) -> float:
-    """Return the bound of a number in a record: rounding plus input."""
-    bounds = entry["error_bound"] or {}
+    """Return the bound of a number in a body's record."""
     if name in ("mass", "density", "linear_density"):  # A given value has no bound, and does not differ.
         measure = "volume" if entry["volume"] else "area"
         size = entry[measure]
         return _bound(entry, measure) / abs(size) * abs(entry[name] or 0.0) if size else 0.0
-    return (bounds.get(name) or 0.0) + ((bounds.get("input") or {}).get(name) or 0.0)
+    return bound_of(entry, name) or 0.0
 
 
 def _bound_about(entry: dict[str, Any], distance: float) -> float:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.measurement.checked import check_document, check_journal_line, parse_json
-from ...core.measurement.documents import count_findings, to_csv, to_json_lines
+from ...core.measurement.documents import bound_of, count_findings, to_csv, to_json_lines
 from ...core.measurement.page import to_html
 from ...core.measurement.plain_text import counted, visible
 from ...core.verdict.finding import system_reason
@@ -43,20 +43,18 @@ def parse(argv: list[str]) -> argparse.Namespace:
     )
     parser.add_argument("command", metavar=command)
     parser.add_argument("paths", nargs="+", metavar=names)
-    parser.add_argument("--output", type=Path, metavar="PATH", help="(standard output)")
-    parser.add_argument("--force", action="store_true", help="replace any file at --output (only results)")
+    parser.value("--output", Path, "PATH", "(standard output)")
+    parser.flag("--force", "replace any file at --output (only results)")
     if command == "manifest":
         parts = "divide the list into this many parts, for `measure --part K` (1)"
-        parser.add_argument("--parts", type=count, default=1, metavar="N", help=parts)
+        parser.value("--parts", count, "N", parts, default=1)
     if command == "merge":
         whole = "refuse results in which a file of this list is missing or has two documents, or with other files"
-        parser.add_argument("--manifest", type=Path, metavar="LIST", help=whole)
+        parser.value("--manifest", Path, "LIST", whole)
     if command == "compare":
-        parser.add_argument("--quiet", action="store_true", help="print only what differs by more than it may")
+        parser.flag("--quiet", "print only what differs by more than it may")
         parser.add_argument("--tolerance", type=positive, default=0.0, help="relative to each number's own size (0)")
-        parser.add_argument(
-            "--align", action="store_true", help="compare in each body's own pose: it may have moved (needs --pose)"
-        )
+        parser.flag("--align", "compare in each body's own pose: it may have moved (needs --pose)")
     return parser.parse_args(argv)
 
 
@@ -167,7 +165,8 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         codes += count_findings(document)
         for entry in (*document["objects"], *document.get("flat", ())):
             methods[entry.get("method", "flat")] += 1
-            bound, size = _bound(entry), entry.get("volume") or entry["area"]
+            name = "volume" if entry.get("volume") else "area"
+            bound, size = bound_of(entry, name), entry[name]
             if bound is not None and size:
                 share = bound / abs(size), "{}: {}".format(file, entry["name"])
                 widest = sorted([*widest, share], reverse=True)[:_LISTED]
@@ -184,14 +183,6 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         lines += ["", "Widest bounds of the volume or area, of its size:"]
         lines += ["{:>10.1e}  {}".format(*one) for one in widest]
     return (visible(line) + "\n" for line in lines), 0
-
-
-def _bound(entry: dict[str, Any]) -> float | None:
-    """Return the error bound of the volume, else of the area: rounding plus input."""
-    bounds = entry["error_bound"] or {}
-    name = "volume" if entry.get("volume") else "area"
-    known = [one for one in (bounds.get(name), (bounds.get("input") or {}).get(name)) if one is not None]
-    return sum(known) if known else None
 
 
 def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:

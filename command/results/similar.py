@@ -29,15 +29,11 @@ def parse(argv: list[str]) -> argparse.Namespace:
     )
     parser.add_argument("command", metavar="similar")
     parser.add_argument("libraries", nargs="+", type=Path, metavar="LIBRARY")
-    parser.add_argument(
-        "--to",
-        required=True,
-        metavar="NAME",
-        help="the body's name, or FILE:NAME where several files have one of that name",
-    )
-    parser.add_argument("--any-size", action="store_true", help="copies of another size are as near")
-    parser.add_argument("--any-hand", action="store_true", help="mirror images are as near")
-    parser.add_argument("--count", type=count, default=10, metavar="N", help="how many are printed (10)")
+    text = "the body's name, or FILE:NAME where several files have one of that name"
+    parser.value("--to", str, "NAME", text, required=True)
+    parser.flag("--any-size", "copies of another size are as near")
+    parser.flag("--any-hand", "mirror images are as near")
+    parser.value("--count", count, "N", "how many are printed (10)", default=10)
     return parser.parse_args(argv)
 
 

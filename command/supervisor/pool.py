@@ -68,11 +68,14 @@ class TaskOutcome:
 class _Child:
     """A child process.
 
-    started: time of its start, or of its task's. deadline: time by which it must be ready, or its task done. task: its
-    current file. is_fresh: True before its first file. doomed: the reason if we ended it.
+    requests, answers: the streams to and from it. started: time of its start, or of its task's. deadline: time by which
+    it must be ready, or its task done. task: its current file. is_fresh: True before its first file. doomed: the reason
+    if we ended it.
     """
 
     process: subprocess.Popen[bytes]
+    requests: IO[bytes]
+    answers: IO[bytes]
     folder: Path
     log: Path
     started: float
@@ -81,18 +84,6 @@ class _Child:
     task: str | None = None
     is_fresh: bool = True
     doomed: str = ""
-
-    @property
-    def requests(self) -> IO[bytes]:
-        """The stream of messages to the child."""
-        assert self.process.stdin is not None
-        return self.process.stdin
-
-    @property
-    def answers(self) -> IO[bytes]:
-        """The stream of answers from the child."""
-        assert self.process.stdout is not None
-        return self.process.stdout
 
 
 class Pool:
@@ -184,8 +175,9 @@ class Pool:
             process = processes.start(self._command, name, log)
         except OSError as error:
             raise ChildError("{}: {}".format(self._command[0], error.strerror)) from error
+        assert process.stdin is not None and process.stdout is not None
         now = time.monotonic()
-        child = _Child(process, name, log, now, now + START_LIMIT)
+        child = _Child(process, process.stdin, process.stdout, name, log, now, now + START_LIMIT)
         self._children.append(child)
         self._readers.submit(self._read, child)
         self._send(child, self._setup)

@@ -170,13 +170,8 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
 def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
     left, right = _terms(node.left, text), _terms(node.right, text)
     if isinstance(node.op, (ast.Add, ast.Sub)):
-        sign = 1 if isinstance(node.op, ast.Add) else -1
-        return _nonzero(
-            {
-                powers: left.get(powers, Fraction(0)) + sign * right.get(powers, Fraction(0))
-                for powers in (*left, *right)
-            }
-        )
+        sign, zero = 1 if isinstance(node.op, ast.Add) else -1, Fraction(0)
+        return _nonzero({one: left.get(one, zero) + sign * right.get(one, zero) for one in (*left, *right)})
     if isinstance(node.op, ast.Mult):
         return _multiply(left, right, node, text)
     if isinstance(node.op, ast.Div):
@@ -207,14 +202,9 @@ def _multiply(
     if sum(degrees) > MAX_DEGREE:
         raise MeasureError(POLYNOMIAL_DEGREE, part=_source_text(node, text), limit=MAX_DEGREE)
     result: dict[Exponents, Fraction] = {}
-    for left_powers, factor in left.items():
-        for right_powers, value in right.items():
-            powers = (
-                left_powers[0] + right_powers[0],
-                left_powers[1] + right_powers[1],
-                left_powers[2] + right_powers[2],
-            )
-            result[powers] = result.get(powers, 0) + factor * value
+    for (a, factor), (b, value) in product(left.items(), right.items()):
+        powers = a[0] + b[0], a[1] + b[1], a[2] + b[2]
+        result[powers] = result.get(powers, 0) + factor * value
     return _nonzero(result)
 
 

@@ -103,6 +103,13 @@ def radius_of_gyration(record: dict[str, Any]) -> float | None:
     return sqrt(square) if square >= 0.0 else None
 
 
+def bound_of(record: dict[str, Any], name: str) -> float | None:
+    """Return the error bound of a record's number, rounding plus input, or None if neither is known."""
+    bounds = record["error_bound"] or {}
+    known = [one for one in (bounds.get(name), (bounds.get("input") or {}).get(name)) if one is not None]
+    return sum(known) if known else None
+
+
 def count_findings(document: dict[str, Any]) -> Counter[tuple[str, str]]:
     """Return the counts of the records with a finding, and of the total, by severity and code."""
     records = [*document["objects"], *document.get("flat", ()), document.get("total", {})]

@@ -16,9 +16,10 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from datetime import UTC, datetime
+from itertools import combinations
 from typing import Any
 
-from .documents import count_findings, radius_of_gyration
+from .documents import bound_of, count_findings, radius_of_gyration
 from .plain_text import counted, visible
 
 _PICTURE = re.compile(r"data:image/png;base64,[A-Za-z0-9+/=]+")
@@ -134,19 +135,11 @@ def _origin(document: dict[str, Any]) -> str:
 def _table_rows(document: dict[str, Any]) -> Iterator[str]:
     file, status = document["file"] or "", document["status"]
     for entry in document["objects"]:
-        bounds, volume = entry["error_bound"] or {}, entry["volume"]
-        known = [one for one in (bounds.get("volume"), (bounds.get("input") or {}).get("volume")) if one is not None]
+        bound, volume = bound_of(entry, "volume"), entry["volume"]
         values = {"mass": entry["mass"], "volume": volume, "area": entry["area"], "size": radius_of_gyration(entry)}
-        values["bound"] = sum(known) / abs(volume) if known and volume else None
-        yield _row(
-            _picture(entry),
-            file,
-            entry["name"],
-            status,
-            (entry.get("verdict", ""), entry["method"]),
-            values,
-            _remarks(entry),
-        )
+        values["bound"] = bound / abs(volume) if bound is not None and volume else None
+        methods = entry.get("verdict", ""), entry["method"]
+        yield _row(_picture(entry), file, entry["name"], status, methods, values, _remarks(entry))
     for entry in document.get("flat", ()):
         yield _row("", file, entry["name"], status, ("", "flat"), {"area": entry["area"]}, _remarks(entry))
     for error in document["errors"]:
@@ -202,12 +195,7 @@ def _picture(entry: dict[str, Any]) -> str:
         return [sum(f * s * column[i] for f, s, column in zip(factors, sides, columns)) * scale for i in range(3)]
 
     corners = {(a, b, c): flat(along(a, b, c)) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)}
-    edges = [
-        (one, other)
-        for one in corners
-        for other in corners
-        if one < other and sum(a != b for a, b in zip(one, other)) == 1
-    ]
+    edges = [pair for pair in combinations(corners, 2) if sum(a != b for a, b in zip(*pair)) == 1]
     lines = ["M{}L{}".format(corners[one], corners[other]) for one, other in edges]
     shown = '<path d="{}" fill="none" stroke="#888"/>'.format("".join(lines))
     for column, color in zip(columns, ("#d64040", "#48a048", "#4860d6")):

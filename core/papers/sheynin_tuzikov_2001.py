@@ -14,11 +14,10 @@ noise is left after cancellation.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import accumulate, repeat
 from math import comb, factorial, sqrt
+from operator import mul
 from typing import Any
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import monomials
 from ..numerics.vectors import Number, Vector, cross, dot, subtract
@@ -43,7 +42,10 @@ def sigma(exponents: tuple[int, int, int], a: Vector, b: Vector, c: Vector) -> N
     >>> sigma((1, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0))
     6
     """
-    powers = [[_powers(corner[axis], exponents[axis]) for corner in (a, b, c)] for axis in range(3)]
+    powers = [
+        [list(accumulate(repeat(corner[axis], n), mul, initial=1)) for corner in (a, b, c)]
+        for axis, n in enumerate(exponents)
+    ]
     parts = [list(_compositions(n)) for n in exponents]
     total = 0
     for k, k_ways in parts[0]:
@@ -128,41 +130,6 @@ def surface_moments(
     return [total / factorial(sum(m) + 2) for m, total in zip(_exponents_to(order), sums)]
 
 
-def triangle_moments(
-    points: NDArray, triangles: NDArray, order: int, about: ArrayLike = (0.0, 0.0, 0.0)
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return volume and surface moments, summed over all triangles, in float64.
-
-    Parameters
-    ----------
-    points : (n, 3) array
-    triangles : (m, 3) integer array
-    order : int
-    about : (3,) array_like
-
-    Returns
-    -------
-    volume, surface : (K,) arrays
-        In the order of `monomials`.
-
-    Examples
-    --------
-    >>> from body_moments.core.papers.sheynin_tuzikov_2001 import triangle_moments
-    >>> volume, area = triangle_moments(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], 0)
-    >>> np.round(volume * 6, 12).tolist()
-    [1.0]
-    """
-    corners = np.asarray(points, np.float64) - np.asarray(about, np.float64)
-    a, b, c = (corners[np.asarray(triangles)[:, i]].T for i in range(3))
-    normal = cross(subtract(b, a), subtract(c, a))
-    det, double = dot(a, normal), np.sqrt(dot(normal, normal))
-    means = [sigma(m, a, b, c) for m in _exponents_to(order)]
-    degrees = [sum(m) for m in _exponents_to(order)]
-    volume = [float(np.sum(det * mean)) / factorial(n + 3) for n, mean in zip(degrees, means)]
-    surface = [float(np.sum(double * mean)) / factorial(n + 2) for n, mean in zip(degrees, means)]
-    return np.array(volume), np.array(surface)
-
-
 def _sum_over_faces(
     points: Sequence[Vector],
     faces: Sequence[Sequence[int]],
@@ -191,10 +158,3 @@ def _compositions(n: int) -> Iterator[tuple[tuple[int, int, int], int]]:
     for first in range(n + 1):
         for second in range(n - first + 1):
             yield (first, second, n - first - second), comb(n, first) * comb(n - first, second)
-
-
-def _powers(value: Number, order: int) -> list[Number]:
-    powers: list[Number] = [1]
-    for _ in range(order):
-        powers.append(powers[-1] * value)
-    return powers

@@ -18,7 +18,6 @@ from body_moments.core.papers import zhang_chen_2001 as zhang_chen
 from body_moments.core.papers.soldea_elber_rivlin_2002_phi import phi
 from body_moments.core.polyhedron import polyhedron_moments
 
-from tests.close import close
 from tests.core import exact, rational
 
 F = Fraction
@@ -152,28 +151,6 @@ def test_moments_about_a_point_match_the_moved_body():
     about = (F(1, 3), F(-2), F(5, 7))
     moved = [tuple(x - o for x, o in zip(point, about)) for point in points]
     assert sheynin_tuzikov.volume_moments(points, faces, 4, about) == sheynin_tuzikov.volume_moments(moved, faces, 4)
-
-
-def test_float_sums_of_many_triangles_match_fractions():
-    flat = np.array([(0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (0.0, 2.0, 1.0)])
-    volume, surface = sheynin_tuzikov.triangle_moments(flat, np.array([[0, 1, 2]]), 1)
-    assert close(volume, [1 / 3, 1 / 12, 1 / 6, 1 / 4], rel=1e-14)  # the cone from the origin
-    assert close(surface, [1.0, 1 / 3, 2 / 3, 1.0], rel=1e-14)
-    points, faces = prism()
-    cut = triangles(points, faces)
-    floats = np.array(points, float)
-    exactly = rational.fractions(floats)
-    about = (5.0, 4.0, 1.0)
-    volume, surface = sheynin_tuzikov.triangle_moments(floats, cut, 5, about)
-    truth = sheynin_tuzikov.volume_moments(exactly, cut, 5, about=[F(x) for x in about])
-    reach = np.abs(floats - about).max()
-    scale = float(truth[0]) * reach ** monomials(5).sum(axis=1)
-    assert np.abs(volume - np.array(truth, float)).max() / scale.min() < 1e-13
-    assert (np.abs(volume - np.array(truth, float)) <= 1e-14 * scale).all()
-    areas = sheynin_tuzikov.surface_moments(exactly, cut, 5, [F(x) for x in about], root=lambda s: float(s) ** 0.5)
-    assert (np.abs(surface - np.array(areas, float)) <= 1e-14 * surface[0] * reach ** monomials(5).sum(axis=1)).all()
-    measured = polyhedron_moments(Surface.from_triangles(floats, np.array(cut)))[0].about_point(about)
-    assert (np.abs(measured.raw - volume[:20]) <= measured.rounding_error + 1e-14 * scale[:20]).all()
 
 
 def test_printed_third_order_formula_is_wrong_and_asymmetric():
