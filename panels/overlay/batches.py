@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 
 import blf
 import bpy
@@ -20,7 +21,7 @@ import numpy as np
 from bpy.types import Context
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 from numpy.typing import NDArray
 
 from ...blender.session.tracking import handlers
@@ -64,7 +65,7 @@ _regions: dict[int, _Drawn] = {}  # by the region's pointer
 def draw_region(context: Context) -> None:
     """Draw the overlay into a region, with current batches."""
     pointer, key = context.region.as_pointer(), _key(context)
-    drawn, settings = _regions.get(pointer), context.scene.body_moments.overlay
+    drawn = _regions.get(pointer)
     if drawn is None or drawn.key != key:
         if drawn is None and len(_regions) == MAX_REGIONS:
             del _regions[next(iter(_regions))]
@@ -73,7 +74,7 @@ def draw_region(context: Context) -> None:
         return
     view_key = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix(), gpu.state.viewport_get()[2:]
     if drawn.view_key != view_key:
-        drawn.discs = _discs(drawn.bodies, _view(*view_key), drawn.active if settings.show_axes else -1)
+        drawn.discs = _discs(drawn.bodies, _view(*view_key))
         drawn.view_key = view_key
     with _restored_state():
         _draw_batches(drawn, view_key[2])
@@ -103,18 +104,38 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
 
 
 def draw_texts(context: Context) -> None:
-    """Draw the texts of the details into a region, beside their places."""
+    """Draw the texts of the details into a region, beside their places, and the numbers of the active body's axes."""
     drawn, scale = _regions.get(context.region.as_pointer()), _scale()
-    for place, text, color in () if drawn is None else drawn.texts:
-        position = location_3d_to_region_2d(context.region, context.space_data.region_3d, place)
-        if position is not None:
-            blf.size(0, look.TEXT * scale)
-            blf.color(0, *color)
-            blf.enable(0, blf.SHADOW)
-            blf.shadow(0, 5, *look.DARK)
-            blf.position(0, position.x + look.FRAME * scale, position.y - look.TEXT * scale, 0.0)
-            blf.draw(0, text)
-            blf.disable(0, blf.SHADOW)
+    if drawn is None:
+        return
+    project = partial(location_3d_to_region_2d, context.region, context.space_data.region_3d)
+    beside = scale * Vector((look.FRAME, -look.TEXT))
+    texts = [(place + beside, text, color) for at, text, color in drawn.texts if (place := project(at)) is not None]
+    blf.size(0, look.TEXT * scale)
+    if drawn.active >= 0 and context.scene.body_moments.overlay.show_axes:
+        ends = [project(at) for at in (drawn.bodies.centers[drawn.active], *drawn.segments[drawn.active, :3, 1])]
+        texts += _axis_numbers(*ends, scale=scale) if None not in ends else ()
+    blf.enable(0, blf.SHADOW)
+    blf.shadow(0, 6, *look.DARK)
+    for place, text, color in texts:
+        blf.color(0, *color)
+        blf.position(0, *place, 0.0)
+        blf.draw(0, text)
+    blf.disable(0, blf.SHADOW)
+
+
+def _axis_numbers(center: Vector, *tips: Vector, scale: float) -> list[tuple[Vector, str, NDArray]]:
+    """Return the numbers of axes with their places in pixels: beyond the ends, and off the disc."""
+    arms = [tip - center for tip in tips]
+    if max(arm.length for arm in arms) < scale * look.MIN_NAMED:
+        return []
+    placed = []
+    for number, arm in enumerate(arms, 1):
+        away = max(arm.length, scale * look.FRAME) + scale * look.TEXT / 2.0
+        toward = (arm + Vector((-1e-3, -3e-4))).normalized()  # an axis may point at the eye
+        size = blf.dimensions(0, str(number))
+        placed.append((center + away * toward - Vector(size) / 2.0, str(number), look.WHITE))
+    return placed
 
 
 def forget_regions() -> None:
@@ -175,10 +196,10 @@ def _line_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
     return tuple(batch_for_shader(shader, "LINES", {"pos": points, "color": tint}) for tint in (faint, colors))
 
 
-def _discs(bodies: Bodies, view: discs.View, labeled: int) -> tuple[Batch, ...]:
+def _discs(bodies: Bodies, view: discs.View) -> tuple[Batch, ...]:
     if not len(bodies.centers):
         return ()
-    made = discs.disc_triangles(bodies, view, _scale(), labeled)
+    made = discs.disc_triangles(bodies, view, _scale())
     if made is None:
         return ()
     points, colors, triangles = made
