@@ -147,4 +147,4 @@ def unit_question(layout: UILayout, context: Context, shown: PlainBody) -> None:
     rows.remark(box, question, icon="QUESTION", boxed=True, **texts)
     column = box.column(align=True)
     rows.button(column, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")
-    rows.button(column, "scene.body_moments_keep_units", "X")
+    column.prop(scene.body_moments, "units_answered", toggle=True, icon="X")

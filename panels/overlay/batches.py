@@ -21,7 +21,7 @@ import numpy as np
 from bpy.types import Context
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
-from mathutils import Matrix, Vector
+from mathutils import Vector
 from numpy.typing import NDArray
 
 from ...blender.session.tracking import handlers
@@ -30,7 +30,7 @@ from ...core.numerics.float32 import shortest_decimal
 from . import appearance as look
 from . import discs, lines
 from .bodies import Bodies, Entry, collect
-from .details import list_details
+from .details import Colored, list_details
 from .draw import drawn_objects
 
 MAX_REGIONS = 8  # number of regions with cached batches
@@ -74,7 +74,7 @@ def draw_region(context: Context) -> None:
         return
     view_key = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix(), gpu.state.viewport_get()[2:]
     if drawn.view_key != view_key:
-        drawn.discs = _discs(drawn.bodies, _view(*view_key))
+        drawn.discs = _discs(drawn.bodies, discs.View(*map(np.array, view_key)))
         drawn.view_key = view_key
     with _restored_state():
         _draw_batches(drawn, view_key[2])
@@ -169,36 +169,32 @@ def _axis_colors() -> tuple[tuple[float, float, float], ...]:
     return tuple(tuple(color) for color in (theme.axis_x, theme.axis_y, theme.axis_z))
 
 
-def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> discs.View:
-    return discs.View(np.array(view, np.float64), np.array(projection, np.float64), np.array(size, np.float64))
-
-
-def _fill_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
-    """Return the batches of parts: (k, 3, 3) triangles and (k, 4) colors."""
-    parts = [(triangles, colors) for triangles, colors in parts if len(triangles)]
+def _joined(parts: list[Colored]) -> dict[str, NDArray[np.float32]]:
+    """Return the vertices of parts: (k, c, 3) points of shapes with c corners, and (k, 4) colors; {} without any."""
+    parts = [(shapes, colors) for shapes, colors in parts if len(shapes)]
     if not parts:
-        return ()
-    points = np.concatenate([triangles for triangles, _ in parts]).reshape(-1, 3).astype(np.float32)
-    colors = np.concatenate([colors for _, colors in parts]).astype(np.float32).repeat(3, axis=0)
-    return (batch_for_shader(gpu.shader.from_builtin("FLAT_COLOR"), "TRIS", {"pos": points, "color": colors}),)
+        return {}
+    points = np.concatenate([shapes for shapes, _ in parts]).astype(np.float32)
+    colors = np.concatenate([colors for _, colors in parts]).astype(np.float32)
+    return {"pos": points.reshape(-1, 3), "color": colors.repeat(points.shape[1], axis=0)}
 
 
-def _line_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
-    """Return the batches of parts: (k, 2, 3) segments and (k, 4) colors."""
-    parts = [(segments, colors) for segments, colors in parts if len(segments)]
-    if not parts:
+def _fill_batches(parts: list[Colored]) -> tuple[Batch, ...]:
+    vertices = _joined(parts)
+    return (batch_for_shader(gpu.shader.from_builtin("FLAT_COLOR"), "TRIS", vertices),) if vertices else ()
+
+
+def _line_batches(parts: list[Colored]) -> tuple[Batch, ...]:
+    """Return the batches of segments: faint and full."""
+    vertices = _joined(parts)
+    if not vertices:
         return ()
-    points = np.concatenate([segments for segments, _ in parts]).reshape(-1, 3).astype(np.float32)
-    colors = np.concatenate([colors for _, colors in parts]).astype(np.float32).repeat(2, axis=0)
+    faint = vertices["color"] * np.float32((1.0, 1.0, 1.0, look.BEHIND))
     shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-    faint = colors.copy()
-    faint[:, 3] *= look.BEHIND
-    return tuple(batch_for_shader(shader, "LINES", {"pos": points, "color": tint}) for tint in (faint, colors))
+    return tuple(batch_for_shader(shader, "LINES", content) for content in (vertices | {"color": faint}, vertices))
 
 
 def _discs(bodies: Bodies, view: discs.View) -> tuple[Batch, ...]:
-    if not len(bodies.centers):
-        return ()
     made = discs.disc_triangles(bodies, view, _scale())
     if made is None:
         return ()

@@ -137,7 +137,8 @@ def test_each_remedy_works_as_labeled(window):
 def test_the_other_answer_to_the_question_is_kept(window):
     window.ask(NESTED)
     window.press("object.body_moments_measure")
-    window.press("scene.body_moments_keep_units")
+    x, y = window.place("scene.body_moments_set_millimeters")
+    window.click(x, y - 20)  # the switch below
     window.wait("bpy.context.scene.body_moments.units_answered")
     assert window.get("bpy.context.scene.unit_settings.scale_length") == 1.0
 
