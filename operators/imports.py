@@ -219,10 +219,3 @@ CLASSES = (
     OBJECT_OT_body_moments_import_scan,
     OBJECT_OT_body_moments_import_surfaces,
 )
-MENUS = (
-    (bpy.types.TOPBAR_MT_file_import, selection.menu_entry(CLASSES[0], text="Scan of Densities (.nii/.nrrd/.npy)")),
-    (
-        bpy.types.TOPBAR_MT_file_import,
-        selection.menu_entry(CLASSES[1], text="NURBS Surfaces (.igs/.iges, .obj with surf)"),
-    ),
-)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-from bpy.types import Context, Menu, Object, Operator
+from bpy.types import Context, Object, Operator
 
 from .. import core
 from ..blender.read.visibility import measurable
@@ -210,15 +210,6 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
             file.writelines(piece if isinstance(piece, bytes) else piece.encode() for piece in pieces)
     except OSError as error:
         raise FileError(FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)) from error
-
-
-def menu_entry(operator: type[Operator], **options: str) -> Callable[[Menu, Context], None]:
-    """Return a function that adds an operator to a menu."""
-
-    def draw(menu: Menu, _context: Context) -> None:
-        menu.layout.operator(operator.bl_idname, **options)
-
-    return draw
 
 
 def ask_for_table(operator: Operator, context: Context) -> set[str]:

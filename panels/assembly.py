@@ -47,7 +47,7 @@ class BODY_MOMENTS_UL_assembly(UIList):
             line.prop(row, "is_open", text="", icon=icon, emboss=False)
         else:
             line.label(text="", icon="BLANK1")
-        split = line.split(factor=0.4, align=True)
+        split = line.split(factor=0.44, align=True)
         name = split.row(align=True)
         name.active = row.is_counted
         name.label(text=row.name, icon=MEMBER_ICONS[row.member], translate=False)

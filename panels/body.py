@@ -47,8 +47,10 @@ class BodyPanel:
     bl_label = "Body Moments"
 
     def draw_header_preset(self, context: Context) -> None:
-        header_switch(self.layout, context)
-        draw_links(self.layout, icons_only=True)
+        row = self.layout.row(align=True)
+        header_switch(row, context)
+        if not rows.is_narrow():  # the name would be below them
+            draw_links(row, icons_only=True)
 
     def draw(self, context: Context) -> None:
         if shown_objects(context) == [context.object]:

@@ -23,7 +23,16 @@ AXES: Entry = ("object.body_moments_axes_to_principal", "EMPTY_AXIS")
 ALIGN: Entry = ("object.body_moments_align_to_world", "ORIENTATION_GLOBAL")
 CURSOR: Entry = ("view3d.body_moments_cursor_to_center", "PIVOT_CURSOR")
 EMPTY: Entry = ("object.body_moments_add_empty", "EMPTY_ARROWS")
-RIGID_BODY: Entry = ("object.body_moments_set_rigid_body_mass", "RIGID_BODY")
+RIGID_BODY: Entry = ("object.body_moments_rigid_bodies", "RIGID_BODY")
+MASS: Entry = ("object.body_moments_set_rigid_body_mass", "RIGID_BODY")
+COLLIDERS: Entry = ("object.body_moments_make_colliders", "MESH_ICOSPHERE")
+EQUAL_INERTIA: Entry = ("object.body_moments_equal_inertia", "MESH_CUBE")
+EXPORT_MENU = "TOPBAR_MT_body_moments_export"
+IMPORTS = {
+    "object.body_moments_import_scan": "Scan of Densities (.nii/.nrrd/.npy)",
+    "object.body_moments_import_surfaces": "NURBS Surfaces (.igs/.iges, .obj with surf)",
+    "import_scene.body_moments_audit": "Robot Description for Audit (.urdf/.sdf/.xml/.usda)",
+}
 PIE_GAP = 8.0  # rows between the pie's lowest entry and ours
 
 _OBJECT, _SCENE = "bpy.types.bodymomentsobjectsettings.", "bpy.types.bodymomentsscenesettings."
@@ -86,7 +95,7 @@ class VIEW3D_MT_body_moments_shape(_Groups, Menu):
             ("object.body_moments_find_similar", "VIEWZOOM"),
             ("object.body_moments_match_pose", "SNAP_ON"),
             ("object.body_moments_link_copies", "LINKED"),
-            ("object.body_moments_equal_inertia", "MESH_CUBE"),
+            EQUAL_INERTIA,
         ),
     )
 
@@ -118,14 +127,14 @@ class VIEW3D_MT_body_moments(_Groups, Menu):
     GROUPS = (
         (MEASURE, ("object.body_moments_live", "REC")),
         (ORIGIN, AXES),
-        (("object.body_moments_rigid_bodies", "RIGID_BODY"), ("object.body_moments_make_colliders", "MESH_ICOSPHERE")),
+        (RIGID_BODY, COLLIDERS),
     )
 
     def draw(self, context: Context) -> None:
         _Groups.draw(self, context)
         layout = self.layout
         layout.separator()
-        layout.menu("TOPBAR_MT_body_moments_export", text="Export", icon="EXPORT")
+        layout.menu(EXPORT_MENU, text="Export", icon="EXPORT")
         layout.operator("import_scene.body_moments_audit", icon="VIEWZOOM")
         layout.separator()
         layout.menu(VIEW3D_MT_body_moments_shape.bl_idname)
@@ -147,6 +156,11 @@ def _entries(*entries: Entry, separator: bool = True, mode: str = "OBJECT") -> C
     return draw
 
 
+def _imports(menu: Menu, _context: Context) -> None:
+    for idname, text in IMPORTS.items():
+        menu.layout.operator(idname, text=text)
+
+
 def _object_menu(menu: Menu, _context: Context) -> None:
     menu.layout.separator()
     menu.layout.menu(VIEW3D_MT_body_moments.bl_idname, icon="PHYSICS")
@@ -165,7 +179,7 @@ def _snap_pie(menu: Menu, _context: Context) -> None:
 
 def _rigid_body_panel(panel: Menu, context: Context) -> None:
     if context.object is not None and context.object.rigid_body is not None:
-        panel.layout.operator(RIGID_BODY[0], icon=RIGID_BODY[1])
+        panel.layout.operator(MASS[0], icon=MASS[1])
 
 
 def _map() -> tuple[str, tuple[tuple[str, str], ...]]:
@@ -183,7 +197,12 @@ MENUS = (
     (bpy.types.VIEW3D_MT_transform_object, _entries(ALIGN, AXES)),
     (bpy.types.VIEW3D_MT_snap, _entries(CURSOR)),
     (bpy.types.VIEW3D_MT_snap_pie, _snap_pie),
-    (bpy.types.VIEW3D_MT_object_rigid_body, _entries(RIGID_BODY)),
+    (
+        bpy.types.VIEW3D_MT_object_rigid_body,
+        _entries(RIGID_BODY, MASS, COLLIDERS, ("object.body_moments_remove_colliders", "X"), EQUAL_INERTIA),
+    ),
+    (bpy.types.TOPBAR_MT_file_export, lambda menu, _context: menu.layout.menu(EXPORT_MENU)),
+    (bpy.types.TOPBAR_MT_file_import, _imports),
     (bpy.types.VIEW3D_MT_empty_add, _entries(EMPTY)),
     (bpy.types.PHYSICS_PT_rigid_body, _rigid_body_panel),
 )

@@ -74,7 +74,7 @@ def _headline(context: Context, group: Group) -> str:
     shown = replace(group.finding, elements=())
     clause = re.split(r"\.$|[.;,] | \(", localized_sentence(shown, context.scene.unit_settings))[0]
     if not group.objects:
-        return clause
+        return clause if rows.fits(1.0, clause) else clause.partition(": “")[0]  # its names are in the sentence
     if bpy.app.translations.locale[:2] in ("", "en"):  # nouns keep their capitals in other languages
         clause = clause[0].lower() + clause[1:]
     if len(group.objects) == 1:
@@ -147,4 +147,4 @@ def unit_question(layout: UILayout, context: Context, shown: PlainBody) -> None:
     rows.remark(box, question, icon="QUESTION", boxed=True, **texts)
     column = box.column(align=True)
     rows.button(column, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")
-    rows.button(column, "scene.body_moments_keep_units", "X")
+    column.prop(scene.body_moments, "units_answered", toggle=True, icon="X")

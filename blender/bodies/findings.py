@@ -189,8 +189,8 @@ MEMBERS_HIDDEN = note(
 )
 MEMBERS_DENSITY_UNSET = warning(
     "members_density_unset",
-    "{count} member has no density or mass set and counts with the default: {names}. Set Density.",
-    "{count} members have no density or mass set and count with the default: {names}. Set Density.",
+    "{count} member has the default density: {names}. Set Density.",
+    "{count} members have the default density: {names}. Set Density.",
 )
 INSTANCE_STRETCHES_SHEETS = error(
     "instance_stretches_sheets",

@@ -53,6 +53,11 @@ def measurable(obj) -> bool:
     return obj.type in {*SURFACE_TYPES, "VOLUME"} or any(modifier.type == "NODES" for modifier in obj.modifiers)
 
 
+def has_shape(obj) -> bool:
+    """Return whether an object may have a shape or a given mass; lights, cameras and plain empties never have one."""
+    return obj.type in GEOMETRY_TYPES or obj.instance_type == "COLLECTION" or is_point_mass(obj)
+
+
 def shows_flat_region(obj) -> bool:
     """Return whether a curve object shows only the flat region inside its curves."""
     curve = obj.data
@@ -96,7 +101,7 @@ def metaball_families(view_layer) -> list[list]:
 
 def require_kind(obj) -> None:
     """Raise ReadError for an object of a kind that shows no surface."""
-    if obj.type in GEOMETRY_TYPES or obj.instance_type == "COLLECTION":
+    if has_shape(obj):
         return
     if obj.type == "EMPTY":
         raise ReadError(EMPTY_WITHOUT_INSTANCES, subject=obj.name)

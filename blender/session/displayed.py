@@ -229,8 +229,9 @@ def shown_objects(context: Context) -> list[Object]:
 
     The meshes of a posed armature stand in its place.
     """
-    chosen = armatures.subjects(context.view_layer.objects.selected)
-    return chosen if len(chosen) > 1 else armatures.subjects([context.object])
+    selected = context.view_layer.objects.selected
+    chosen = armatures.subjects(selected)
+    return chosen if max(len(selected), len(chosen)) > 1 else armatures.subjects([context.object])
 
 
 def total(context: Context) -> Total:

@@ -28,7 +28,7 @@ from ..scene.findings import OPEN_OBJECT, RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_
 from ..scene.rigid_world import MIN_MASS, add_joint, add_rigid_bodies, remove_joint, require_rigid_world
 from ..scene.snap_targets import POSE, SnapTarget, matrix_along_axes, matrix_at_center
 from ..settings.given import COLLIDER
-from ..write import properties, reports
+from ..write import reports
 from .stored import assembly
 from .stored.results import store_measured
 from .tracking import staleness
@@ -89,9 +89,7 @@ def make_rigid_bodies(
             obj.rigid_body.mesh_source = "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
         for obj, one in measured.items():
             obj.rigid_body.mass = one.target.mass
-        store_measured(
-            context, [part for one in measured.values() for part in one.parts if properties.is_stored(part[0])]
-        )
+        store_measured(context, [part for one in measured.values() for part in one.parts])
     return RigidBodies(measured, calculated, failures)
 
 

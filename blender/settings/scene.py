@@ -103,8 +103,8 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
         options={"HIDDEN"},
     )
     units_answered: BoolProperty(
-        name="Units Answered",
-        description="Whether a unit of this scene is a millimeter has been answered",
+        name="Keep Units",
+        description="Keep the units of the scene, and do not ask again",
         options={"HIDDEN"},
     )
     moments_order: IntProperty(

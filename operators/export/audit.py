@@ -80,5 +80,3 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
 
 
 CLASSES = (IMPORT_SCENE_OT_body_moments_audit,)
-ENTRY = selection.menu_entry(*CLASSES, text="Robot Description for Audit (.urdf/.sdf/.xml/.usda)")
-MENUS = ((bpy.types.TOPBAR_MT_file_import, ENTRY),)

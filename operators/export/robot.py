@@ -241,13 +241,8 @@ class TOPBAR_MT_body_moments_export(Menu):
         self.layout.menu(VIEW3D_MT_body_moments_copy.bl_idname)
 
 
-def _menu(menu: Menu, _context: Context) -> None:
-    menu.layout.menu(TOPBAR_MT_body_moments_export.bl_idname)
-
-
 CLASSES = (
     *map(_exporter, FORMATS.values()),
     *map(_file_handler, FORMATS.values()),
     TOPBAR_MT_body_moments_export,
 )
-MENUS = ((bpy.types.TOPBAR_MT_file_export, _menu),)

@@ -31,8 +31,18 @@ if TYPE_CHECKING:
 SUFFIX = ".npz"
 
 
-class _Settings:
-    """The common settings of both operators."""
+class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
+    """Ask for a file and a grid of frequencies, then write the Fourier transform of the active object."""
+
+    bl_idname = "object.body_moments_fourier"
+    bl_label = "Fourier Transform"
+    bl_description = (
+        "Write the Fourier transform of the active object on a regular grid of frequencies to an .npz file, and show "
+        "slices of its magnitude as an image"
+    )
+    bl_options = {"REGISTER"}  # Blender would push its undo step before the image is there
+    PROGRESS = "Fourier transform: {share:.0%}. Esc to cancel"
+    CANCELED = "Fourier transform canceled; nothing was written"
 
     filepath: StringProperty(
         name="File Path", description="Path of the .npz file to write", subtype="FILE_PATH", options={"SKIP_SAVE"}
@@ -69,19 +79,6 @@ class _Settings:
         description="Highest frequency along each axis in rad/m. 0 uses that of a discrete Fourier transform of a box "
         "of twice the object's size",
     )
-
-
-class OBJECT_OT_body_moments_fourier(_Settings, Operator):
-    """Ask for a file and a grid of frequencies, then write the Fourier transform of the active object."""
-
-    bl_idname = "object.body_moments_fourier"
-    bl_label = "Fourier Transform"
-    bl_description = (
-        "Write the Fourier transform of the active object on a regular grid of frequencies to an .npz file, and show "
-        "slices of its magnitude as an image"
-    )
-    bl_options = {"UNDO"}
-
     filter_glob: StringProperty(default="*" + SUFFIX, options={"HIDDEN"})
     check_existing: BoolProperty(default=True, options={"HIDDEN"})
 
@@ -115,25 +112,8 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
     def execute(self, context: Context) -> set[str]:
         if not self.filepath:
             return selection.refuse(self, selection.NO_FILE)
-        chosen = {name: getattr(self, name) for name in ("filepath", "of", "frame", "count", "largest")}
-        invoked = "EXEC_DEFAULT" if context.window is None else "INVOKE_DEFAULT"
-        try:
-            return bpy.ops.object.body_moments_fourier_run(invoked, **chosen)
-        except RuntimeError as error:  # its report, as Blender raises it here
-            self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
-            return {"CANCELLED"}
-
-
-class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
-    """Write the Fourier transform of the active object to a file"""
-
-    bl_idname = "object.body_moments_fourier_run"
-    bl_label = "Fourier Transform"
-    bl_options = {"UNDO", "INTERNAL"}
-    PROGRESS = "Fourier transform: {share:.0%}. Esc to cancel"
-    CANCELED = "Fourier transform canceled; nothing was written"
-
-    poll = OBJECT_OT_body_moments_fourier.poll
+        in_window = context.window is not None and not bpy.app.background
+        return selection.reporting(self, self._run, context, in_window)
 
     def _begin(self, context: Context) -> float:
         obj, depsgraph = context.object, context.evaluated_depsgraph_get()
@@ -169,6 +149,7 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         for area in context.screen.areas if context.screen else ():
             if area.type == "IMAGE_EDITOR":
                 area.spaces.active.image = image
+        bpy.ops.ed.undo_push(message=self.bl_label)
         done = reports.phrase(
             "Wrote {count} frequencies to {file}; the image {image} shows slices of their magnitude",
             count=len(transform.q),
@@ -178,4 +159,4 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         return reports.report(self, done, *reports.first(findings))
 
 
-CLASSES = (OBJECT_OT_body_moments_fourier_run, OBJECT_OT_body_moments_fourier)
+CLASSES = (OBJECT_OT_body_moments_fourier,)

@@ -12,7 +12,7 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
 from ...blender import bodies, session, write
-from ...blender.read.visibility import measurable
+from ...blender.read.visibility import has_shape, measurable
 from ...blender.scene.changes import require_editable
 from ...blender.session import live
 from ...blender.session.tracking import armatures, staleness, stamps
@@ -74,7 +74,8 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     def _begin(self, context: bpy.types.Context) -> int:
         """Apply the settings of the redo panel and prepare the steps; return the number of selected objects."""
         copy_defaults(context.scene)
-        self._objects = objects = armatures.subjects(context.selected_objects)
+        subjects = armatures.subjects(context.selected_objects)
+        self._objects = objects = [obj for obj in subjects if has_shape(obj)] or subjects
         for obj in objects:
             self._change_settings(obj)
         self._results: list[tuple[bpy.types.Object, Any]] = []

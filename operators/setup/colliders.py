@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
-from bpy.types import Context, Menu, Object, Operator
+from bpy.types import Context, Object, Operator
 
 from ... import core
 from ...blender import scene, session
@@ -223,15 +223,8 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
         return result
 
 
-def _menu(menu: Menu, _context: Context) -> None:
-    menu.layout.separator()
-    for operator, icon in zip(CLASSES, ("MESH_ICOSPHERE", "X", "MESH_CUBE")):
-        menu.layout.operator(operator.bl_idname, icon=icon)
-
-
 CLASSES = (
     OBJECT_OT_body_moments_make_colliders,
     OBJECT_OT_body_moments_remove_colliders,
     OBJECT_OT_body_moments_equal_inertia,
 )
-MENUS = ((bpy.types.VIEW3D_MT_object_rigid_body, _menu),)

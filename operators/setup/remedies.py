@@ -150,18 +150,6 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
         return {"FINISHED"}
 
 
-class SCENE_OT_body_moments_keep_units(Operator):
-    """Keep the units of the scene, and do not ask again"""
-
-    bl_idname = "scene.body_moments_keep_units"
-    bl_label = "Keep Units"
-    bl_options = {"INTERNAL", "UNDO"}
-
-    def execute(self, context: Context) -> set[str]:
-        context.scene.body_moments.units_answered = True
-        return {"FINISHED"}
-
-
 class OBJECT_OT_body_moments_accept(_OnActive, Operator):
     """Accept this warning: it becomes a note, also when the object is measured again"""
 
@@ -232,7 +220,6 @@ class WM_OT_body_moments_dismiss(Operator):
 CLASSES = (
     OBJECT_OT_body_moments_remedy,
     SCENE_OT_body_moments_set_millimeters,
-    SCENE_OT_body_moments_keep_units,
     OBJECT_OT_body_moments_accept,
     OBJECT_OT_body_moments_select_refused,
     WM_OT_body_moments_dismiss,

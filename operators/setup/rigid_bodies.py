@@ -9,7 +9,6 @@ object's axes; after Axes to Principal Axes both are true.
 
 from typing import TYPE_CHECKING
 
-import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
@@ -222,4 +221,3 @@ CLASSES = (
     OBJECT_OT_body_moments_rigid_bodies,
     OBJECT_OT_body_moments_set_rigid_body_mass,
 )
-MENUS = ((bpy.types.VIEW3D_MT_object_rigid_body, selection.menu_entry(CLASSES[0], icon="RIGID_BODY")),)

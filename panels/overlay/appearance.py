@@ -35,6 +35,6 @@ DOT = 2.5
 FRAME = 12.0  # middle of the frame around the disc
 STROKE = 2.0
 OUTLINE = 1.5
-DIGIT = 4.0  # half the height of a digit
+MIN_NAMED = 8.0  # length of the longest axis from which on axes are named
 LINE = 1.8
 TEXT = 15.0

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 
 import blf
 import bpy
@@ -20,7 +21,7 @@ import numpy as np
 from bpy.types import Context
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
-from mathutils import Matrix
+from mathutils import Vector
 from numpy.typing import NDArray
 
 from ...blender.session.tracking import handlers
@@ -29,7 +30,7 @@ from ...core.numerics.float32 import shortest_decimal
 from . import appearance as look
 from . import discs, lines
 from .bodies import Bodies, Entry, collect
-from .details import list_details
+from .details import Colored, list_details
 from .draw import drawn_objects
 
 MAX_REGIONS = 8  # number of regions with cached batches
@@ -64,7 +65,7 @@ _regions: dict[int, _Drawn] = {}  # by the region's pointer
 def draw_region(context: Context) -> None:
     """Draw the overlay into a region, with current batches."""
     pointer, key = context.region.as_pointer(), _key(context)
-    drawn, settings = _regions.get(pointer), context.scene.body_moments.overlay
+    drawn = _regions.get(pointer)
     if drawn is None or drawn.key != key:
         if drawn is None and len(_regions) == MAX_REGIONS:
             del _regions[next(iter(_regions))]
@@ -73,7 +74,7 @@ def draw_region(context: Context) -> None:
         return
     view_key = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix(), gpu.state.viewport_get()[2:]
     if drawn.view_key != view_key:
-        drawn.discs = _discs(drawn.bodies, _view(*view_key), drawn.active if settings.show_axes else -1)
+        drawn.discs = _discs(drawn.bodies, discs.View(*map(np.array, view_key)))
         drawn.view_key = view_key
     with _restored_state():
         _draw_batches(drawn, view_key[2])
@@ -103,18 +104,38 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
 
 
 def draw_texts(context: Context) -> None:
-    """Draw the texts of the details into a region, beside their places."""
+    """Draw the texts of the details into a region, beside their places, and the numbers of the active body's axes."""
     drawn, scale = _regions.get(context.region.as_pointer()), _scale()
-    for place, text, color in () if drawn is None else drawn.texts:
-        position = location_3d_to_region_2d(context.region, context.space_data.region_3d, place)
-        if position is not None:
-            blf.size(0, look.TEXT * scale)
-            blf.color(0, *color)
-            blf.enable(0, blf.SHADOW)
-            blf.shadow(0, 5, *look.DARK)
-            blf.position(0, position.x + look.FRAME * scale, position.y - look.TEXT * scale, 0.0)
-            blf.draw(0, text)
-            blf.disable(0, blf.SHADOW)
+    if drawn is None:
+        return
+    project = partial(location_3d_to_region_2d, context.region, context.space_data.region_3d)
+    beside = scale * Vector((look.FRAME, -look.TEXT))
+    texts = [(place + beside, text, color) for at, text, color in drawn.texts if (place := project(at)) is not None]
+    blf.size(0, look.TEXT * scale)
+    if drawn.active >= 0 and context.scene.body_moments.overlay.show_axes:
+        ends = [project(at) for at in (drawn.bodies.centers[drawn.active], *drawn.segments[drawn.active, :3, 1])]
+        texts += _axis_numbers(*ends, scale=scale) if None not in ends else ()
+    blf.enable(0, blf.SHADOW)
+    blf.shadow(0, 6, *look.DARK)
+    for place, text, color in texts:
+        blf.color(0, *color)
+        blf.position(0, *place, 0.0)
+        blf.draw(0, text)
+    blf.disable(0, blf.SHADOW)
+
+
+def _axis_numbers(center: Vector, *tips: Vector, scale: float) -> list[tuple[Vector, str, NDArray]]:
+    """Return the numbers of axes with their places in pixels: beyond the ends, and off the disc."""
+    arms = [tip - center for tip in tips]
+    if max(arm.length for arm in arms) < scale * look.MIN_NAMED:
+        return []
+    placed = []
+    for number, arm in enumerate(arms, 1):
+        away = max(arm.length, scale * look.FRAME) + scale * look.TEXT / 2.0
+        toward = (arm + Vector((-1e-3, -3e-4))).normalized()  # an axis may point at the eye
+        size = blf.dimensions(0, str(number))
+        placed.append((center + away * toward - Vector(size) / 2.0, str(number), look.WHITE))
+    return placed
 
 
 def forget_regions() -> None:
@@ -148,37 +169,33 @@ def _axis_colors() -> tuple[tuple[float, float, float], ...]:
     return tuple(tuple(color) for color in (theme.axis_x, theme.axis_y, theme.axis_z))
 
 
-def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> discs.View:
-    return discs.View(np.array(view, np.float64), np.array(projection, np.float64), np.array(size, np.float64))
-
-
-def _fill_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
-    """Return the batches of parts: (k, 3, 3) triangles and (k, 4) colors."""
-    parts = [(triangles, colors) for triangles, colors in parts if len(triangles)]
+def _joined(parts: list[Colored]) -> dict[str, NDArray[np.float32]]:
+    """Return the vertices of parts: (k, c, 3) points of shapes with c corners, and (k, 4) colors; {} without any."""
+    parts = [(shapes, colors) for shapes, colors in parts if len(shapes)]
     if not parts:
-        return ()
-    points = np.concatenate([triangles for triangles, _ in parts]).reshape(-1, 3).astype(np.float32)
-    colors = np.concatenate([colors for _, colors in parts]).astype(np.float32).repeat(3, axis=0)
-    return (batch_for_shader(gpu.shader.from_builtin("FLAT_COLOR"), "TRIS", {"pos": points, "color": colors}),)
+        return {}
+    points = np.concatenate([shapes for shapes, _ in parts]).astype(np.float32)
+    colors = np.concatenate([colors for _, colors in parts]).astype(np.float32)
+    return {"pos": points.reshape(-1, 3), "color": colors.repeat(points.shape[1], axis=0)}
 
 
-def _line_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
-    """Return the batches of parts: (k, 2, 3) segments and (k, 4) colors."""
-    parts = [(segments, colors) for segments, colors in parts if len(segments)]
-    if not parts:
+def _fill_batches(parts: list[Colored]) -> tuple[Batch, ...]:
+    vertices = _joined(parts)
+    return (batch_for_shader(gpu.shader.from_builtin("FLAT_COLOR"), "TRIS", vertices),) if vertices else ()
+
+
+def _line_batches(parts: list[Colored]) -> tuple[Batch, ...]:
+    """Return the batches of segments: faint and full."""
+    vertices = _joined(parts)
+    if not vertices:
         return ()
-    points = np.concatenate([segments for segments, _ in parts]).reshape(-1, 3).astype(np.float32)
-    colors = np.concatenate([colors for _, colors in parts]).astype(np.float32).repeat(2, axis=0)
+    faint = vertices["color"] * np.float32((1.0, 1.0, 1.0, look.BEHIND))
     shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-    faint = colors.copy()
-    faint[:, 3] *= look.BEHIND
-    return tuple(batch_for_shader(shader, "LINES", {"pos": points, "color": tint}) for tint in (faint, colors))
+    return tuple(batch_for_shader(shader, "LINES", content) for content in (vertices | {"color": faint}, vertices))
 
 
-def _discs(bodies: Bodies, view: discs.View, labeled: int) -> tuple[Batch, ...]:
-    if not len(bodies.centers):
-        return ()
-    made = discs.disc_triangles(bodies, view, _scale(), labeled)
+def _discs(bodies: Bodies, view: discs.View) -> tuple[Batch, ...]:
+    made = discs.disc_triangles(bodies, view, _scale())
     if made is None:
         return ()
     points, colors, triangles = made

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes of constant size on the screen, as triangles in pixels: the disc with its frame, and the digits of the axes.
+"""Shapes of constant size on the screen, as triangles in pixels: the disc, with a frame for each verdict.
 
-All glyphs of one kind have equally many corners and triangles, the smaller ones filled up with empty triangles, so that
-any mixture of them is one array.
+All have equally many corners and triangles, the smaller ones filled up with empty triangles, so that any mixture of
+them is one array.
 """
 
 from __future__ import annotations
@@ -36,13 +36,6 @@ class Glyphs:
 
 
 GlyphShape = tuple[NDArray, NDArray, NDArray]  # corners, (k, 2, 4) colors, triangles of one glyph
-
-# digits in units of half their height
-DIGITS = (
-    ((-0.3, 0.6), (0.1, 1.0), (0.1, -1.0)),
-    ((-0.5, 0.7), (-0.2, 1.0), (0.3, 1.0), (0.5, 0.7), (0.5, 0.3), (-0.55, -1.0), (0.6, -1.0)),
-    ((-0.5, 1.0), (0.5, 1.0), (0.0, 0.25), (0.4, 0.1), (0.55, -0.4), (0.3, -0.9), (-0.1, -1.0), (-0.55, -0.8)),
-)
 
 
 def _arc(radius: float, first: int = 0, last: int = SEGMENTS, segments: int = SEGMENTS) -> NDArray[np.float64]:
@@ -107,14 +100,6 @@ def _disc(verdict: int) -> GlyphShape:
     )
 
 
-def _digit(points: Sequence[tuple[float, float]]) -> GlyphShape:
-    path = np.array(points) * look.DIGIT
-    return _colored(
-        (_stroke(path, look.STROKE + 2.0 * look.OUTLINE), look.DARK, 1.0),
-        (_stroke(path, look.STROKE), look.WHITE, 1.0),
-    )
-
-
 def _stack(shapes: Sequence[GlyphShape]) -> Glyphs:
     def filled(arrays: Sequence[NDArray]) -> NDArray:
         size = max(map(len, arrays))
@@ -129,9 +114,3 @@ def _stack(shapes: Sequence[GlyphShape]) -> Glyphs:
 def discs() -> Glyphs:
     """Return the discs, in the order of `appearance.VERDICTS`."""
     return _stack([_disc(verdict) for verdict in range(len(look.VERDICTS))])
-
-
-@lru_cache(maxsize=1)
-def digits() -> Glyphs:
-    """Return the digits 1, 2 and 3."""
-    return _stack([_digit(points) for points in DIGITS])

@@ -84,7 +84,7 @@ def test_disc_is_never_larger_than_its_ball(view, size):
     gyration = np.full((count, 3), size * np.sqrt(0.4))
     for verdict in range(5):
         bodies = Bodies(centers, np.tile(np.eye(3), (count, 1, 1)), gyration, np.full(count, verdict))
-        points, _, _ = discs.disc_triangles(bodies, view, 1.0, -1)
+        points, _, _ = discs.disc_triangles(bodies, view, 1.0)
         order = np.argsort(-view.depths(centers), kind="stable")
         pixels = view.pixels(points.astype(float)).reshape(count, -1, 2) - view.pixels(centers)[order][:, None]
         ball = size / view.pixel_sizes(centers)[order].max(axis=1)

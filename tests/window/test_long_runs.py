@@ -132,7 +132,7 @@ for obj in list(bpy.data.objects):
 bpy.ops.mesh.primitive_torus_add(major_segments=160, minor_segments=64)
 bpy.context.object.name = "Ring"
 """
-TRANSFORM = "bpy.ops.object.body_moments_fourier_run('INVOKE_DEFAULT', filepath={!r}, count={})"
+TRANSFORM = "bpy.ops.object.body_moments_fourier('EXEC_DEFAULT', filepath={!r}, count={})"
 IMAGES = "[list(image.size) for image in bpy.data.images if image.get('body_fourier')]"
 
 

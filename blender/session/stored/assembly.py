@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from math import dist, hypot
 
@@ -13,16 +13,17 @@ import numpy as np
 from bpy.types import Context, Object, PropertyGroup
 from mathutils import Matrix
 
+from ....core.bodies.findings import DENSITY_DEFAULTED
 from ....core.inertia.plain_body import TENSOR, PlainBody, add_bodies
 from ....core.measurement.builder import find_properties
 from ....core.measurement.documents import table
 from ....core.measurement.settings import digest
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
-from ....core.verdict.finding import Finding, Severity
+from ....core.verdict.finding import Finding, Severity, finding
 from ....core.verdict.sentences import of_severity, sentence
 from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement
-from ...bodies.findings import ASSEMBLY_MASS_GIVEN
+from ...bodies.findings import ASSEMBLY_MASS_GIVEN, MEMBERS_DENSITY_UNSET
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import Stacked
 from ...read.assembly import Member, MemberKind, Root, is_assembly, members_key, members_of, settings_of
@@ -107,10 +108,23 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
         text = stamp._replace(geometry=digest(key.encode())).text
         if all(_is_same(bodies[obj], now[obj]) for obj in now):
             root["body_fingerprint"] = text
+            _follow_defaults(root, now)
         elif _is_sum(root, bodies) and (total := add_bodies([*now.values()])) is not None:
             matrix, unit = getattr(root, "matrix_world", Matrix()), shortest_decimal(scene.unit_settings.scale_length)
             properties.store_body(root, total.in_object(matrix, unit), text)
             _scale_rows(root, {obj.name: now[obj].mass - bodies[obj].mass for obj in now}, total.mass)
+            _follow_defaults(root, now)
+
+
+def _follow_defaults(root: Root, members: Collection[Object]) -> None:
+    """Let the warning about members of the default density follow the findings of these members."""
+    findings, known = properties.findings(root), {obj.name for obj in members}
+    unset = [obj.name for obj in members if DENSITY_DEFAULTED in [found.code for found in properties.findings(obj)]]
+    for found in findings:
+        if found.code == MEMBERS_DENSITY_UNSET:
+            unset = [*(name for name in found.values["names"] if name not in known), *unset]
+    warning = [finding(MEMBERS_DENSITY_UNSET, count=len(unset), names=unset)] if unset else []
+    properties.store_findings(root, [*(found for found in findings if found.code != MEMBERS_DENSITY_UNSET), *warning])
 
 
 def _is_sum(root: Root, bodies: dict[Object, PlainBody]) -> bool:

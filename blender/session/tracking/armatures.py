@@ -44,13 +44,19 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
 def subjects(objects: Iterable[Object]) -> list[Object]:
     """Return original objects, each once, with the deformed meshes in place of posed armatures.
 
-    Colliders are left out, unless nothing else is among the objects.
+    Colliders, and objects without a shape or results, are left out, unless nothing else is among the objects.
     """
     found: dict[Object, None] = {}
     chosen = list(objects)
-    for obj in [obj for obj in chosen if COLLIDER not in obj] or chosen:
+    for obj in [obj for obj in chosen if _counts(obj)] or chosen:
         found.update(dict.fromkeys(deformed_meshes(obj) if stands_for_meshes(obj) else (obj,)))
     return list(found)
+
+
+def _counts(obj: Object) -> bool:
+    """Return whether an object can be measured or shows results, as assemblies and armatures do; no collider does."""
+    may_be_measured = read.visibility.has_shape(obj) or stands_for_meshes(obj)
+    return COLLIDER not in obj and (may_be_measured or "body_mass" in obj)
 
 
 def watch(armature: Object, objects: Iterable[Object]) -> None:

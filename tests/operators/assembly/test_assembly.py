@@ -109,12 +109,15 @@ def test_an_assembly_is_out_of_date_when_a_member_is(change, reason):
 )
 def test_total_and_drawn_center_follow_a_density(settings, density):
     root, obj = assembly_of_boxes(), bpy.data.objects["b1"]
+    obj.body_moments.property_unset("density")
     bpy.ops.object.body_moments_measure_assembly()
+    assert "members_density_unset" in root["body_findings"]
     for name, value in settings.items():
         setattr(obj.body_moments, name, value)
     bpy.context.view_layer.update()
     mass, center, tensor = boxes_inertia([BOXES[0], (density, *BOXES[1][1:])])
     assert staleness.stale_reason(root, bpy.context.scene) is None
+    assert "members_density_unset" not in root["body_findings"]
     assert close(root["body_mass"], mass, 1e-12) and close(root["body_center_of_mass"].to_list(), center, 1e-12)
     entries = tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
     assert np.abs(np.array(root["body_inertia"].to_list()) - entries).max() <= 1e-12 * entries.max()

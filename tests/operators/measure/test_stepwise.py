@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.operators import modal as stepwise
-from body_moments.operators.measure.fourier import OBJECT_OT_body_moments_fourier_run
+from body_moments.operators.measure.fourier import OBJECT_OT_body_moments_fourier
 from body_moments.operators.measure.measure_selected import OBJECT_OT_body_moments_measure
 from body_moments.operators.shape.find_similar import OBJECT_OT_body_moments_find_similar
 from body_moments.operators.shape.find_symmetry import OBJECT_OT_body_moments_find_symmetry
@@ -76,7 +76,7 @@ def pressed(cls, **settings):
     operator = stand_in(cls, lambda kind, text: reports.append((*kind, text)), **settings)
     operator.reports = reports
     window = Window()
-    assert operator.invoke(window, None) == {"RUNNING_MODAL"}
+    assert operator._run(window, True) == {"RUNNING_MODAL"}
     assert window.handlers == [operator] and window.timers == [window]
     return operator, window
 
@@ -176,14 +176,14 @@ def test_child_is_matched_although_its_parent_moves():
 def test_failed_fourier_step_restores_window_and_reports(tmp_path):
     add(mesh_body())
     settings = {"filepath": str(tmp_path / "a.npz"), "of": "BODY", "frame": "WORLD", "count": 8, "largest": 0.0}
-    operator, window = pressed(OBJECT_OT_body_moments_fourier_run, **settings)
+    operator, window = pressed(OBJECT_OT_body_moments_fourier, **settings)
     assert "0%" in window.status[-1]
     path = operator._path
     operator._path = path.parent / "none" / path.name
     assert finished(operator, window) == {"CANCELLED"}
     assert operator.reports[-1][0] == "ERROR" and not path.exists()
     assert operator.reports[-1][1].endswith("No such file or directory.")
-    operator, window = pressed(OBJECT_OT_body_moments_fourier_run, **settings)
+    operator, window = pressed(OBJECT_OT_body_moments_fourier, **settings)
     assert operator.modal(window, ESC) == {"CANCELLED"} and not path.exists() and window.timers == []
-    operator, window = pressed(OBJECT_OT_body_moments_fourier_run, **settings)
+    operator, window = pressed(OBJECT_OT_body_moments_fourier, **settings)
     assert finished(operator, window) == {"FINISHED"} and path.exists()

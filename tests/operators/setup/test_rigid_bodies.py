@@ -5,6 +5,7 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.tracking.staleness import stale_reason
 from mathutils import Matrix, Vector
 
 from tests.blender.bodies.test_assembly import box, boxes_inertia
@@ -38,6 +39,7 @@ def test_mass_origin_and_axes_are_right_and_nothing_moves(unit):
     before, mass = seen(obj), measured(obj).mass_properties.mass
     assert make() == {"FINISHED"}
     assert np.abs(seen(obj) - before).max() < 1e-5
+    assert close(obj["body_mass"], mass, 1e-6) and not stale_reason(obj, bpy.context.scene)
     assert close(obj.rigid_body.mass, mass, 1e-6) and obj.rigid_body.collision_shape == "CONVEX_HULL"
     assert is_what_bullet_takes_it_for(obj) and np.abs(np.array(obj.scale) - 1).max() < 1e-6
     for _ in range(2):  # again: nothing is left to do
