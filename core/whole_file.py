@@ -17,7 +17,7 @@ def whole_file(path: Path, check: Callable[[Path], None] | None = None) -> Itera
     """Yield an open file that replaces `path` once the block is complete, and is removed if it fails.
 
     A pipe or a device is written to directly. check: raises FileExistsError if `path` must not be replaced. It is
-    called just before that, because the file may have appeared meanwhile. Raises OSError.
+    called just before the replacement, because the file may have appeared meanwhile. Raises OSError.
     """
     if path.exists() and not path.is_file():
         with open(path, "wb") as file:

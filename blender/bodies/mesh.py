@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The body bounded by polygons, with all its instances: each surface is measured once and mapped to its places.
 
-Overlapping shells are united by Blender's own exact Boolean. The convex hull has the possible contacts with the ground.
+Blender's own exact Boolean unites overlapping shells. The convex hull's corners are the possible ground contacts.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ from .request import Request
 
 MEASURED_AS = frozenset({"solid", "shell"})
 
-REPAIRS = {HOLES_CAPPED, FLIPPED_FACES, INVERTED_COMPONENTS}  # reported of bodies before they are united
+REPAIRS = {HOLES_CAPPED, FLIPPED_FACES, INVERTED_COMPONENTS}  # findings about the bodies before their union
 HULL_RTOL = 1e-6  # relative to the extent: points that are outside by less are left out
-NOISE = 4.0  # half ulps of float32 coordinates by which flat faces may be uneven
+NOISE = 4.0  # half ulps of float32 coordinates: allowed unevenness of flat faces
 MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
 
 
@@ -135,7 +135,7 @@ def _used_points(surface: Surface) -> NDArray[np.float64]:
 
 
 def union_surface(surface: Surface) -> Surface:
-    """Return the surface around the union of all shells, in float32; measured about their middle at unit size."""
+    """Return the surface around the union of all shells, computed in float32 about their middle and at unit size."""
     points, faces = surface.points.astype(np.float64), surface.all_triangles()[0]
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     scale = 2.0 ** np.ceil(np.log2(np.abs(points - middle).max()))  # a power of two rounds nothing

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The splines of a curve object as B-spline curves: Bézier, NURBS, Catmull-Rom and straight splines.
 
-Blender gives evaluated curves without a surface; of beveled curves it gives the mesh, so that the splines are read.
+Blender gives evaluated curves only without a surface; of beveled curves it gives the mesh, so their splines are read.
 """
 
 from __future__ import annotations
@@ -126,7 +126,7 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
 
 
 def _has_known_knots(spline, curve: Curve | None) -> bool:
-    """Return whether a spline's knots follow from its settings: then Blender finds the same length."""
+    """Return whether a spline's knots follow from its settings, so that Blender finds the same length."""
     if curve is None:
         return True
     low, high = curve.space.domain

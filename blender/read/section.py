@@ -52,7 +52,7 @@ class SectionReading:
     the face of each; of outlines, the triangles are fans that give the plane, and loops has the points of each closed
     outline in order. facing: (3,) front of the plane, None if the triangles decide. error: largest effect of float32
     storage on a point. drawn_area: the area that Blender fills, of outlines in a plane. rotation, location: the object
-    frame, or, if a zero scale leaves `decompose()` without a rotation, the right-angled axes that are left.
+    frame; if a zero scale leaves `decompose()` without a rotation, the remaining right-angled axes.
     """
 
     name: str

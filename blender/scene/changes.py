@@ -130,7 +130,7 @@ def made_collection(context: Context, key: str, owner: object, name: str) -> Col
 class MadeCollection:
     """A scene's collection of objects made for an armature, cleared of earlier ones; everything else in it stays.
 
-    key: name of the ID property, of the collection and the objects made in it, that holds the armature object.
+    key: name of the ID property that holds the armature object, on the collection and the objects made in it.
     """
 
     def __init__(self, context: Context, armature: Object, key: str, name: str):

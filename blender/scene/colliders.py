@@ -3,7 +3,7 @@
 """Colliders as objects: children of their body, in a collection of their own, displayed as wire and not rendered.
 
 A hull has its vertices in the body's own coordinates and no transform of its own, so that it is exact wherever the body
-lies, and follows its scale. A primitive has its pose in the body's frame, whose scale its parent inverse takes back.
+lies, and follows its scale. A primitive has its pose in the body's frame; its parent inverse undoes the body's scale.
 """
 
 from __future__ import annotations

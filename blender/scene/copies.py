@@ -56,8 +56,8 @@ class MeshData:
     """A mesh as arrays.
 
     layers: types, domains and (n, k) values of the attributes, by name. normals: (c, 3) of the corners, if they are the
-    user's own. keys: the (n, 3) points of the shape keys. traits: all else that has to be equal, by
-    aspect. bytes: the memory that the mesh takes, about.
+    user's own. keys: the (n, 3) points of the shape keys. traits: all else that has to be equal, by aspect. bytes: the
+    approximate memory of the mesh.
     """
 
     def __init__(self, mesh: Mesh, may_differ: set[str]):
@@ -301,7 +301,7 @@ def _followers(objects: set[Object]) -> dict[Object, ID]:
 
 
 def _check(obj: Object, found: Correspondence, follower: ID | None) -> None:
-    """Raise MeasureError if something of the object shows its own axes or numbering, perhaps at another time."""
+    """Raise MeasureError if any part of the object depends on its axes or numbering, perhaps at another time."""
     if not (obj.is_editable and obj.data.is_editable) or obj.override_library or obj.data.override_library:
         raise EditRefusedError(LINKED_OBJECT)
     if _is_mere_exchange(found):

@@ -104,9 +104,9 @@ def write_keys(curves, channel: Channel, frames: NDArray, values: NDArray, inter
 
 
 def replace_section(curve: FCurve, first: int, last: int, values: NDArray) -> None:
-    """Replace the keys from one frame to another by a key at each, for (n,) values; later keys move if they are more.
+    """Replace the keys from one frame to another by (n,) values, one a frame; later keys move if n exceeds the frames.
 
-    Frames around, up to the next keys, get a key each, so that they stay as they are.
+    The frames before and after, up to the next keys, get a key each, so that they stay as they are.
     """
     frames = keys(curve)[:, 0]
     before, after = frames[frames <= first].max(initial=-np.inf), frames[frames >= last].min(initial=np.inf)

@@ -3,8 +3,8 @@
 """New origins and axes of many meshes at once, for objects that show their unmodified mesh and have no users.
 
 The new places of their points are known, so that no trial is needed. Objects that share a mesh and want the same change
-of it go on sharing; for other changes, and if others use the mesh, too, it is copied. Objects that miss their plan are
-put back and left to `reframe`, which changes each by itself. After an error, all objects are.
+of it go on sharing; for different changes, or if other objects use the mesh, too, it is copied. Objects that miss their
+plan, and after an error all objects, are put back and left to `reframe`, which changes each by itself.
 """
 
 from __future__ import annotations
@@ -43,8 +43,8 @@ class Plan:
     """The wanted place of one object.
 
     target: the (4, 4) matrix_world. size: of the body, in Blender units. move_only: keep the axes to the bit. findings:
-    added while the plan is carried out. mesh: shown from then on, instead of the changed data; order: the numbers of
-    its (n,) vertices in the object's own mesh.
+    added while the plan is carried out. mesh: shown afterwards instead of the changed data; order: the numbers of its
+    (n,) vertices in the object's own mesh.
     """
 
     obj: Object
@@ -62,7 +62,7 @@ def location_tolerance(obj: Object, size: float) -> float:
 
 
 def rounding_of_locations(size: PerBody, reach: PerBody) -> PerBody:
-    """Return the tolerance of origins with locations up to `reach`, of bodies of a size."""
+    """Return the tolerance of origins, for locations up to `reach` and bodies of a size."""
     return 4e-7 * size + 4.0 * FLOAT32 * reach
 
 
@@ -148,14 +148,14 @@ def _reframe_alike(
     off = np.abs(now - targets)
     fits &= off[:, :3, 3].max(axis=1) <= rounding_of_locations(size, np.abs(now[:, :3, 3]).max(axis=1))
     fits &= off[:, :3, :3].max(axis=(1, 2)) <= MAX_SHEAR * np.abs(targets[:, :3, :3]).max(axis=(1, 2))
-    # Rounding may move points far from their origin by as much.
+    # Rounding may move points far from their origin by this much.
     boxes = np.array([obj.bound_box for obj in objects]) @ change[:, :3, :3].swapaxes(1, 2) + change[:, None, :3, 3]
     largest = np.abs(now[:, :3, :3]).sum(axis=2).max(axis=1)
     fits &= FLOAT32 * np.abs(boxes).max(axis=(1, 2)) * largest <= SAME_SHAPE_RTOL * size
     for i in np.flatnonzero(~fits).tolist():
         channels[i].restore()
     chosen = np.flatnonzero(fits)
-    wanted = data_change(was, targets, move_only)  # free of the rounding of places far from the origin
+    wanted = data_change(was, targets, move_only)  # without the rounding of places far from the origin
     owners = _give_meshes([plans[i] for i in chosen.tolist()], wanted[chosen], np.abs(boxes[chosen]).max(axis=(1, 2)))
     transform_meshes([objects[chosen[i]].data for i in owners], change[chosen[owners]])
     context.view_layer.update()

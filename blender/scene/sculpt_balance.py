@@ -120,7 +120,7 @@ class _GroupedMesh:
 
 
 class _WholeMesh(_GroupedMesh):
-    """The mesh of an object in Object Mode without vertex groups, all of which leans."""
+    """The mesh of an object without vertex groups, in Object Mode; the whole mesh leans."""
 
     def __init__(self, obj: Object):
         self.mesh, self.is_changed = obj.data, False

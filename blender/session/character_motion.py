@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Characters over frames: their momenta, and keys that put them on a parabola or keep their spin.
 
-The keys go to what carries the whole character: its root bone, or the armature object. A small move is tried first,
-and every part must follow. So the pose stays as it is, and the center goes where it has to be.
+The keys go to the carrier of the whole character: its root bone, or the armature object. A small move is tried first,
+and every part must follow. So the pose stays as it is, and the center goes to its intended place.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from .live import character
 from .live.character import OUTLINE, Parts
 from .stored import balance_groups, stability
 
-TRIAL, FOLLOWS = 1e-2, 1e-4  # of the character's size: a tried move, and how exactly parts must follow it
+TRIAL, FOLLOWS = 1e-2, 1e-4  # of the character's size: a trial move, and the tolerance of the parts that follow
 LAYER = "Body Moments"  # the name of the track and the strip
 CHECKED = 16  # frames that are looked at again after the keys
 
@@ -106,7 +106,7 @@ class CharacterMotion(BalanceGroup):
         return np.array([support is not None for support in self.supports])
 
     def find_carrier(self, context: Context, name: str, turns: bool, as_layer: bool) -> None:
-        """Find what carries all parts: the named bone, else the root, else the object; Refused if nothing can."""
+        """Find the carrier of all parts: the named bone, else the root, else the object; Refused if there is none."""
         self.is_layered = as_layer or fcurves.has_strips(self.armature)
         bones, part = self.armature.pose.bones, ""
         if name and name not in bones:
@@ -124,9 +124,9 @@ class CharacterMotion(BalanceGroup):
     def follow_flight(
         self, scene: Scene, flight: tuple[int, int] | None, keep_height: bool, before: int, after: int
     ) -> Iterator[int]:
-        """Find a flight if none is given, and follow it at the times at which its poses were.
+        """Find a flight if none is given, and follow it at the original times of its poses.
 
-        keep_height: the flight lasts as long as its height demands. before, after: frames that are followed, too.
+        keep_height: the flight lasts as long as its height demands. before, after: numbers of frames also followed.
         """
         if keep_height and self.is_layered:
             raise Refused(LAYERED_TIMES)
@@ -183,7 +183,7 @@ class CharacterMotion(BalanceGroup):
     def key(self, context: Context, turns: bool) -> float:
         """Key the carrier for a constant spin or a parabola.
 
-        Return how far the center is off afterwards, in meters; 0 if it is where it has to be.
+        Return the remaining distance of the center from its intended place, in meters.
         """
         moves, carrier = self._moves(turns), self.carrier
         assert carrier is not None
@@ -227,7 +227,7 @@ class CharacterMotion(BalanceGroup):
 class Carrier:
     """A root bone or an armature object whose location and rotation carry all parts of a character.
 
-    frames: its (4, 4) matrices in the world and of its channels, and the values of these, at each frame so far.
+    frames: at each frame so far, its (4, 4) matrices in the world and of its channels, and the channels' values.
     """
 
     armature: Object

@@ -45,7 +45,7 @@ NO_CONTACT = "No mesh of “{armature}” can touch the ground. Show its meshes,
 
 
 class _Handle:
-    """Three channels of a bone, changes of which are tried: its location, or its rotation about its own axes."""
+    """Three channels of a bone that are changed on trial: its location, or its rotation about its own axes."""
 
     def __init__(self, bone: PoseBone, turns: bool):
         self.bone, self.turns = bone, turns
@@ -86,7 +86,7 @@ class _Search:
         self.local = np.linalg.solve(matrices[:, :3, :3], (self.points - matrices[:, :3, 3])[:, :, None])
 
     def gap(self, center: NDArray) -> NDArray[np.float64]:
-        """Return how far the target is from a center, (2,) along the ground."""
+        """Return the (2,) displacement along the ground from a center to the target."""
         return (self.target - center) @ self.axes[:, :2]
 
     def look(self, handle: _Handle, change: NDArray) -> tuple[NDArray, NDArray, float]:
@@ -148,8 +148,8 @@ class _Search:
 def balance_pose(context: Context, armature: Object, name: str, margin: float | None) -> dict[str, str | float]:
     """Move a bone of a posed character so that it is balanced, or leave it and raise Refused or MeasureError.
 
-    name: of the bone, "" for the active one or another that is fit. margin: in Blender's units, None for the middle.
-    Return the bone, the gap that is left and the margin, m; nothing if the character is balanced already.
+    name: of the bone, "" for the active bone or another suitable one. margin: in Blender's units, None for the middle.
+    Return the bone, the remaining gap and the margin, m; nothing if the character is balanced already.
     """
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     character.require_gravity(context.scene)

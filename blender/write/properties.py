@@ -255,9 +255,9 @@ def clear(obj: Owner) -> bool:
 def retrigger_drivers(obj: Owner) -> None:
     """Make Blender evaluate only the drivers that read the stored results.
 
-    Tags do more: TIME evaluates the object's animation, which reverts unkeyed changes; OBJECT evaluates dependents of
-    its place, such as Booleans that it is an operand of. If a property is set that is only drawn, Blender copies the
-    object for evaluation, and then looks at its custom properties.
+    Update tags do more: TIME evaluates the object's animation, which reverts unkeyed changes; OBJECT evaluates
+    dependents of its place, such as Booleans with this operand. If a property that is only drawn is set, Blender copies
+    the object for evaluation, and then looks at its custom properties.
     """
     if isinstance(obj, bpy.types.Collection):
         obj.color_tag = obj.color_tag

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The remedies of findings: what one press of a button does, and which findings it is for."""
+"""The remedies of findings: the effect of one press of a button, and the findings that it remedies."""
 
 from typing import NamedTuple
 

@@ -163,7 +163,7 @@ class Walls:
         return findings
 
     def _unevenness(self) -> float:
-        """Return the largest relative difference of moments (order 0 to 2) between a very thin wall and its surface."""
+        """Return the largest relative difference of moments (order 0 to 2) between a very thin wall and the surface."""
         surface = self.thin.area
         center, degree = surface.center, monomials(2).sum(axis=1)
         wall = sum_moments([piece.per_thickness() for piece in self.pieces]).about_point(center).truncate(2).raw

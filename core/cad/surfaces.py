@@ -45,9 +45,9 @@ class SurfaceBody:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceFile:
-    """The surfaces of a file. unit: m, None if it is not stated. refused: surfaces that could not be kept, and why.
+    """The surfaces of a file. unit: m, None if it is not stated. refused: the reasons, with the names of surfaces.
 
-    unread: the number of these surfaces.
+    unread: the number of surfaces that could not be kept.
     """
 
     bodies: tuple[SurfaceBody, ...]
@@ -69,11 +69,11 @@ class Refusals:
     points: int = 0  # points of all patches that were kept
 
     def keep(self, kind: str, name: str, make: Callable[[], list[Face]]) -> list[Face]:
-        """Return the patches of a surface; if it is refused, note that and return none. kind, name: for messages."""
+        """Return the patches of a surface; note a refusal, and return no patches then. kind, name: for messages."""
         before = self.points
         try:
             patches = make()
-            # A nested call for other surfaces of this file has counted its own.
+            # A nested call for other surfaces of this file has counted their points.
             self.points = max(self.points, before + sum(patch.points.size // 3 for patch in patches))
             if self.points > MAX_TOTAL_POINTS:
                 raise FileError(FILE_TOO_LARGE, limit=MAX_TOTAL_POINTS, content="control points")
@@ -135,7 +135,7 @@ def placed_surface(
 def bezier_surface(
     surface: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None], for_blender: bool
 ) -> list[Patch]:
-    """Return a part of a surface as Bézier patches, that Blender can hold if `for_blender`."""
+    """Return a part of a surface as Bézier patches. for_blender: refuse patches that Blender cannot hold."""
     order = max(space.order for space in surface.spaces)
     if for_blender and order > MAX_ORDER:
         raise SurfaceRefusedError(SURFACE_ORDER, order=order, limit=MAX_ORDER)
@@ -157,7 +157,7 @@ def revolved_solid(bottom: float, top: float, height: float, axis: str, is_round
     """Return a solid's surface about an axis "X", "Y" or "Z", facing outward, or None if it has no volume.
 
     bottom, top: the radii at the ends of its straight part, which is `height` long; with a negative height the ends
-    change places. is_round: whether half balls, and no disks, follow it. Other axes are taken as Z.
+    change places. is_round: whether half balls close it, not disks. Other axes are taken as Z.
     """
     bottom, top = (abs(top), abs(bottom)) if height < 0.0 else (abs(bottom), abs(top))
     half = abs(height) / 2.0
@@ -182,7 +182,7 @@ class _Profile:
         self.rows = [(radius, height, 1.0)]
 
     def extend(self, radius: float, height: float, bend: bool = False) -> None:
-        """Add a line, or with `bend` a quarter of a circle, to a point. Nothing is added if the point is the last."""
+        """Add a line, or with `bend` a quarter of a circle, to a point, unless it is the last point already."""
         last_radius, last_height, weight = self.rows[-1]
         if (radius, height) == (last_radius, last_height):
             return

@@ -3,8 +3,8 @@
 """The constant set of a smooth trivariate: a B-spline of higher order, to a stated tolerance.
 
 The spline is evaluated on finer grids; their trilinear interpolants converge to it with the square of the spacing. So a
-third of the difference of two of them is added to the finer one (Richardson); the change of the result from one grid
-to the next is the estimate of its error.
+third of the difference between two interpolants is added to the finer one (Richardson). The change of the result from
+one grid to the next is the estimate of its error.
 """
 
 from __future__ import annotations

@@ -6,16 +6,16 @@ The volumetric scheme of Soldea, Elber and Rivlin. The integrals separate,
 
     ∫ u^p v^q w^r f = Σ_ijk p_ijk U[p,i] V[q,j] W[r,k],
 
-so three small tables (`SplineAxis.table`) are all there is to precompute, and the sum is three contractions: the first
-along the axis that is contiguous in memory, in blocks that stay in the cache, the others on the small result. A grid
+so only three small tables (`SplineAxis.table`) are precomputed, and the sum is three contractions. The first one runs
+along the axis that is contiguous in memory, in blocks that stay in the cache; the others take its small result. A grid
 may therefore be larger than memory.
 
-The moments are taken about the middle of the knots; if the mass is far from there, relative to its size, once more
-about the knot nearest to its center, as the paper advises (section 5).
+The moments are taken about the middle of the knots. If the mass is far from there, relative to its size, they are taken
+again about the knot nearest to its center, as the paper advises (section 5).
 
-Rounding is bounded without another pass. In the support of B_i a power |t|^l is at most (|t| + w)^l, w the widest
-support, and an odd power at most the even one below it times the largest |t|. So for coefficients that are not negative
-the moments of even order bound the absolute sums of all of them.
+Rounding is bounded without another pass. In the support of B_i a power |t|^l is at most (|t| + w)^l, with the widest
+support w. An odd power is at most the next lower even power times the largest |t|. So the even moments of nonnegative
+coefficients bound the absolute sums of all moments.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ def density_moments(
 ) -> Moments:
     """Return the mass moments of a density that is a trivariate B-spline, in the coordinates of three axes' knots.
 
-    Their reference point is the middle of the knots; if the mass is far from it, the knot nearest to its center
-    (Soldea, Elber and Rivlin, sections 4 and 5).
+    Their reference point is the middle of the knots or, if the mass is far from it, the knot nearest to the mass's
+    center (Soldea, Elber and Rivlin, sections 4 and 5).
 
     coefficients: (nx, ny, nz) of any real type, a memory map if larger than memory. Or a function that yields blocks,
     (offset, array) each, without overlap; all other coefficients are zero. value: converts a block's numbers to

@@ -34,7 +34,7 @@ def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -
 
     The moments are about the middle of the bounding box within the grid, rounded to a corner of voxels. triangles: (n,
     3, 3) corners, counter-clockwise from outside, closed together, in the grid's coordinates: the voxel (i, j, k) is
-    the cube from (i, j, k) to (i+1, j+1, k+1). densities: (nx, ny, nz), nothing outside. `rounding_error` estimates the
+    the cube from (i, j, k) to (i+1, j+1, k+1). densities: (nx, ny, nz), 0 outside. `rounding_error` estimates the
     rounding from the sizes of all terms; nothing else is approximate. MeasureError if a density is not finite.
     """
     triangles = float_array("triangles", triangles, "n", 3, 3, finite=True)

@@ -137,7 +137,7 @@ def measure_section(
 ) -> Section:
     """Measure the region to the left of directed edges.
 
-    Check beforehand with `find_defects` that it is one region; it also reports the length that edges share.
+    Check beforehand with `find_defects` that the edges bound one region; it also reports the length that edges share.
 
     Parameters
     ----------

@@ -10,9 +10,9 @@ of d it has two forms:
     D = -i (E_ab d_c + E_bc d_a + E_ca d_b) / Σ d²,    E_ab = exp(-i (s_a+s_b)/2) sinc((s_a-s_b)/2).
 
 The first converges for small d. The second is the least-squares mean of the three ways to write D as a quotient of a
-difference of E by a gap between two phases: no gap that may vanish divides, and from Σ d² = 1 on no digit is lost.
-Phases that coincide (q along a normal, across an edge, corners in line) are nothing special to either. E is found once
-for each edge of a block.
+difference of E by a gap between two phases. It divides by no gap that may vanish, and from Σ d² = 1 on no digit is
+lost. Coincident phases (q along a normal, across an edge, corners in line) are no special case for either. E is
+computed once for each edge of a block.
 """
 
 from __future__ import annotations

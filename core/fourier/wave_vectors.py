@@ -3,7 +3,7 @@
 """Wave vectors, as a list or as a regular grid, with q·v and exp(-i q·x) for sums over faces.
 
 On a list every phase costs a sine and a cosine. On a grid exp(-i q·x) is a product of three numbers from tables, one
-for each axis; their entries are sines and cosines themselves, no recurrence, so that no error grows along an axis.
+for each axis. The tables hold sines and cosines, computed without a recurrence, so that no error grows along an axis.
 """
 
 from __future__ import annotations

@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frames that a body's moments beyond second order choose.
 
-If it has no symmetry that is one frame, else one for each rotation that takes the body to itself, as far as these
+A body without symmetry has one frame, any other body one for each rotation that takes it to itself, as far as these
 moments show.
 
 First a finite set of frames is found that turns with the body. Axes of different second moments are fixed up to their
-signs. Around one such axis the other two are turned to make the first clear harmonic ∫ (x+iy)^m ... real and positive:
-its phase is a rotation's, so an m-fold choice is left (a square prism's by fourth order, a triangular one's by third).
-If all second moments are equal, the first axis is a direction in which the n-th moment ∫ (u·x)^n is largest or
-smallest, whichever happens in fewer directions: for a cube by fourth order its own axes.
-Then the central moments are written down in each of these frames, and those frames are kept in which they are largest,
-entry by entry; entries that differ by noise are equal. The remaining frames are the ones in which the body is the same.
+signs. Around one such axis the other two are turned to make the first clear harmonic ∫ (x+iy)^m ... real and positive;
+this leaves m choices (for a square prism by fourth order, for a triangular one by third). If all second moments are
+equal, the first axis is a direction in which the n-th moment ∫ (u·x)^n is largest or smallest, whichever happens in
+fewer directions: for a cube by fourth order its own axes. Then the central moments are computed in each of these
+frames, and the frames with the largest moments, compared entry by entry, are kept; entries that differ by noise are
+equal. In all remaining frames the body is the same.
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times t
 # Growth of the noise with the degree: as the moments of a normal distribution grow.
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
 CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones are used only without a better one
-FLAT_EXTENT_RTOL = 1e-6  # relative to the largest extent: along an axis of less, a body is a lamina and has no skewness
+FLAT_EXTENT_RTOL = 1e-6  # relative to the largest extent: with less along an axis, a body is a lamina without skewness
 MAX_EQUAL_SHARE = 0.25  # share of the range over all directions: larger differences never count as equal
 START_DIRECTIONS = 240  # directions at which the search for extreme ones starts
 MAX_START_GAP = 0.18  # largest angle between any direction and the nearest start
 ASCENT_STEPS = 16  # steps from a start to a maximum; flat maxima need most of them
 STEPS_BEFORE_MERGE = 3
-MERGED_DIRECTIONS = 1e-4  # after these steps, directions closer than this, which go to one maximum, are merged
+MERGED_DIRECTIONS = 1e-4  # directions closer than this after these steps go to one maximum and are merged
 ARRIVED = 1e-15  # shorter steps end the search
 DISTINCT_DIRECTIONS = 1e-2  # extreme directions closer than this are one
 
@@ -52,8 +52,8 @@ class SecondMomentAxes:
 
     axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents (standard deviations) along them.
     undetermined_axes: the axes that equal moments leave free. step: shift of the points by float32, as a length. tilt:
-    the angle by which that and rounding may have turned the other axes. noise: normalized third moments that differ by
-    less are equal.
+    the angle by which this shift and rounding may have turned the other axes. noise: normalized third moments that
+    differ by less are equal.
     """
 
     axes: NDArray[np.float64]
@@ -69,8 +69,8 @@ class FrameRule:
     """Rule that fixes the frames that second moments leave open.
 
     extreme: the degree of the moment that is extreme along the frames' third axis; 0 if second moments fix an axis.
-    axis, harmonic: the axis about which the harmonic (degree, m, k) is real; None if no harmonic is clear. sign: of the
-    harmonic.
+    axis, harmonic: the axis about which the harmonic (degree, m, k) is real; None if no harmonic is clear. sign: the
+    harmonic's sign.
     """
 
     extreme: int
@@ -83,11 +83,11 @@ class FrameRule:
 class EquivalentFrames:
     """Frames in which a body is the same.
 
-    frames: (k, 3, 3) rotations with the axes as columns. values, noise: (n,) the normalized central moments of third to
-    the highest order in each of them, and their noise. revolution_axes: the directions that no moment fixes: none (),
-    all around one axis of the frames (that axis,), or all (0, 1, 2). tilt: an estimate of the angle by which noise may
-    have turned them. rule: fixes the frames; None if second moments do, or if they are the poles of a circle of extreme
-    directions.
+    frames: (k, 3, 3) rotations with the axes as columns. values, noise: (n,) the normalized central moments in each
+    frame, of third to the highest order, and their noise. revolution_axes: the directions that no moment fixes: none
+    (), all around one axis of the frames (that axis,), or all (0, 1, 2). tilt: an estimate of the angle by which noise
+    may have turned them. rule: the rule that fixes the frames; None if second moments fix them, or the poles of a
+    circle of extreme directions.
     """
 
     frames: NDArray[np.float64]
@@ -168,7 +168,7 @@ def _fix_rotation_about_axis(
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, int, int, NDArray[np.complex128], float] | None:
-    """Return degree, m, k, (n,) values and noise of the first clear harmonic about an axis, else of the first."""
+    """Return degree, m, k, (n,) values and noise of the first clear harmonic about an axis, else of the first one."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order, size, weaker = [first, second, axis], extents_of(spread.size), None
     for degree in range(3, central.order + 1):
@@ -203,9 +203,9 @@ def _extreme_directions(
 ) -> tuple[NDArray, float, float, bool]:
     """Return the (k, 3) directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer.
 
-    Return also 1 for the largest or -1 for the least; the angle by which noise may have turned the directions; and
-    whether they are isolated: for a circle of directions its poles are returned. There are none, (0, 3), if the moment
-    is the same in all directions.
+    Return also 1 for the largest or -1 for the least, the angle by which noise may have turned the directions, and
+    whether they are isolated. A circle of directions is replaced by its poles. There are no directions, (0, 3), if the
+    moment is the same in all of them.
     """
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _normalization(central, spread, degree)[1].max()
@@ -225,7 +225,7 @@ def _extreme_directions(
         extremes.append((distinct_arrays(top, DISTINCT_DIRECTIONS), sign))
     directions, sign = min(extremes, key=lambda pair: len(pair[0]))
     tilt = noise / span
-    # If extreme directions form a circle, the moment is the same all around its axis: no slope leads around it.
+    # If extreme directions form a circle, the moment is the same all around the circle: no slope leads along it.
     around = np.cross(everywhere, _contract(tensor, degree - 1, everywhere))
     pole = np.linalg.eigh(around.T @ around)[1][:, 0]
     is_round = np.abs(around @ pole).max() <= min(noise, MAX_EQUAL_SHARE * span)
@@ -239,8 +239,8 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
 
     The search starts from the highest points of a grid over the sphere: along the sphere the function is a
     trigonometric polynomial of this span, so that by Bernstein's inequality it loses at most (degree MAX_START_GAP)²
-    span / 4 on the way from a maximum to the nearest of them. Steps are Newton's in the directions that are curved, and
-    always uphill.
+    span / 4 on the way from a maximum to the nearest of them. Steps are Newton's in curved directions, and always
+    uphill.
     """
     points, scale = spread_directions(START_DIRECTIONS), degree**2 * span
     height = _contract(tensor, degree, points)
@@ -280,7 +280,7 @@ def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDAr
 
 
 def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> tuple[NDArray, NDArray]:
-    """Return for monomials of a degree their scales, products of extents, and their normalized moments' noise."""
+    """Return the scales of a degree's monomials, products of extents, and the noise of their normalized moments."""
     powers = monomials(degree)[monomial_index(degree, 0, 0) :]
     size = extents_of(spread.size)
     unit = np.prod(size**powers, axis=1)
@@ -293,7 +293,7 @@ def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> t
 
 
 def extents_of(size: NDArray) -> NDArray[np.float64]:
-    """Return (..., 3) extents, infinite along an axis with hardly any: no noise is divided by almost nothing."""
+    """Return (..., 3) extents, infinite along an axis with hardly any, because noise is divided by them."""
     return np.where(size > FLAT_EXTENT_RTOL * size.max(axis=-1, keepdims=True), size, np.inf)
 
 

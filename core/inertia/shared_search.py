@@ -2,17 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frames of many bodies at once: the search of `canonical_frame`, and the choice of half turns.
 
-The search for the axes of bodies with equal second moments is made once for equal bodies: the frames of a body are
-decided by its normalized moments rounded to a tenth of the noise level, in coordinates in which each extent is one. So
-bodies that are copies of each other but for the rounding of their coordinates are mostly one problem, which is solved
-once and remembered; and the result depends on the body alone, not on earlier measurements. The frames are then refined
-for the body's own moments: directions of extreme moments by Newton's steps, turns about them by the phase of the
-harmonic that has fixed them. After that they are the body's, to rounding.
+Equal bodies with equal second moments share one search for their axes. The search takes their normalized moments, in
+coordinates in which each extent is one, rounded to a tenth of the noise level. Copies whose coordinates differ by
+rounding have mostly the same rounded moments, and the solution is remembered; it depends on the body alone, not on
+earlier measurements. The frames are then refined for the body's own moments: Newton's steps refine the directions of
+extreme moments, and the phase of the harmonic that fixed the turns about them refines these turns.
 
-Other bodies need no search: those with only the signs of axes left to choose, and those that no moment fixes about an
-axis. A frame turned by half a turn about one of its axes has the same normalized moments, but for the signs of the
-moments that are odd in both other axes. So the frames with the largest moments, among those that differ by half turns,
-follow from the first moment above noise of each odd kind.
+Two kinds of bodies need no search: if only the signs of axes are left to choose, and if no moment fixes the turn about
+an axis. A frame turned by half a turn about one of its axes has the same normalized moments, except for the signs of
+the moments that are odd in both other axes. So among frames that differ by half turns, the first moment above noise of
+each odd kind decides which have the largest moments.
 """
 
 from __future__ import annotations
@@ -54,7 +53,7 @@ GRID = 1e-6  # step of normalized moments, times NOISE_GROWTH: a tenth of NOISE_
 LEAST_BOUND = 2.0**-30  # least bound; larger ones are rounded up to three binary digits, so that copies agree
 MAX_KNOWN = 1024  # problems that are remembered
 MAX_TAIL = 4.0  # times NOISE_GROWTH: for larger moments, as of spikes, rounding turns axes by more than noise
-MAX_CORRECTION = 1e-4  # bodies with frames that a refinement turns by more are searched one by one
+MAX_CORRECTION = 1e-4  # a body whose frames a refinement turns by more is searched alone
 REFINEMENTS = 2  # each squares the error, at first the grid's 1e-6
 CONVERGED = 1e-9  # A body whose directions turn by less is refined: another step would move them by rounding alone.
 NO_VALUES = np.empty(0)
@@ -66,7 +65,7 @@ STEP = GRID * np.array(NOISE_GROWTH)[DEGREE[THIRD:]]
 BELOW_THIRD = np.where((POWERS[:THIRD] % 2 == 0).all(axis=1), 1.0, 0.0)  # for a body with extents of one
 # By the parity of p, q and r: 0 if half turns change no sign, else 1 to 3 for the exponent of other parity.
 ODD_KIND = np.array([[[0, 3], [2, 1]], [[1, 2], [3, 0]]])
-# Signs that moments of each such kind get by no half turn, and by half turns about axes 1, 2 and 3.
+# Signs of the moments of each such kind after no half turn, and after half turns about axes 1, 2 and 3.
 HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]])
 
 
@@ -87,7 +86,7 @@ def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np
 
 
 def _check_range(moments: Moments, size: NDArray[np.float64]) -> None:
-    """Raise MeasureError if the highest moments of bodies with these (n, 3) extents are no numbers."""
+    """Raise MeasureError if the highest moments of bodies with these (n, 3) extents exceed the range of numbers."""
     with np.errstate(over="ignore", under="ignore"):
         reach = moments.raw[:, 0] * size.max(axis=1) ** moments.order
     if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
@@ -165,7 +164,7 @@ def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDAr
 def _whitened(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (n, K) central moments along (n, 3, 3) axes, over total and extents; bounds by degree; (n, 3) extents."""
+    """Return (n, K) central moments along (n, 3, 3) axes, divided by total and extents; bounds by degree; extents."""
     central = moments.about_center()
     free = list(EQUAL_AXES[name])
     extent = fixed.size[bodies].copy()
@@ -289,7 +288,7 @@ def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDAr
 def _along_axes(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Return (n, columns) normalized moments of order ≥ 3 along the axes, their noise, and (n, K) central ones."""
+    """Return (n, columns) normalized moments of order ≥ 3 along the axes, their noise, and (n, K) central moments."""
     central = moments.about_center()
     order, total, size = central.order, central.raw[:, :1], fixed.size[bodies]
     _check_range(central, size)
@@ -308,8 +307,9 @@ def _along_axes(
 def _harmonics(axis: int, order: int) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
     """Return the harmonics E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0.
 
-    z is along this axis, x and y along the next. Return three arrays: (h,) factors on the noise of a moment that give
-    the noise of each harmonic; (h,) the column, from third order on, of that moment; and (h, columns) coefficients.
+    z is along this axis, x and y along the next. Return three arrays. The noise of each harmonic is a factor, (h,),
+    times the noise of a moment, whose column from third order on is in the second array, (h,). The third has (h,
+    columns) coefficients.
     """
     weights, columns, forms = [], [], []
     for degree in range(3, order + 1):

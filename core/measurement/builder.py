@@ -39,7 +39,7 @@ from .settings import Settings
 MAX_FACES_HIGH_ORDER = 20_000
 NO_AXES_FIXED = "isotropic"
 MAX_CENTER_BOUND = 1e-3  # relative to the largest radius of gyration: the center is uncertain above it
-# Sizes that error bounds are compared with and shown as shares of.
+# Error bounds are compared with these sizes, and shown as shares of them.
 BOUNDED = ("volume", "value"), ("area", "value"), ("smallest principal moment", "value"), ("center of mass", "size")
 Extent = tuple[float, float, float]  # a volume or area, and the bounds of rounding and of float32 coordinates
 
@@ -144,7 +144,7 @@ def measure_total(
 
 
 def find_large_bounds(volume: Moments, area: Moments, properties: MassProperties) -> list[tuple[Finding, ...]]:
-    """Return for each of n stacked bodies the findings about error bounds that its values do not exceed clearly."""
+    """Return for each of n stacked bodies the findings about error bounds that are large for its values."""
     errors, principal = (properties.rounding_error, properties.input_error), properties.principal.moments.reshape(-1, 3)
     inertia, center = (sum([np.atleast_1d(bounds[name]) for bounds in errors]) for name in ("inertia", "center"))
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -161,7 +161,7 @@ def find_large_bounds(volume: Moments, area: Moments, properties: MassProperties
 
 
 def _total_moments(extent: Extent, about: NDArray[np.float64], measure: Measure) -> Moments:
-    """Return moments of which only the total and its bounds are known; all others are zero."""
+    """Return moments with a known total and its bounds; all others are zero."""
     raw, rounding, inputs = np.zeros((3, monomial_count(KNOWN_ORDER)))
     raw[0], rounding[0], inputs[0] = extent
     return Moments(raw, about, measure, rounding, inputs)
@@ -234,7 +234,7 @@ def _higher(body: Body, shell: bool) -> Callable[[], Moments | OwnMoments] | Non
 
 
 def _to_order(body: Body, settings: Settings, order: int) -> tuple[Moments | None, Moments] | None:
-    """Return the moments of volume and area to an order; None if the body's own suffice. Raise ReadError if unknown."""
+    """Return moments of volume and area to an order; None if the body's own suffice; ReadError if they are unknown."""
     shell = settings.kind == "shell"
     if order < KNOWN_ORDER and (shell or not settings.surface):
         return None

@@ -29,11 +29,10 @@ class Body:
     """The moments of a whole object, in SI units and world axes; the base class knows them to third order only.
 
     `volume`: known to third order at least. `length`: of a wire. `wall`: the material of a shell of real thickness.
-    `mass`: moments in kg of a body of varying density; `higher_mass`: the same to the requested order, above third.
-    `density_from`: source of a varying density, with a code ``density_from_…``.
-    `density_key`: settings that decide a varying density, for the fingerprint; `materials`: full names of those read.
-    `estimated`: true if the error bounds are estimates.
-    `display_volume`: volume of the display mesh, m³, for a body that is measured without it.
+    `mass`: moments in kg of a body of varying density; `higher_mass`: these moments to the requested order, above
+    third. `density_from`: source of a varying density, with a code ``density_from_…``. `density_key`: settings of a
+    varying density, for the fingerprint; `materials`: full names of the materials read. `estimated`: true if the error
+    bounds are estimates. `display_volume`: volume of the display mesh, m³, for a body that is measured without it.
     `face_count`: number of measured triangles and quads.
     """
 
@@ -65,7 +64,7 @@ class Body:
         return self.volume
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments that fix the axes, in own coordinates if of one surface under a similarity."""
+        """Return the moments that fix the axes; a single surface under a similarity keeps its own coordinates."""
         volume, areas = self.moments(order, area)
         return volume if areas is None else areas
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shells with a tree of boxes each, to locate places inside them and to find shells that go through each other.
 
-A place is located by the winding number, counted along a ray that is parallel to no axis; the crossings are counted in
-the plane across the ray with signs that neighboring triangles share, so that no ray slips through between two of them
+The winding number locates a place; it is counted along a ray that is parallel to no axis. The crossings are counted in
+the plane across the ray, with signs that neighboring triangles share, so that no ray slips through between two of them
 (half-open edges, the watertight rule of rasterizers). Both searches walk down the trees with all pairs and points at
 once, in bounded pieces of work. Pairs of single boxes that meet are found by a sweep along the best axis.
 """

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Correspondences of two meshes: the similarities that lay one onto the other, and the elements that meet.
 
-A similarity is fixed by the images of two vertices and the hand. Two vertices of one mesh that few others resemble are
-paired with all that resemble them in the other mesh, so that every symmetry is found. Each candidate is proven on all
+The images of two vertices and the handedness fix a similarity. Two vertices of one mesh that few others resemble are
+paired with all similar vertices of the other mesh, so that every symmetry is found. Each candidate is proven on all
 vertices, edges and faces, which may be numbered in any order.
 """
 
@@ -15,10 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-DIRECTION = np.array([0.7071, 0.5477, 0.4472])  # along which the points of hardly any mesh coincide
+DIRECTION = np.array([0.7071, 0.5477, 0.4472])  # hardly any mesh has points that coincide along this direction
 MAX_CANDIDATES = 500  # similarities that are compared in full
 PROBES = 6  # vertices that are compared first
-RESEMBLANCE = 20.0  # tolerances within which the scores of equal vertices lie
+RESEMBLANCE = 20.0  # the scores of equal vertices differ by at most so many tolerances
 Indices = NDArray[np.intp]
 
 
@@ -70,8 +70,8 @@ def correspondences(
 ) -> Iterator[Correspondence]:
     """Yield the correspondences of two meshes with equal counts; tolerance: relative to the second mesh's radius.
 
-    labels: (n,) numbers that equal vertices have in common. The correspondence that keeps the numbers of all vertices
-    comes first, if there is one; then those that turn least.
+    labels: (n,) numbers, the same for equal vertices. The correspondence that keeps the numbers of all vertices comes
+    first, if there is one; then come those that turn least.
     """
     count, loose = len(first.points), 4.0 * tolerance
     if not count or not first.radius or not second.radius:
@@ -148,7 +148,7 @@ def _anchors(points: NDArray, scores: NDArray, near: float) -> tuple[int, int] |
 
 
 def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
-    """Return (k, 3, 3) right-handed frames, as columns, whose first axes are (k, 3) and in whose planes lie others."""
+    """Return (k, 3, 3) right-handed frames, as columns: x along `first`, `second` in the plane of x and y."""
     x = first / np.linalg.norm(first, axis=1, keepdims=True)
     z = np.cross(x, second)
     z /= np.maximum(np.linalg.norm(z, axis=1, keepdims=True), np.finfo(float).tiny)
@@ -158,9 +158,9 @@ def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
 def _prove(
     first: Elements, second: Elements, places: Indices, others: Indices, mirrored: bool, tolerance: float
 ) -> Correspondence | None:
-    """Return the correspondence of meshes whose vertices have (n,) numbers of places, equal ones for those that meet.
+    """Return the correspondence of two meshes; None if points, edges or faces do not meet.
 
-    None if points, edges or faces do not meet.
+    places, others: (n,) numbers of the vertices' places, equal if vertices meet.
     """
     meeting = _match_faces(first, second, places, others, mirrored)
     if meeting is None:
@@ -184,7 +184,7 @@ def _prove(
     error = np.linalg.norm(points @ linear.T + offset - met, axis=1).max()
     if error > limit:
         return None
-    # Of maps that are as good but for rounding, the one that changes least counts.
+    # Of maps that are equally good up to rounding, take the one that changes least.
     rounding = 4.0 * np.finfo(np.float32).eps * max(np.abs(points).max(), np.abs(met).max())
     for simple in [] if mirrored else [np.zeros(3), met.mean(axis=0) - first.middle]:
         if np.linalg.norm(points + simple - met, axis=1).max() <= min(2.0 * error + rounding, limit):
@@ -195,7 +195,7 @@ def _prove(
 
 
 def _similarity(source: NDArray, target: NDArray, mirrored: bool) -> tuple[NDArray, NDArray]:
-    """Return the map and the offset of the similarity of this hand that moves (n, 3) points nearest to others."""
+    """Return map and offset of the similarity, of this handedness, that moves (n, 3) points nearest to others."""
     middle, other = source.mean(axis=0), target.mean(axis=0)
     a, b = source - middle, target - other
     u, _, vt = np.linalg.svd(b.T @ a)

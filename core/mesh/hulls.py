@@ -3,12 +3,12 @@
 """Convex hulls of points in space, by quickhull with many points at a time and exact decisions.
 
 Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Each round here adds, in a few
-operations on arrays, all such points that see no face in common, and no face across another point's horizon. The order
-of these points does not matter, because a face over a horizon's edge is a positive combination of the two faces at that
-edge.
+operations on arrays, all such points that see no face in common, and no face across another point's horizon. Their
+order does not matter, because a face over a horizon's edge is a positive combination of the two faces at the edge.
 
-The points are rounded to a grid of 2^29 steps over the largest extent. On this grid integers decide without rounding on
-which side of a face a point is: the result is always a closed convex surface. The points stay as they are.
+The points are rounded to a grid of 2^29 steps over the largest extent. On this grid, integers decide without rounding
+on which side of a face a point lies, so the result is always a closed convex surface. The points themselves are not
+changed.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class ConvexHull:
 
     points, indices: (h, 3) corners as given, and (h,) their indices in the input. triangles: (m, 3) rows of `points`,
     counter-clockwise from outside. neighbors: (m, 3) the triangle across each side: from corner 0 to 1, from 1 to 2,
-    from 2 to 0. is_flat: True if all points are in one plane. gap: bound of the distances of points outside the hull;
+    from 2 to 0. is_flat: True if all points are in one plane. gap: bound of the distances of points from the hull,
     above the tolerance if the limit of corners was reached.
     """
 
@@ -69,7 +69,7 @@ def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | N
     tolerance : float
         Relative to the largest extent: points outside by less are left out. Below 1e-8 the grid's steps show.
     max_corners : int, optional
-        Limit of the corners; the other points, which are outside by the least, are left out.
+        Limit of the corners; the points that are outside by the least are left out.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | N
 
 
 def hull_volumes(points: NDArray[np.float64], starts: NDArray[np.intp], tolerance: float) -> NDArray[np.float64]:
-    """Return the volumes of the hulls of (k,) sets of points, which begin at these rows; all hulls grow at once.
+    """Return the hull volumes of (k,) sets of points, which begin at the rows `starts`; all hulls grow at once.
 
     tolerance: relative to the extent of each set, as for `convex_hull`. A flat set has no volume.
     """
@@ -163,17 +163,17 @@ def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
 
 
 def _farthest(distances: NDArray, reach: NDArray, least: float) -> int:
-    """Return the index of the largest distance; among distances equal to `least`, of the largest reach: a corner."""
+    """Return the index of the largest distance; among distances equal within `least`, the largest reach: a corner."""
     equal = np.flatnonzero(distances >= distances.max() - least)
     return int(equal[reach[equal].argmax()])
 
 
 class _GrowingHull:
-    """Hulls on the grid, one of each set of points, and the points still outside, each with a face that it sees.
+    """Hulls on the grid, one for each set of points; and the points still outside, each with a face that it sees.
 
     first: (k, 4) corners of a tetrahedron in each set. owner: (n,) the set of each point, or -1 to leave it out.
-    corners: (m, 3) of its faces. normals: (m, 3) exact integers. outside, seen, height: the points, their faces, and
-    their heights in steps of the grid. reach: squared distances of all points from the middle.
+    corners: (m, 3) of the faces. normals: (m, 3) exact integers. outside, seen, height: the outside points, their
+    faces, and their heights in steps of the grid. reach: squared distances of all points from the middle.
     """
 
     def __init__(self, grid: NDArray[np.int64], first: NDArray[np.intp], owner: NDArray[np.intp], step: float) -> None:
@@ -204,7 +204,7 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """Return outside points, the face each is highest above (of `counts` from `firsts` on), and their heights."""
+        """Return outside points, the highest face below each (of `counts` from `firsts` on), and their heights."""
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
             number = counts[block]
@@ -220,12 +220,12 @@ class _GrowingHull:
         return points, faces, height
 
     def add_points(self, most: int | None = None) -> bool:
-        """Add at most so many farthest points whose visible faces do not touch. Return whether there were any."""
+        """Add at most `most` farthest points whose visible faces do not touch. Return whether there were any."""
         if not len(self.outside):
             return False
         farthest = np.zeros(len(self.corners))
         np.maximum.at(farthest, self.seen, self.height)
-        # Points that are equally far to the tolerance: take one at a corner, the farthest from the middle.
+        # Of points that are equally far within the tolerance, take a corner: the one farthest from the middle.
         place = np.flatnonzero(self.height >= farthest[self.seen] - self.step)
         order = np.lexsort((self.reach[self.outside[place]], self.seen[place]))
         seen = self.seen[place[order]]

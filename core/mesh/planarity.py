@@ -3,13 +3,13 @@
 """Faces that are not flat, and faces without area.
 
 A face that is not flat has no volume under it until somebody chooses its diagonals. For a quad the two choices differ
-by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6; for a polygon the fans from its first and its second corner
-differ by the tetrahedra on their common edge and each further one. A face counts as not flat if its diagonals pass each
-other by more than its coordinates' own errors and a millionth of its size, and it has an area.
+by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6. For a polygon, the fans from its first and its second corner
+differ by tetrahedra that join the edge of these two corners to each other edge. A face counts as not flat if its
+diagonals pass each other by more than its coordinates' own errors and a millionth of its size, and it has an area.
 
 The kernel of the moments hands most of these numbers to a `PlanarityAccumulator`, a block at a time. A quad's normal is
-the sum of its triangles' normals, of lengths p and q: it is at most p + q long, and at least 0.7 (p + q) unless they
-face away from each other. Faces that this does not decide are looked at one by one.
+the sum of its triangles' normals, of lengths p and q. It is at most p + q long, and at least 0.7 (p + q) unless the
+triangles face away from each other. Faces that this does not decide are classified one by one.
 """
 
 from __future__ import annotations
@@ -71,13 +71,12 @@ class PlanarityAccumulator:
         self.quads: dict[int, _PlanarityPartial] = {}
         self.triangles: dict[int, _PlanarityPartial] = {}
         self.cones: tuple[float, float] | None = None
-        # Faces looked at one by one are scaled to about size 1, so that sixth powers of small lengths do not
-        # underflow.
+        # Faces classified one by one are scaled to about size 1, because sixth powers of small lengths underflow.
         self.exponent = int(np.frexp(max(size, float(np.finfo(np.float32).tiny)))[1])
 
     @cached_property
     def degenerate_limit(self) -> float:
-        """The largest length of a triangle's normal, or sum for a quad's triangles, that a face without area has."""
+        """The largest length of the normal, for a quad the sum of its triangles' normals, of a face without area."""
         longest = 3.0 * self.extent * self.extent  # no face is longer than √3 times the extent
         return float(2.0 * np.sqrt(_degenerate_limit(longest, self.error)))
 
@@ -154,7 +153,7 @@ class PlanarityAccumulator:
 
 @dataclass(frozen=True, eq=False)
 class StackPlanarity:
-    """Flatness of the faces of n surfaces: `Planarity` of each; (f,) the faces without area, and if it has such."""
+    """`Planarity` of each of n surfaces; (f,) the faces without area, and whether each surface has such faces."""
 
     non_planar_counts: NDArray[np.intp]
     volume_spread: NDArray[np.float64]
@@ -212,7 +211,7 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
 def _classify_rows(
     points: NDArray, corners: NDArray, pairs: tuple, error: float | NDArray, exponent: int | NDArray
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return (m,) sixfold tetrahedra of faces' corners, scaled, 0 if flat, and a mask of faces without area."""
+    """Return (m,) 6 times the scaled tetrahedra of faces' corners, 0 if flat, and a mask of faces without area."""
     volumes, bare = [np.empty(0)], [np.empty(0, bool)]
     for start in range(0, len(corners), FACES_PER_BLOCK):
         part = slice(start, start + FACES_PER_BLOCK)
@@ -243,7 +242,7 @@ def _tetrahedra(
 
 
 def _sum_in_order(volumes: NDArray[np.float64]) -> float:
-    """Return the sum, added one by one as in a stack of bodies: `np.add.reduce` would add in another order."""
+    """Return the sum, added one by one as in a stack of bodies; `np.add.reduce` adds in another order."""
     return float(sums_by_index(np.zeros(len(volumes), np.intp), volumes, 1)[0])
 
 

@@ -4,12 +4,12 @@
 
 The lines run along the shortest side of a body's box, a little aslant, so that they are parallel to none of the box's
 faces. Across the box they form a lattice of rows and columns. As in drawing a picture, a row crosses a triangle between
-two of its edges, and columns in between meet it: only faces with corners in several rows and columns cause work. A row
-crosses an edge with one end above the row, at a place that is computed from the vertex with the lower index on:
-triangles that share the edge get the same place, and no line slips through between them.
+two of its edges, and the columns between these meet it: only faces with corners in several rows and columns cause work.
+A row crosses an edge if one end is above the row. The place is computed from the vertex with the lower index on, so
+that triangles that share the edge get the same place, and no line slips through between them.
 
-Several bodies share a scan, each with its own lines and the same result as alone. Fewer rows are taken of a body if
-the work would exceed the limit for its number of triangles.
+Several bodies share a scan, each with its own lines and the same result as alone. Rows of a body are left out if the
+work would exceed the limit for its number of triangles.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class LineGrids:
 
     @classmethod
     def through_points(cls, points: NDArray[np.float64], sizes: NDArray[np.float64]) -> LineGrids:
-        """Make a grid of the single line through a point, (b, 3), of each body; sizes: (b,) of the bodies."""
+        """Make a grid of a single line for each body, through (b, 3) points; sizes: (b,) of the bodies."""
         count = len(points)
         cell = np.repeat(4.0 * sizes[:, None], 2, axis=1)
         return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
@@ -128,7 +128,7 @@ def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer]
     corners, count = triangles.ravel(), triangles.shape[1]
     owner = np.zeros(count, np.intp) if body is None else body[triangles[0]].astype(np.intp)
     places = grids.places(surface.points.take(corners, 0), None if body is None else body[corners])
-    above = np.ceil(places[0]).astype(np.intp).reshape(3, count)  # the first row that the corner is not above
+    above = np.ceil(places[0]).astype(np.intp).reshape(3, count)  # the lowest row that is not below the corner
     first, last = (np.clip(end, 0, grids.rows) for end in (np.minimum.reduce(above), np.maximum.reduce(above)))
     bodies, faces = len(grids.cell), _count_faces(surface, body, len(grids.cell))
     apart = _rows_apart(sums_by_index(owner, last - first, bodies), MAX_PAIRS, faces)
@@ -160,7 +160,7 @@ def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer]
 def _cells(
     points: NDArray[np.floating], grids: LineGrids, body: NDArray[np.integer] | None
 ) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """Return the (n,) first rows and the (n,) first columns that the points are not above."""
+    """Return the (n,) lowest rows and the (n,) lowest columns that are not below the points."""
     short = max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4  # the cache holds more of these
     cells = np.empty((2, len(points)), np.int16 if short else np.int32)
     for start in range(0, len(points), POINTS_PER_BLOCK):
@@ -187,7 +187,7 @@ def _rows_apart(work: NDArray[np.float64], limit: tuple[int, float], faces: NDAr
 def _crossed_triangles(
     surface: Surface, cells: tuple[NDArray[np.integer], NDArray[np.integer]]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (3, k) corners of the triangles, or halves of quads, that span several rows and columns, and indices."""
+    """Return (3, k) corners, and indices, of the triangles, or halves of quads, that span several rows and columns."""
     triangles, number = [np.empty((3, 0), np.intp)], [np.empty(0, np.intp)]
     quads = surface.quads
     for faces in (quads, surface.triangles):

@@ -21,7 +21,7 @@ MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their 
 def sum_of_images(moments: Moments, matrices: ArrayLike) -> Moments:
     """Return the summed moments of one body's images under (k, 4, 4) affine maps, at least one.
 
-    It is about the mean of the images of `moments.about`. ValueError if a map of areas or lengths is no similarity.
+    Its point is the mean of the images of `moments.about`. ValueError if a map of areas or lengths is no similarity.
     """
     matrices = float_array("matrices", matrices, "k", 4, 4, finite=True)
     check_filled("matrices", matrices)
@@ -69,8 +69,8 @@ def _image_error_bounds(
     """Return (K,) `rounding_error`, including the rounding of the maps, and (K,) `input_error` of the sum of k images.
 
     By degree: if the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product of
-    n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest of
-    its degree. An offset that may be off by `tolerance` changes it by at most n `tolerance` times n-1 forms.
+    n linear forms has binomial(n, j) stretch^j reach^(n-j) moments of degree j, each at most the largest one. An offset
+    that may be off by `tolerance` changes it by at most n `tolerance` times n-1 forms.
     """
     order = moments.order
     degree = monomials(order).sum(axis=1)

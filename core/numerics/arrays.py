@@ -39,7 +39,7 @@ def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
 
 
 def as_unsigned(indices: NDArray[np.integer]) -> NDArray[np.unsignedinteger]:
-    """Return a view in which a negative index is a large one."""
+    """Return an unsigned view, in which a negative index is a large number."""
     return indices.view(indices.dtype.str.replace("i", "u"))
 
 
@@ -96,7 +96,7 @@ def following_pairs(
 
 
 def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None) -> NDArray[np.intp]:
-    """Return (n,) for each row the first row with the same bits; slots: (n,) for the first round."""
+    """Return (n,) indices of the first row with the bits of each row. slots: (n,) hash slots of the first round."""
     bits_of, salt = [column.view(np.uint64) for column in columns], 0
     first = rest = np.arange(len(columns[0]), dtype=np.min_scalar_type(-len(columns[0])))
     while len(rest):
@@ -107,7 +107,7 @@ def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None
                 key = hash_uint64(key + column)
             slots = (key & np.uint64(size - 1)).view(np.intp)
         winner = np.empty(size, rest.dtype)
-        winner[slots[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=rest.dtype)  # the last write wins
+        winner[slots[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=rest.dtype)  # numpy keeps the last of equal slots
         winner = winner.take(slots).astype(np.intp)
         lost = np.zeros(len(rest), bool)
         for column in bits_of:

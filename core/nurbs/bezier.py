@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Bézier patches that B-spline patches consist of, many at once, and their values at Gauss points.
 
-Between its knots a B-spline patch is a Bézier patch; its control points are the B-spline's weighed by the blossoms of
+Between its knots a B-spline patch is a Bézier patch; its control points are the B-spline's, weighted by the blossoms of
 its basis (`SplineSpace.bezier_extraction`). From there on no knots are needed: all patches of the same orders are one
-array, the tables at Gauss points are those of Bernstein's polynomials, and halving a patch is a Bézier patch again.
+array, the tables at Gauss points are those of Bernstein's polynomials, and half a patch is a Bézier patch again.
 """
 
 from __future__ import annotations

@@ -89,11 +89,11 @@ def display_table(space: SplineSpace, parameters: NDArray) -> NDArray[np.float64
 def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None]) -> list[Patch]:
     """Convert a patch with any knots into patches of the same surface with Blender's flags *Bézier* and *Endpoint*.
 
-    There are several if the surface may jump, at knots with the multiplicity of the order. domain: (low, high) of s and
-    of t, the part to convert; None for all of it. ValueError if the part is not in the domain, or an order is 1.
+    A surface that may jump, at knots with the multiplicity of the order, gives several patches. domain: (low, high) of
+    s and of t, the part to convert; None for all of it. ValueError if the part is not in the domain, or an order is 1.
 
-    By Boehm's knot insertion, as blossoms: each new control point is the same affine combination of old ones, whether
-    the knots are inserted one at a time or at once.
+    Knots are inserted by Boehm's algorithm, as blossoms: each new control point is the same affine combination of old
+    ones, whether the knots are inserted one at a time or at once.
     """
     pieces = [list(_pieces(space, part)) for space, part in zip(patch.spaces, domain)]
     old_net = patch.points if patch.weights is None else homogeneous(patch.points, patch.weights)

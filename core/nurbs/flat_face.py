@@ -35,8 +35,8 @@ MAX_CHORDS = 8192  # Limit with finer samples.
 class FlatFace:
     """A region of a plane.
 
-    loops: closed boundaries, each of curves end to end, with the region on their left. normal: (3,) the unit vector
-    that sees them so.
+    loops: closed boundaries, each of curves end to end, with the region on their left, seen from the side of `normal`,
+    a (3,) unit vector.
     """
 
     loops: tuple[tuple[Curve, ...], ...]
@@ -56,7 +56,7 @@ class FlatFace:
 
     @property
     def sides(self) -> tuple[tuple[Curve, bool], ...]:
-        """The boundary curves, and True for each, as the face is on its left."""
+        """The boundary curves, and True for each, because the face is on its left."""
         return tuple((curve, True) for curve in self.curves)
 
     @property
@@ -76,7 +76,7 @@ class FlatFace:
 
     @property
     def deviation(self) -> float:
-        """The largest distance of a control point from the plane, by rounding."""
+        """The largest distance, by rounding, of a control point from the plane."""
         return float(np.abs((self.points - self.center) @ self.normal).max())
 
     @property
@@ -90,7 +90,7 @@ class FlatFace:
         return FlatFace(loops, -self.normal)
 
     def transform(self, matrix: ArrayLike) -> FlatFace:
-        """Return its image under an affine map (4, 4)."""
+        """Return the face's image under an affine map (4, 4)."""
         matrix = np.asarray(matrix, np.float64)
         normal = np.cross(*(matrix[:3, :3] @ self._frame).T)
         loops = tuple(tuple(curve.transform(matrix) for curve in loop) for loop in self.loops)
@@ -101,7 +101,7 @@ class FlatFace:
         return plane_moments(self.curves, self.normal, order, self.center).about_point(about)
 
     def volume_moments(self, order: int, about: NDArray) -> Moments:
-        """Return the moments of the cone from a point (3,) to the region: its share in those of a body."""
+        """Return the moments of the cone from a point (3,) to the region: the region's share in a body's moments."""
         area, degree = self.area_moments(order, about), monomials(order).sum(axis=1)
         height = float((self.center - about) @ self.normal)
         reach = float(np.sqrt(((self.points - about) ** 2).sum(axis=-1).max()))

@@ -4,9 +4,9 @@
 
 Orientation and caps are decided anew each time, as in `measure_patches`; only the moments come from tables
 (`IncrementalPatchMoments`). For rational patches the tables' rule is fixed and has no error estimate. Its error depends
-on the weights, so the rule is compared with measured moments: of the body, and of patches with its weights and random
-points, as a flat body says little about later shapes. If the weights change, or the body moves far from the reference
-point of its moments, everything is measured anew.
+on the weights, so the rule is compared with the measured moments of the body, and of patches with its weights and
+random points, because a flat body says little about later shapes. If the weights change, or the body moves far from the
+reference point of its moments, everything is measured anew.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class TrackedSolid:
         self._error, self._area_error = volume.rounding_error / largest, area.rounding_error[:1] / area.total
         if any(patch.weights is not None for patch in patches):
             tables = self._assess(patches, self.measure.topology, stored).volume
-            # The worst of all moments stands for each: of a symmetric body one may be right by chance.
+            # The worst of all moments stands for each, because a symmetric body may have a single one right by chance.
             off = float((np.abs(tables.raw - volume.raw) / largest).max())
             off = max([off] + [_rule_error_at_random(patch) for patch in patches if patch.weights is not None])
             self._error, self._is_tracking = self._error + RULE_ERROR_GROWTH * off, off <= MAX_RULE_ERROR
@@ -70,7 +70,7 @@ class TrackedSolid:
         return np.asarray(area * reach ** (monomials(3).sum(axis=1) + 1.0), np.float64)
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
-        """Measure the patches in their current shape; return True if tables sufficed, else all is measured anew."""
+        """Measure the patches in their current shape; return True if tables sufficed, False if all is measured anew."""
         size, about = patches_size(patches), self.measure.volume.about
         if not (
             self._is_tracking
@@ -132,7 +132,7 @@ class IncrementalPatchMoments:
     Only the matrices from control points to Bézier ones (`bezier`) are precomputed: the integrals of products of basis
     functions Φ of Soldea, Elber and Rivlin (section 3) need up to 10,000 times as much memory. Gauss rules are exact
     for polynomial patches; for rational ones there is no error estimate. `area` is the area of the patch as last
-    evaluated, by the same points: an approximation.
+    evaluated, an approximation by the same points.
     """
 
     def __init__(self, patch: Patch, order: int, about: NDArray):

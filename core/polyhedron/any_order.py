@@ -3,8 +3,8 @@
 """Volume and surface moments of any order of triangles and quads, in memory or as a stream, with rigorous bounds.
 
 Sheynin and Tuzikov (*Explicit formulae for polyhedra moments*, Pattern Recognition Letters 22, 2001): with the
-coefficients S_pqr of 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)), over the cone from the origin on a triangle a, b, c with determinant
-w and over the triangle itself, of doubled area A,
+coefficients S_pqr of 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)), the integrals over the cone from the origin on a triangle a, b, c
+with determinant w, and over the triangle itself, with doubled area A, are
 
     ∫ x^p y^q z^r dV = w p! q! r! / (p+q+r+3)! S_pqr,    ∫ x^p y^q z^r dA = A p! q! r! / (p+q+r+2)! S_pqr.
 
@@ -45,7 +45,7 @@ from .any_order_kernel import UNDERFLOW_BOUND, AnyOrderKernel, Sums, absolute_su
 from .third_order import box_center, finite_box, nothing, quad_corners
 from .third_order_kernel import NO_VERTEX
 
-SCRATCH_NUMBERS = 1_400_000  # limit of a block's scratch; with fewer, two threads wait for each other
+SCRATCH_NUMBERS = 1_400_000  # limit of a block's scratch; with smaller blocks, two threads wait for each other
 # Least faces in a block: numpy copies reused rows that are shorter than half its buffer of 8192.
 MIN_FACES_PER_BLOCK = 4608
 BLOCKS_PER_TASK = 8  # blocks that are handed to a thread at once
@@ -68,7 +68,7 @@ def _exponent(reach: float) -> int:
 
 @dataclass(frozen=True, eq=False)
 class _FaceBatch:
-    """Faces, (m, 3) or (m, 4), of a piece of the body. size: faces in a block. half_ulp: (3,) for its points."""
+    """Faces, (m, 3) or (m, 4), of a piece of the body. size: faces in a block. half_ulp: (3,) of the points."""
 
     points: NDArray
     faces: NDArray
@@ -246,7 +246,7 @@ class StreamIntegrator:
         )
 
     def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
-        """Return bounds of the change if vertices move by half ulps: over the volume that they sweep, or added area."""
+        """Return bounds of the change if vertices move by half ulps, from the swept volume or the added area."""
         swept = total.sizes[2] * (1.0 + 1e-9)
         if of == Measure.VOLUME:
             return swept
@@ -271,7 +271,7 @@ def extend_small_moments(
     counts: NDArray[np.integer],
     reach: NDArray,
 ) -> Moments:
-    """Return the moments of n bodies, `volume` (n, 20), to a higher order; reach: (n, 3) of points from their point."""
+    """Return moments of n bodies, `volume` (n, 20), to a higher order; reach: (n, 3) from their reference points."""
     known, ends = volume.raw.shape[1], np.cumsum(counts)
     powers = monomials(order)[known:]
     degree = powers.sum(axis=1)
@@ -287,7 +287,7 @@ def extend_small_moments(
         sizes.append(np.add.reduceat(np.abs(det), starts))
     raw = np.concatenate(sums) * factors
     largest = monomial_values(reach, order)[:, known:]
-    # A coefficient is off by (6 n + 8) u, a determinant as much as the known total, and the sums by their lengths.
+    # A coefficient has an error of (6 n + 8) u, a determinant that of the known total, and sums that of their lengths.
     relative = U * (14.0 * degree + 16.0 + 3.0 * counts[:, None])
     size = np.concatenate(sizes)[:, None] / (2.0 * degree + 6.0)
     error = (relative * size + 2.0 * volume.rounding_error[:, :1]) * largest + 8.0 * U * np.abs(raw)

@@ -81,8 +81,8 @@ def enclosed_moments(
 ) -> SimplexMoments:
     """Return the moments of the inside of a boundary of simplices, in any dimension.
 
-    The moments are about the middle of the bounding box of the used points, unless `about` is given. The moments of an
-    open boundary would depend on that point: it is refused unless `allow_open`.
+    The moments are about the middle of the bounding box of the used points, unless `about` is given. An open boundary's
+    moments would depend on that point: such a boundary is refused unless `allow_open`.
 
     Parameters
     ----------
@@ -321,7 +321,7 @@ def simplex_arrays(
 
 
 def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> bool:
-    """Return whether every ridge is used as often one way as the other. Points at the same place are one."""
+    """Return whether every ridge is used equally often both ways. Points at the same place count as one."""
     _, corners, parity = _sorted_corners(points, simplices, signs)
     if not len(corners):
         return True

@@ -9,13 +9,13 @@ d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (v b + 
     120 ∫ x x'     = H + (q Z' + Z q') / 2
     288 ∫ x x' x'' = q H + the same for the other two orders of the indices, but for the third moments about q / 2.
 
-These are, of one triangle with e = c - a and f = 2 b - q, v / 2880 (f (f f' + e e') + the other two orders), of the
-order of an edge cubed, and added on request. No sum cancels: all its weights are positive. If no areas are wanted, the
-determinants share a product: with m = (c-a) x a, v = (b-a)·m and w = (a-d)·m.
+With e = c - a and f = 2 b - q these are v / 2880 (f (f f' + e e') + the other two orders) for one triangle. They are of
+the order of an edge cubed, and added on request. No sum cancels, because all weights are positive. If no areas are
+wanted, the determinants share a product: with m = (c-a) x a, v = (b-a)·m and w = (a-d)·m.
 
 Corners are gathered by component, so that numpy runs along contiguous rows. A call costs as much as some thousand
-additions, and threads gain only if calls are long: hence long blocks, few calls, results over rows that are no longer
-needed. einsum sums products over slices of their rows: in one pass, into rows that stay in the cache.
+additions, and threads gain only if calls are long. Hence blocks are long, calls few, and results overwrite rows that
+are no longer needed. einsum sums products over slices of rows, in one pass, into rows that stay in the cache.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from ..mesh.surface import flipped_quads
 from .workspace import Workspace, gather
 
 SLICES_PER_ROW = 32  # slices of a row that einsum adds up
-COLUMNS_PER_CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES_PER_ROW
-MIN_FLIP_COSINE = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
+COLUMNS_PER_CHUNK = 1024  # most columns with one common bound of their edges; a multiple of SLICES_PER_ROW
+MIN_FLIP_COSINE = 1e-6  # float32 may choose a quad's other diagonal if the cosine in float64 is below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
 FLOAT32_UNDERFLOW = 1e-36  # cosines below this may have underflowed there
 NO_VERTEX = "no such vertex"
@@ -73,7 +73,7 @@ def scratch_size(count: int, each: bool, exact: bool) -> int:
 
 
 class _BlockCalls:
-    """Arrays for blocks of one shape, and the numpy calls bound to them: making views in the loop would cost time.
+    """Arrays for blocks of one shape, and the numpy calls bound to them, because views made in the loop cost time.
 
     For faces with c corners there are chunks times width, k columns:
     corners: (3, c, k). weights: (2, c-2, k), the determinants and the doubled areas.
@@ -180,9 +180,9 @@ class BlockAccumulator:
     ) -> None:
         """Add faces, the vertices a, b, c and perhaps d, (k,) each. ValueError if an index names no point.
 
-        quads: the ones that Blender cuts along the other diagonal are left out, and appended to `flipped`, turned by
-        one corner. observe: called with the doubled areas, (c - 2, k); of quads also 6 times the corners' tetrahedra,
-        (k,), the columns with triangles that may face away from each other, and scratch, (2, k).
+        quads: if Blender cuts a quad along the other diagonal, it is left out and appended to `flipped`, turned by one
+        corner. observe: called with the doubled areas, (c - 2, k), and for quads also with 6 times the corners'
+        tetrahedra, (k,), the columns with triangles that may face away from each other, and scratch, (2, k).
         """
         k = len(faces[0])
         shape = (len(faces), *chunk_shape(k), self.area or quads)
@@ -193,7 +193,7 @@ class BlockAccumulator:
             for row, corner in zip(workspace.index, faces):
                 row[:k] = corner
         if k < workspace.index.shape[1]:
-            workspace.index[:, k:] = faces[0][0]  # filled up with faces that are a point
+            workspace.index[:, k:] = faces[0][0]  # faces without extent fill the block
         if workspace.unsigned.max() >= len(self.points):  # a negative index becomes a large one
             raise ValueError(NO_VERTEX)
         gather(self.points, workspace.index, workspace.single, workspace.corners)
@@ -222,10 +222,10 @@ class BlockAccumulator:
     def _find_flipped(
         self, workspace: _BlockCalls, largest: NDArray, k: int
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return the columns below k of quads that Blender may cut along the other diagonal, and of those that it does.
+        """Return the columns below k of quads that Blender may cut along the other diagonal, and of quads that it does.
 
-        The two normals of such a quad face away from each other in float32. That can differ from float64 only if the
-        product is within float32's rounding of zero. The quads are appended to `flipped`.
+        The two normals of such a quad face away from each other in float32. The result in float64 can differ only if
+        the product is within float32's rounding of zero. The cut quads are appended to `flipped`.
         """
         cosine = np.einsum("dk,dk->k", workspace.normals[:, 0], workspace.normals[:, 1], out=workspace.cosine)
         cosine[k:] = np.inf  # the filling of the block

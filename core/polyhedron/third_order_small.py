@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Volume and area moments to third order of bodies of few triangles, one or a stack of them, exact to rounding.
 
-Since numpy's calls cost more than its arithmetic here, all triangles of all bodies are taken at once, by the complete
+Here numpy's calls cost more than its arithmetic, so all triangles of all bodies are taken at once, by the complete
 homogeneous polynomials of their corners (Sheynin and Tuzikov's formula to third order): with s = a + b + c, P = aa' +
 bb' + cc' and a triangle's weight w,
 
@@ -27,7 +27,7 @@ DEGREE = EXPONENTS.sum(axis=1)
 # Factors of each monomial, as indices of 1, x, y, z.
 MONOMIAL_FACTORS = np.sort([[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS])
 DIVISORS = np.array([6.0, 24.0, 120.0, 1080.0])[DEGREE]  # divide the sums below
-PRODUCT_ROUNDINGS = 8.0 * DEGREE  # in u: errors of products of weights and nodes
+PRODUCT_ROUNDINGS = 8.0 * DEGREE  # errors of the products of weights and nodes, in units of rounding
 THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come to as much again at most
 CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
@@ -53,8 +53,8 @@ def small_moments(
 ) -> tuple[Moments, Moments, NDArray[np.float64]]:
     """Return stacked volumes and areas of n bodies, and (n, 2) sums of the cones over faces, positive and signed.
 
-    Triangles are sorted by body, at least one each. reach, half_ulp: (n, 3) of points from `center`, and their shifts
-    by storing. Without `area` the areas are zero, and the `input_error` is larger.
+    Triangles are sorted by body, at least one each. reach: (n, 3) largest distances of points from `center`. half_ulp:
+    (n, 3) their shifts by storage. Without `area` the areas are zero, and the `input_error` is larger.
     """
     coordinates, ends, sums = np.ascontiguousarray(points.T), np.cumsum(counts), []
     for part in batches(counts, TRIANGLES_PER_BLOCK):
@@ -65,7 +65,7 @@ def small_moments(
     products, number = side[:, :, None] * base[:, None] * counts[:, None, None], counts[:, None]
     tau = np.array([products[:, i, j] + products[:, j, i] for i, j in AXIS_PAIRS]).T
     lengths = np.sqrt(np.add.reduce(side * side, axis=1)) + np.sqrt(np.add.reduce(base * base, axis=1))
-    edges = lengths[:, None] * number  # bounds their sum, at the triangles' first corners
+    edges = lengths[:, None] * number  # bound the sums at the triangles' first corners
     rounding, inputs = error_bounds(reach, half_ulp, tau, edges, sizes, number, 3.0 * number, area)
     raw, cones = of_volume / DIVISORS, np.array([sizes[:, 0], of_volume[:, 0]]).T
     error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
@@ -139,14 +139,14 @@ def error_bounds(
     powers, displaced = monomial_bounds(reach), monomial_bounds(moved_reach)
     weight = 9.0 * U * np.array([np.add.reduce(reach * tau, axis=1), np.add.reduce(tau, axis=1)])[:, :, None]
     size = sizes.T[:, :, None] * (1.0 + 1e-9)
-    # Then come their products with the nodes, the sums, and what underflow may lose.
+    # Then come their products with the nodes, the sums, and the loss by underflow.
     steps = PRODUCT_ROUNDINGS + sum_roundings
     rounding = (weight + 1e-290 * counts + (U * (size + weight)) * steps) * powers * THIRD_ORDER_SHARE
     inputs = np.zeros((2, len(reach), 20))
     if half_ulp.any():
         step = np.sqrt(np.add.reduce(half_ulp * half_ulp, axis=1))[:, None]
         double = size[1] if area else np.sqrt(np.add.reduce(tau * tau, axis=1))[:, None]
-        # This is the volume that a closed surface sweeps as float32 moves its points.
+        # A closed surface sweeps this volume if float32 moves its points.
         swept = double / 2.0 + step * edges + 2.0 * step * step * counts
         tilted = step * (edges + 2.0 * step * counts)
         share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # 1 for an axis without extent

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Momentum of a body of moving parts from frame to frame, and the motion that a body without contacts must have.
 
-Velocities are those in the middle between two frames. The center's is exact on a parabola. Parts are followed in the
-axes of the heaviest one, whose turn is interpolated as a quaternion: a rigid body that turns is a body at rest there.
-No interpolation crosses a take-off or a landing, where velocities jump.
+Velocities refer to the middle between two frames. On a parabola the center's velocity is exact. Parts are followed in
+the axes of the heaviest part, whose rotation is interpolated as a quaternion: there a turning rigid body is at rest. No
+interpolation crosses a take-off or a landing, where velocities jump.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.rotations import polar_rotation, quaternion, rotation_matrix
 
-Flight = tuple[int, int]  # indices of the last frame on the ground, or the first of all, and of the first one again
+Flight = tuple[int, int]  # indices of the last frame on the ground, or of frame 0, and of the next frame on the ground
 Span = tuple[int, int, float, float]  # indices of the first and last frame; linear and angular momentum from nothing
 
 NODES, DEGREE = 9, 8  # of the polynomial through the frames around a velocity
-CLOSE, CLOSE_DEGREE = 0.02, 5  # seconds: closer frames turn less, and are captured, with noise that averages out
-AVERAGED = 3  # velocities between frames that those at a frame are computed from
-UNEXPLAINED = 0.2  # of the weight: more force than that, without a contact, comes from nothing
+CLOSE, CLOSE_DEGREE = 0.02, 5  # seconds: closer frames are captured, turn less, and have noise that averages out
+AVERAGED = 3  # velocities between frames that give the velocity at a frame
+UNEXPLAINED = 0.2  # of the weight: more force than that without a contact comes from nothing
 SMOOTHED = 0.1  # seconds over which noise of captured motion averages out
-TRIALS, CORRECTIONS = 12, 10  # of a turn between two frames, and of all turns
+TRIALS, CORRECTIONS = 12, 10  # iterations for a turn between two frames, and for all turns
 CONSTANT = 1e-9  # relative change of the angular momentum
 
 
@@ -58,7 +58,7 @@ class Course:
 
 
 def find_flights(touching: ArrayLike) -> list[Flight]:
-    """Return the flights in (f,) frames that touch the ground or do not, with the frames of contact at their ends."""
+    """Return the flights, with the contact frames at their ends. touching: (f,) mask of the frames on the ground."""
     last = len(np.asarray(touching)) - 1
     return [(max(start - 1, 0), min(end, last)) for start, end in _runs(~np.asarray(touching, bool))]
 
@@ -105,7 +105,7 @@ def momenta_between(course: Course, first: int, last: int) -> tuple[NDArray[np.f
 
 
 def momenta(course: Course, flights: Sequence[Flight]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the (f, 7) motion at the frames and its rate; at the ends of a flight, those of the flight."""
+    """Return the (f, 7) motion at the frames and its rate; the ends of a flight have the motion of the flight."""
     now, change = np.zeros((2, len(course.centers), 7))
     ends = sorted({0, len(course.centers) - 1, *(end for flight in flights for end in flight)})
     for first, last in sorted(zip(ends, ends[1:]), key=lambda section: section in flights):
@@ -116,9 +116,9 @@ def momenta(course: Course, flights: Sequence[Flight]) -> tuple[NDArray[np.float
 
 
 def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray) -> list[Span]:
-    """Return the frames of flights at which the momenta change otherwise than by gravity, and by how much.
+    """Return spans of frames in flights with a change of momenta that gravity does not explain, and its amount.
 
-    A force above a fifth of the weight is unexplained, or its torque at the body's radius of gyration.
+    A force above a fifth of the weight is unexplained, and a torque above this force times the radius of gyration.
     """
     spans, mass = [], float(course.masses.sum())
     limit = UNEXPLAINED * mass * float(np.linalg.norm(gravity))
@@ -141,7 +141,7 @@ def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray
 def zero_moment_points(
     center: NDArray, height: NDArray, force: NDArray, torque: NDArray, weight: NDArray
 ) -> NDArray[np.float64]:
-    """Return (f, 3) points of the ground at which the contact forces have no moment along it; NaN without such forces.
+    """Return (f, 3) ground points about which contact forces have no moment along the ground; NaN without such forces.
 
     center: (f, 3). height: (f,) above the ground. force, torque: (f, 3) rates of the momenta. weight: (3,), a force.
     """
@@ -161,7 +161,7 @@ def ballistic_arc(start: NDArray, end: NDArray, frames: int, step: float, gravit
 
 
 def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
-    """Return the number of frames, not whole, of a free fall as high as an (f, 3) path, between its ends."""
+    """Return the frames, not whole, of a free fall between the ends of an (f, 3) path that rises as high as it."""
     strength = float(np.linalg.norm(gravity))
     heights = -(center - center[0]) @ np.asarray(gravity, np.float64) / strength
     top = float(heights.max())
@@ -171,8 +171,8 @@ def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
 def turns_of_constant_spin(course: Course, first: int, last: int, share: float = 0.0) -> NDArray[np.float64]:
     """Return (last - first + 1, 3, 3) turns about the center that keep the angular momentum after the first frame.
 
-    They are integrated from frame to frame, then corrected until the turned body, measured as any other, keeps it.
-    share: of the last turn about the momentum, which is moved, backwards, to the first frame.
+    The turns are integrated from frame to frame, then corrected until the momentum of the turned body stays the same.
+    share: share of the last frame's angle about the momentum that is taken back at all frames.
     """
     (motion, inertia), step = momenta_between(course, first, last), course.step
     angular, inverse = motion[:, 3:6], np.linalg.inv(inertia)
@@ -202,7 +202,7 @@ def turns_of_constant_spin(course: Course, first: int, last: int, share: float =
 
 
 def _axes(linear: NDArray) -> NDArray[np.float64]:
-    """Return (f, 4) quaternions of a part's axes, each of the sign that is nearer to the one before."""
+    """Return (f, 4) quaternions of a part's axes; each has the sign that is nearer to the previous quaternion."""
     polar, _ = polar_rotation(linear)
     turns = quaternion(polar * np.sign(np.linalg.det(polar))[:, None, None])
     turns[1:] *= np.cumprod(np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))[:, None]
@@ -218,7 +218,7 @@ def _rotation(vector: NDArray) -> NDArray[np.float64]:
 class _stencils:
     """Interpolation, or its derivative, of (count, ...) values at (k,) places between them, by their nearest nodes.
 
-    degree: of a polynomial fitted to the nodes; without, the one through all of them.
+    degree: of a polynomial fitted to the nodes; by default the polynomial goes through all of them.
     """
 
     def __init__(self, count: int, places: NDArray, nodes: int, derivative: bool = False, degree: int | None = None):

@@ -30,7 +30,7 @@ def read_npy(path: Path, _limits: Limits) -> Scan:
 
 
 def map_array(path: Path) -> NDArray:
-    """Return the memory map of an array of any type but objects. FileError if the file holds anything else; OSError."""
+    """Return the memory map of an array of any type but objects. Raises OSError, and FileError for other contents."""
     with open(path, "rb") as file:
         start = file.read(12)
     with _damage(path, "NumPy array"):
@@ -90,14 +90,14 @@ def _unpack(archive: zipfile.ZipFile, path: Path, name: str, limits: Limits) -> 
 
 
 def _check_array_header(start: bytes) -> None:
-    """Raise ValueError if an array's header is too long: NumPy would read gigabytes of it before it refuses."""
+    """Raise ValueError if an array's header is too long, because NumPy would read gigabytes of it before it refuses."""
     length = start[8 : 10 if start[6:7] == b"\1" else 12]
     if int.from_bytes(length, "little") > MAX_ARRAY_HEADER:
         raise ValueError("length of header")
 
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
-    """Return the shape of an array. ValueError if its entry is longer: then reading never reaches the checksum."""
+    """Return an array's shape. ValueError if its entry is longer, because reading would not reach the checksum."""
     with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # has `peek`
         _check_array_header(file.peek(12))
         version = np.lib.format.read_magic(file)

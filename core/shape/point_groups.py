@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The finite groups that a surface of triangles may have, by its corners.
 
-A corner farthest from the center is a corner in every triangulation, and a symmetry takes it to another such corner. So
-it does with a corner farthest from the line through the first. Two pairs of them fix a rotation, and a rotation with a
-mirror: whatever moments show, every symmetry is a candidate.
+A corner farthest from the center is a corner in every triangulation, and a symmetry takes it to another such corner.
+The same holds for a corner farthest from the line through the first. Two pairs of such corners fix a rotation, and a
+rotation with a mirror. So every symmetry is a candidate, whatever moments show.
 
 A candidate holds if images of all corners are near the surface, and each crease lies on a crease between such corners,
 or points of it and of the triangles lie on the surface. It is refuted by a point whose image is far from the surface.
-The candidates between leave a choice of groups.
+Candidates that neither hold nor are refuted leave a choice of groups.
 """
 
 from __future__ import annotations
@@ -27,18 +27,18 @@ MAX_CANDIDATES = 1 << 17
 PAIRS_PER_BLOCK = 1 << 22  # pairs of corners compared at once
 SKEW = np.array([0.5377, 0.6213, 0.5699])  # corners are sorted along this direction, across no usual edge
 MAX_TRIES = 64  # corners of nearly equal height along it that are compared
-FIRST_IMAGES = 12  # images of corners that refute most candidates
-FIRST_SAMPLES = 64  # corners that refute most of the others
+FIRST_IMAGES = 12  # images of so many corners refute most candidates
+FIRST_SAMPLES = 64  # so many corners refute most of the other candidates
 SAMPLES = 128  # corners, farthest corners and triangles that are compared if the tolerance is large
 MAX_BETWEEN = 2048  # triangles between other corners that are compared; of more, evenly many
-BETWEEN = np.array([[0.5, 0.5, 0.0], [0.7, 0.3, 0.0], [0.3, 0.3, 0.4]])  # weights of corners in points between them
+BETWEEN = np.array([[0.5, 0.5, 0.0], [0.7, 0.3, 0.0], [0.3, 0.3, 0.4]])  # weights of corners that give points between
 CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
 
 
 class PlacedTriangles:
-    """Triangles about the center of a body, and how far maps take them from themselves.
+    """Triangles about the center of a body, and the distances by which maps take them from themselves.
 
-    Maps that take no point farther than `near` from the surface hold, others that take one farther than `far` do not.
+    Maps that take no point farther than `near` from the surface hold; maps that take one farther than `far` do not.
     """
 
     def __init__(self, points: NDArray, triangles: NDArray, near: float, far: float):
@@ -78,7 +78,7 @@ class PlacedTriangles:
     def groups(self) -> list[NDArray[np.float64]] | None:
         """Return the (k, 3, 3) operations of the group, then of larger possible ones; None if there are too many.
 
-        They are the groups at tolerances that grow from near to far.
+        These are the groups at tolerances that grow from near to far.
         """
         operations = self._candidates()
         if operations is None:
@@ -164,7 +164,7 @@ class PlacedTriangles:
         return operations[kept]
 
     def _distinct(self, rows: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Return the points of these rows, but one of those that lie together."""
+        """Return the points of these rows, one for each set of coincident points."""
         return self.points[np.unique(self._first[rows])]
 
     def _misfit(self, operation: NDArray) -> float:
@@ -206,7 +206,7 @@ class PlacedTriangles:
 
     @cached_property
     def _creases(self) -> tuple[NDArray[np.intp], NDArray[np.int64]]:
-        """(k, 3) corners of triangles that are not flush with another one at the first two, and their sorted codes."""
+        """(k, 3) corners of triangles with a crease at the first two corners, and the creases' sorted codes."""
         place, count = self._first[self.triangles], len(self.triangles)
         code = np.concatenate([self._edge_codes(place[:, [i, i - 1]]) for i in range(3)])
         order = np.argsort(code, kind="stable")
@@ -233,14 +233,14 @@ class PlacedTriangles:
 
 
 def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
-    """Return (k, 3, 3) rotations with a direction as first column, and the second one in the plane of two columns."""
+    """Return (k, 3, 3) rotations with `first` as column 0, and `second` in the plane of columns 0 and 1."""
     second = second - (second * first).sum(axis=1)[:, None] * first
     second = second / lengths(second)
     return np.stack([first, second, cross_rows(first, second)], axis=2)
 
 
 def _nearest(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
-    """Return (k,) the first operation that each product is, but for noise; -1 if it is none."""
+    """Return (k,) indices of the first operation that each product equals up to noise, -1 if there is none."""
     found = np.empty(len(products), np.intp)
     flat, step = operations.reshape(-1, 9).T, max(1, PAIRS_PER_BLOCK // max(1, len(operations)))
     for begin in range(0, len(products), step):
@@ -253,7 +253,7 @@ def _nearest(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
 def _closed(
     operations: NDArray, mask: NDArray[np.bool_], generators: list[int], refuted: NDArray[np.bool_]
 ) -> NDArray[np.bool_] | None:
-    """Return the mask of the group of all generators, of which the masked ones are a part; None if one is refuted.
+    """Return the mask of the group of all generators, which includes the masked group; None if one is refuted.
 
     Coset by coset: a generator takes a coset of the masked group to a coset.
     """

@@ -131,7 +131,7 @@ class BoundaryLoops:
     out_of_plane: NDArray[np.float64]
 
     def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return an (l,) mask of holes: loops that are not gaps, narrower than `tolerance`, one or (l,)."""
+        """Return an (l,) mask of holes; loops narrower than `tolerance`, one number or (l,), are gaps."""
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
     def of_each(self, side_values: NDArray) -> NDArray:

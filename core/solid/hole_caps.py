@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The last steps of a repair: the faces of each part agree, gaps without area close, and holes are capped.
+"""The last steps of a repair: faces of each part are made to agree, gaps without area closed, and holes capped.
 
 Sides are numbered as in `Edges`: 3t + i runs from corner i of triangle t to the next one, the triangles as given.
 """
@@ -57,7 +57,7 @@ def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Decide which faces of each part to turn so that they agree, and group parts into components."""
+    """Find the faces of each part to turn so that all agree, and group parts into components."""
     edges, gaps, count = mesh.state.edges, mesh.state.gaps, len(mesh.triangles)
     pairs, walls = edges.manifold_side_pairs(), wall_links(mesh.points, edges, mesh.triangles, mesh.face)
     first, second = (np.concatenate(sides) for sides in zip(pairs, walls))
@@ -101,7 +101,7 @@ def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Find
 
 
 def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Find the components that no caps can close, and the loops left over by edges of three faces or more."""
+    """Find the components that no caps can close, and the loops that remain at edges of three faces or more."""
     edges = mesh.state.edges
     if np.any(edges.count > 2) and mesh.number > 1:
         # Components that meet in an edge are judged one by one, each with vertices of its own.
@@ -172,7 +172,7 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Turn the faces that were found to disagree. Sides have other numbers from here on."""
+    """Turn the disagreeing faces. This changes the numbers of sides."""
     if not mesh.flipped.any():
         return mesh
     return copy_with(mesh, triangles=np.where(mesh.flipped[:, None], mesh.triangles[:, ::-1], mesh.triangles))
@@ -207,7 +207,7 @@ def _find_folded_loops(
     unclosable: NDArray[np.bool_],
     tolerance: float,
 ) -> FoldedLoops:
-    """Find components (of `unclosable`) that leave over only loops without area, as outlines that turn back do."""
+    """Find components (of `unclosable`) whose remaining loops have no area, such as outlines that turn back."""
     edge = np.flatnonzero((signed_count != 0) & unclosable[mesh.component[edges.first // 3]])
     edge = np.repeat(edge, np.abs(signed_count[edge]).astype(np.intp))
     side = edges.first[edge]
@@ -230,9 +230,9 @@ def wall_links(
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return (k,) and (k,) the sides that belong together at walls between bodies. face: (t,) of each triangle.
 
-    If two bodies share the vertices of a face that each of them has, four faces meet along its border: one of either
-    body, and both layers. A layer goes with one body along its whole border, the other one with the other, by their
-    directions, if these decide.
+    If two bodies have copies of a face on the same vertices, four faces meet along its border: one of each body, and
+    the two copies, the layers. Each layer belongs to one body along its whole border; the directions of the faces
+    decide, if they can.
     """
     if not (edges.count == 4).any():
         return NO_LINKS
@@ -279,8 +279,8 @@ def wall_links(
 def _layer_links(edges: Edges, within: NDArray[np.intp], wall: NDArray[np.intp]) -> NDArray[np.intp]:
     """Return the (k, 2) sides that are joined within walls.
 
-    Which copy of a face is first is an accident: a copy goes with the one of its neighbors that it agrees with. within:
-    (e, 4) sides on edges between two faces of a wall, by layers; wall: (t,) as of `_layers`.
+    The order of a face's copies is accidental: each copy is joined to the neighbor with which it agrees. within: (e, 4)
+    sides on edges between two faces of a wall, by layers; wall: (t,) as of `_layers`.
     """
     crossed = wall[within[:, 1] // 3] != wall[within[:, 3] // 3]
     within = np.where(crossed[:, None], within[:, [0, 1, 3, 2]], within)  # Corners of one face, then the other, twice.
@@ -298,7 +298,7 @@ def _layers(
     face: NDArray[np.integer],
     piece: NDArray[np.intp],
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (t,) 1 and 2 for triangles of the two layers of walls, else 0; and (t,) a number of each wall.
+    """Return (t,) layers, 1 and 2 for triangles of walls, else 0; and (t,) numbers of the walls.
 
     Layers are faces on the same vertices, or flat pieces with the same border that are cut into triangles differently.
     piece: (t,) the piece of each triangle, connected across edges of two faces.

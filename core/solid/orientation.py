@@ -79,10 +79,10 @@ class ComponentComparison:
 
 @dataclass(frozen=True, eq=False)
 class ClosedParts:
-    """Triangles, (t, 3), turned and with caps, that have the body as signed sum; and the closed part that each bounds.
+    """Triangles, (t, 3), turned and with caps, whose signed sum is the body; and the closed part that each bounds.
 
-    face: (t,) the mesh face of each, -1 for a cap. part: (t,), 0 to number - 1. host_part: (number,) the part that a
-    part's volume counts with: itself, or for a cavity the part it is cut from.
+    face: (t,) the mesh face of each, -1 for a cap. part: (t,), 0 to number - 1. host_part: (number,) the part to whose
+    volume a part belongs: itself, or for a cavity the part around it.
     """
 
     points: NDArray[np.floating]

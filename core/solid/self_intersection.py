@@ -3,13 +3,13 @@
 """Self-intersection of closed surfaces, and the volume that it counts twice or as negative.
 
 If all cones of a surface from some point have the same sign, and their sum surrounds that point once, it is the radial
-image of a sphere, and cannot meet itself: every convex body, about its center of mass. For most bodies, sums over faces
-show this on the way; for the others a pass over the faces, which ends early if a face looks away.
+image of a sphere, and cannot meet itself; for a convex body the center of mass is such a point. For most bodies, sums
+over faces show this on the way. The others need a pass over the faces, which ends early if a face looks away.
 
 Other surfaces are sampled along lines. Each place on a line must be in a closed part once or not at all, if the part
-faces outward. The lengths that break this, times the lines' distances, are the volume that counts wrongly. Every region
-as wide as these distances is found. The number of lines follows from the number of faces, so that the search costs
-little.
+faces outward. The total length of violations, times the lines' distances, is the volume that counts wrongly. Every
+region as wide as these distances is found. The number of lines follows from the number of faces, so that the search
+costs little.
 """
 
 from __future__ import annotations

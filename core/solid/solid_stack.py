@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of many small solids at once, if closed as they are or by caps alone, and outward.
+"""Measurement of many small solids at once, if they face outward and are closed as they are or by caps alone.
 
 A solid may have one or several separate pieces. Results are exact or capped, with the same numbers as from
 `measure_solid`, which measures all other solids one by one. Caps are made if every edge has one face, or two that
-agree; at each boundary vertex one side arrives and one leaves; every loop has an area; no vertices touch that a repair
-would weld.
+agree, at each boundary vertex one side arrives and one leaves, every loop has an area, and no vertices touch that a
+repair would weld.
 """
 
 from __future__ import annotations

@@ -46,7 +46,7 @@ class Mixes:
 
 
 def sample_count(shapes: int) -> int:
-    """Return how many mixes have to be measured for a number of shapes."""
+    """Return the number of mixes to measure for a number of shapes."""
     return comb(shapes + DEGREE, DEGREE)
 
 

@@ -6,13 +6,13 @@ A rigid body at rest on a plane stands if the foot of the plumb line through its
 contact points, the support polygon. The margin is the foot's distance from the nearest edge; about that edge the body
 tips when the ground is tilted by more than atan(margin / height of the center).
 
-A body rests stably on faces of its convex hull that have the foot of the center of mass inside; from any other face it
-tips over the edge that the foot is farthest outside of, onto the next face, and ends in a stable one, for the center
-sinks all the time. The share of a pose is the quasi-static estimate of Wiegley, Rao and Goldberg ("Computing a
-statistical distribution of stable poses for a polyhedron", Allerton 1992): all orientations are equally likely when the
-body is let go, the face below the center is the one that it lands on, so that its probability is the solid angle of the
-face seen from the center, and nothing bounces. A face that is not stable adds its probability to the face that the body
-tips onto.
+A body rests stably on a face of its convex hull if the foot of the center of mass is inside the face. From any other
+face it tips onto the next one, over the edge that the foot has passed by the largest distance. It ends on a stable
+face, because the center sinks all the time. The share of a pose is the quasi-static estimate of Wiegley, Rao and
+Goldberg ("Computing a statistical distribution of stable poses for a polyhedron", Allerton 1992). All orientations are
+equally likely when the body is let go, it lands on the face below the center, and nothing bounces; so a face's
+probability is its solid angle, seen from the center. A face that is not stable adds its probability to the face that
+the body tips onto.
 """
 
 from __future__ import annotations

@@ -79,7 +79,7 @@ class Polygons:
         self._count = max(self._count, int(rows.max(initial=-1)) + 1)
 
     def join(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Return corners and sides of all faces, without corners that follow themselves, and faces of two corners."""
+        """Return corners and sides of all faces, without repeated corners and without faces of two corners."""
         sides = np.zeros(self._count, np.int64)
         for rows, corners in self._blocks:
             sides[rows] = corners.shape[1]
@@ -148,8 +148,8 @@ def polygon_surface(points: NDArray[np.floating], faces: NDArray[np.integer]) ->
 def tessellate(points: NDArray[np.floating], polygons: NDArray[np.integer]) -> NDArray[np.integer]:
     """Return the (n, k - 2, 3) triangles of (n, k) polygons over (m, 3) points, as Blender draws them: ears are cut.
 
-    D. Eberly, Triangulation by Ear Clipping. The next ear is looked for one corner beyond the last one; where that
-    corner is no ear, the search turns back.
+    D. Eberly, Triangulation by Ear Clipping. The search for the next ear begins one corner beyond the last one, and
+    turns back if that corner is no ear.
     """
     count, sides = polygons.shape
     triangles = np.empty((count, sides - 2, 3), polygons.dtype)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Triangles in .stl files, in blocks: binary or text, as float32, as Blender takes them.
 
-A file of exactly the size that its number of triangles asks for is binary, any other text.
+A file is binary if its size is exactly that of its number of triangles, else text.
 """
 
 from __future__ import annotations

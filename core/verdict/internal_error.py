@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The reason why one of many objects was left alone: a refusal, or an unforeseen error of this program.
 
-Either ends the work on its object alone. An error is reported as one, and its traceback goes to the console.
+Both end only the work on their object. An unforeseen error is reported, and its traceback goes to the console.
 """
 
 from __future__ import annotations

@@ -4,11 +4,11 @@
 
 Every vertex moves along a direction d that moves the planes of its faces by one: n·d = 1 for each normal n around it
 (Blender's Solidify calls that even thickness; on a cube it is the mitre). If at most three planes meet, the shortest
-such d is exact; planes within about one degree count as one, for d would have to run far along their crease. If more
-meet, there may be no such d: it is then the least-squares solution, each face weighed by its angle at the vertex, which
-does not depend on how flat faces are cut, and planes within about 15 degrees are the round surface that they stand for:
-the vertex goes along their mean normal. If that would run behind one of the faces, d is the direction most in front of
-all of them (by multiplicative weights, Arora, Hazan and Kale, Theory of Computing 8, 2012).
+such d is exact; planes within about one degree count as one, because d would have to run far along their crease. If
+more planes meet, there may be no such d. It is then the least-squares solution, with each face weighted by its angle at
+the vertex, so that the cutting of flat faces does not matter. Planes within about 15 degrees count as the round surface
+that they stand for, and the vertex goes along their mean normal. If this d would run behind one of the faces, d is the
+direction most in front of all of them (by multiplicative weights, Arora, Hazan and Kale, Theory of Computing 8, 2012).
 
 Inside a flat side and along a straight edge a vertex may slide without moving the planes. There d is as even as it can
 be, Σ cot |d_i - d_j|² least (Pinkall and Polthier, Experiment. Math. 2, 1993), so that the finely cut sides of a thick-

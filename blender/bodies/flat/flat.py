@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flat shapes: selected faces, flat meshes, 2-D curves and text as regions of their own plane, seen from the front.
 
-Faces point to the front, curves and text have it at their own +z. Only curves that Blender gives have exact moments.
-The region that closed curves bound is also measured as a sheet, from control points instead of polygons.
+Faces point to the front; curves and text have it at their own +z. Only curves that Blender gives access to have exact
+moments. The region that closed curves bound is also measured as a sheet, from control points instead of polygons.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The shape of an object, independent of its place: its pose, its symmetry, its signature.
 
-All three need moments of higher order than a measurement has, of the same body: the solid, or the sheet of a shell.
+All three need moments of higher order than a measurement has. The body is the same: the solid, or a shell's sheet.
 """
 
 from __future__ import annotations
@@ -60,12 +60,12 @@ from ..stacks.stack import MeasuredStack, Stacked
 from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
-NOISE_FACTORS = 0.5, 1.0, 2.0  # of the level of noise, on which a unique frame does not depend
+NOISE_FACTORS = 0.5, 1.0, 2.0  # factors on the level of noise: a unique frame is the same for all of them
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
-MAX_MISFIT = 0.02  # relative to the size: coordinates that leave more tell no group
-COARSE_NOISE = 1e-4, 1e-3  # of moments of a ball with facets
+MAX_MISFIT = 0.02  # relative to the size: coordinates with a larger misfit tell no group
+COARSE_NOISE = 1e-4, 1e-3  # noise in the moments of a ball with facets
 MAX_FACETS = 0.05  # relative to the size: between a body of revolution and the polygons that stand for it
 SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
 
@@ -91,7 +91,7 @@ class Shape:
 
     @property
     def is_display_mesh(self) -> bool:
-        """True if the pieces are the display mesh of something smooth, whose moments differ a little."""
+        """True if the pieces are the display mesh of a smooth body, whose moments differ a little."""
         return self.measurement.method.source == Source.NURBS
 
     @property
@@ -166,10 +166,10 @@ class Shape:
         }
 
     def _point_group(self) -> dict[str, Any]:
-        """Return the body's point group and the order of the moments that it was found by.
+        """Return the body's point group, and the order of the moments that show it.
 
-        The surface decides by its corners. Where moments are those of a body of revolution or of a ball, so is the body
-        if its surface is near one and it has no axis of a lower order than harmonics show.
+        The corners of the surface decide. If the moments are those of a body of revolution or of a ball, the body
+        counts as such if its surface is near one, and no axis has a lower order than harmonics show.
         """
         axial = self._harmonics if self._is_polygonal else None
         found = symmetry(self.moments, axial=axial)

@@ -45,7 +45,7 @@ class SurfaceDistance:
         self._tree = BVHTree.FromPolygons(_as_tuples(self._corners), _as_tuples(triangles), all_triangles=True)
 
     def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
-        """Return (n,) distances of (n, 3) points; within: a limit, of which clear cases are single precision."""
+        """Return (n,) distances of (n, 3) points, in single precision if clearly above or below the limit `within`."""
         scaled = (points - self._center) / self._scale
         nearest, queries = self._tree.find_nearest, scaled.tolist()
         reach = np.inf if within is None else 1.01 * max(NEAR_DISTANCE, within / self._scale)

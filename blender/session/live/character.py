@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Posed characters: mass, center and inertia of every part, and what touches the ground, as evaluated.
+"""Posed characters, as evaluated: mass, center and inertia of every part, and the contacts with the ground.
 
 The parts are those of Measure Bones. Each keeps its mass, and its moments follow the matrix of its bone. Objects that a
 constraint holds to a bone are parts, too, at their own place. All lengths are in Blender's units, in the world.
@@ -35,9 +35,9 @@ from ..tracking.cache import SessionCache, current_value
 from ..tracking.staleness import stale_reason
 from .motion import Motion
 
-REACH = 0.01  # contact with the ground within this height, relative to the character's size
-OUTLINE = 1e-4  # corners of the support polygon, relative to its extent, that count
-UNKNOWN, NO_BONE = -2, -1  # bones of vertices: not looked up yet, and without a weight
+REACH = 0.01  # points up to this height touch the ground, relative to the character's size
+OUTLINE = 1e-4  # tolerance of the support polygon's corners, relative to its extent
+UNKNOWN, NO_BONE = -2, -1  # in place of a vertex's bone: not looked up yet; no weight
 NO_GRAVITY = "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > Gravity."
 
 
@@ -85,7 +85,7 @@ class Contacts:
     """Contacts of a character with the ground.
 
     points: (k, 3). bones: (k,) indices of pose bones, -1 for points without one. names: of the bones that carry.
-    lifted: of those that should and do not. height: of the lowest point above the ground; None if there is no point.
+    lifted: of bones that should carry but do not. height: of the lowest point above the ground; None without points.
     """
 
     points: NDArray[np.float64]
@@ -128,7 +128,7 @@ class Character:
 
     @classmethod
     def from_bodies(cls, armature: Object, bodies: Mapping[str, PlainBody | None], unit: float) -> Character | None:
-        """Return the character with these bodies of bones, each in its rest frame and SI; None if there is no mass."""
+        """Return the character with these bodies of bones, in rest frames and SI units; None if there is no mass."""
         bodies = {name: body for name, body in bodies.items() if body is not None and body.mass > 0.0}
         if not bodies:
             return None
@@ -165,7 +165,7 @@ class Character:
         return Parts.join([parts, *(self._held_part(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph))])
 
     def _factors(self, armature: Object) -> NDArray[np.float64]:
-        """Return (p,) factors to the total mass, 1 for bones with their own mass as long as the others keep any."""
+        """Return (p,) factors to the total mass; 1 for bones with their own mass, if it leaves mass for the others."""
         total, bones = shortest_decimal(armature.body_moments_weight.mass), armature.pose.bones
         shares = np.array([bones[name].body_moments.mass_from != "MASS" for name in self.names])
         rest = total - self.masses[~shares].sum()
@@ -188,7 +188,7 @@ class Character:
         """Return the lowest points as evaluated; ground: its height against gravity from the world's origin."""
         names = [bone.name for bone in armature.pose.bones]
         named = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
-        may_touch = np.array([not named or name in named for name in names] + [not named])  # last: without a weight
+        may_touch = np.array([not named or name in named for name in names] + [not named])  # last: no weight
         reach, lowest, places, bones = REACH * self.size, np.inf, [np.zeros((0, 3))], [np.zeros(0, np.intp)]
         for obj, bone in contact_objects(armature, depsgraph):
             evaluated = obj.evaluated_get(depsgraph)
@@ -209,7 +209,7 @@ class Character:
     def _bones_of(
         self, obj: Object, bone: str | None, names: Sequence[str], depsgraph: Depsgraph, rows: NDArray | None = None
     ) -> NDArray[np.intp]:
-        """Return the indices of the bones of an object's vertices, of all without `rows`; those of most weight."""
+        """Return the bone of most weight for each vertex of an object, as indices; rows: vertices, by default all."""
         mesh = obj.evaluated_get(depsgraph).data
         count = len(mesh.vertices)
         rows = np.arange(count) if rows is None else rows
@@ -275,13 +275,13 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
 
 
 def require_gravity(scene: Scene) -> None:
-    """Raise Refused if nothing weighs anything in a scene."""
+    """Raise Refused if a scene has no gravity."""
     if not (scene.use_gravity and any(scene.gravity)):
         raise Refused(NO_GRAVITY)
 
 
 def find(context: Context, armature: Object) -> tuple[Character, float, Rig | None]:
-    """Return a character, measured unless its results are up to date, its ground, found unless shown, and a new Rig."""
+    """Return a character, its ground, and a new Rig. Measure and find the ground only if necessary."""
     settings, unit = armature.body_moments_weight, shortest_decimal(context.scene.unit_settings.scale_length)
     if not settings.show:
         require_gravity(context.scene)
@@ -315,7 +315,7 @@ def prepare(context: Context, armature: Object) -> Rig | None:
 def _find_ground(context: Context, armature: Object, known: Character) -> float:
     """Return the height of a character's ground: the world's origin, or its lowest point at rest or as posed.
 
-    A character that stands on one of them stands there; one in the air is above the higher of the first two.
+    The higher of the first two that is not above the posed character counts, else the posed lowest point.
     """
     down = stored.stability.down(context.scene)
     with rest_pose(context, armature) as depsgraph:
@@ -327,7 +327,7 @@ def _find_ground(context: Context, armature: Object, known: Character) -> float:
 
 
 def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str | None]]:
-    """Return (object, bone) of the meshes that may touch the ground, outside Edit Mode; None for skinned ones."""
+    """Return (object, bone) of the meshes that may touch the ground, outside Edit Mode; None for skinned meshes."""
     skinned = deformed_meshes(armature)
     hanging = [*hanging_objects(armature, skinned), *held_objects(armature, depsgraph)]
     several = [*((obj, None) for obj in skinned), *((obj, bone) for obj, bone in hanging if obj.type == "MESH")]

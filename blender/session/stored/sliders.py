@@ -3,9 +3,9 @@
 """The thickness of a measured wall and the threshold of a measured grid as sliders.
 
 Walls are kept in memory as polynomials in the thickness, grids with their values; a change of the setting stores the
-numbers of the new body. This needs the geometry and transform of the stored numbers, else they stay and are out of
-date. While a threshold moves, its numbers come from every second or third value of a large grid and are out of date; a
-moment later the exact ones follow.
+numbers of the new body. If geometry or transform have changed since, the stored numbers stay and are out of date. While
+a threshold moves, its numbers come from every second or third value of a large grid and are out of date; a moment later
+the exact ones follow.
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ Source = TypeVar("Source", Walls, ThresholdGrid)
 
 @dataclass(frozen=True, eq=False)
 class _Kept(Generic[Source]):
-    """The walls or the grid that an object was measured with, and the parts of the stamps stored with it since.
+    """The walls or the grid of an object's measurement, and the parts of the stamps that were stored with it since.
 
-    geometries: the digests at every stored threshold: undo may go back to any of them. unit: meters per Blender unit.
+    geometries: the digests at every stored threshold, because undo may restore each. unit: meters per Blender unit.
     """
 
     reading: Reading
@@ -60,7 +60,7 @@ _pending: list[tuple[Object, Scene]] = []  # objects whose exact numbers are due
 
 
 def remember(obj: Object, measured: Measured, scene: Scene) -> None:
-    """Remember the wall or the grid that an object was measured with, if any."""
+    """Remember the wall or the grid of an object's measurement, if it has one."""
     stamp, reading, body = stamps.Stamp.parse(measured.measurement.fingerprint), measured.reading, measured.body
     of_stamp = {stamp.geometry}, stamp.transform, shortest_decimal(scene.unit_settings.scale_length)
     if isinstance(body, WallBody) and body.walls is not None:
@@ -126,9 +126,9 @@ def on_threshold(settings: PropertyGroup, context: Context) -> None:
 
 
 def _current(cache: SessionCache[_Kept[Source]], obj: Object, scene: Scene | None = None) -> _Kept[Source] | None:
-    """Return what is kept of an object, if its stored numbers are of the same geometry and transform.
+    """Return an object's kept walls or grid, if its stored numbers belong to the same geometry and transform.
 
-    scene: it must also have the same unit scale, and the object no edits since.
+    scene: if given, it must also have the same unit scale, and the object no edits since.
     """
     kept, stamp = cache.get(obj), stamps.of_results(obj)
     if kept is None or stamp is None or stamp.geometry not in kept.geometries or stamp.transform != kept.transform:
@@ -148,7 +148,7 @@ def _walls_on_side(kept: _Kept[Walls], obj: Object) -> Walls:
 
 
 def _store(obj: Object, scene: Scene, kept: _Kept, body: Callable[[Request], Body]) -> bool:
-    """Write the numbers of a body to the object; return False if there are none: the panel and Measure say why."""
+    """Write the numbers of a body to the object; return False if there are none; the panel and Measure then say why."""
     request = Request.resolve(obj, unit=kept.unit)
     try:
         measurement = measurement_of(kept.reading, body(request), request)
@@ -171,7 +171,7 @@ def _store_threshold(obj: Object, scene: Scene, kept: _Kept[ThresholdGrid], grid
 
 
 def _finish() -> None:
-    """Store the exact numbers of the pending objects; as a timer's function, return None to be called only once."""
+    """Store the exact numbers of the pending objects. Return None, so that Blender's timer calls this only once."""
     while _pending:
         obj, scene = _pending.pop()
         try:

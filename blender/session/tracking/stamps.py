@@ -121,7 +121,7 @@ def of_symmetry(obj: Object) -> Stamp | None:
 
 
 def of_colliders(obj: Object) -> Stamp | None:
-    """Return the stamp of what an object's colliders do, None if there is none."""
+    """Return the stamp of the stored effects of an object's colliders, None if there is none."""
     group = obj.get(COLLIDERS)
     text = str(group.get("fingerprint", "")) if hasattr(group, "get") else ""
     return Stamp.parse(text, Kind.COLLIDERS) if text else None
