@@ -14,7 +14,7 @@ import os
 import re
 import struct
 import zlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import Any
 
@@ -38,7 +38,9 @@ _FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?
 _FBX_NUMBERS = re.compile(rb"(?:[\s,]*+%b(?=[\s,}]|\Z))*+[\s,]*+" % SHORT)
 _FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
 _GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-_GLTF_FLOAT = 5126
+_GLTF_TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_GLTF_COMPRESSIONS = {"EXT_meshopt_compression", "KHR_meshopt_compression"}
+_KIND = "componentType", "type"
 _OF_NODES = ("matrix", "translation", "rotation", "scale")
 
 
@@ -96,23 +98,17 @@ def _fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:
 
 
 def check_gltf(data: Data, path: str) -> None:
+    """Raise FileError if a number in a node or in an accessor that places points is not finite."""
     with suppress(*MALFORMED):
         buffers = Buffers(data, path)
-        document = buffers.document
-        nodes = document.get("nodes", [])
-        for number, node in enumerate(nodes):
-            count = _bad_numbers(one for key in _OF_NODES for one in node.get(key, ()))
+        for number, node in enumerate(buffers.document.get("nodes", [])):
+            count = sum(not abs(value) < MAX_FLOAT32 for key in _OF_NODES for value in node.get(key, ()))
             refuse(count, finding(AT_ROW, element="node", row=node.get("name") or number))
-        for number, mesh in _placing_accessors(document).items():
-            accessor = document["accessors"][number]
-            count, first = _bad_in_accessor(buffers, accessor)
+        for number, mesh in _placing_accessors(buffers.document).items():
             where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
-            count += _bad_numbers([*accessor.get("min", ()), *accessor.get("max", ())])
-            refuse(count, finding(AT_ROW, element=where + ", row", row=first))
-
-
-def _bad_numbers(numbers: Iterable[float]) -> int:
-    return sum(not abs(number) < MAX_FLOAT32 for number in numbers)
+            with suppress(*MALFORMED):  # others may be whole
+                count, first = _bad_in_accessor(buffers, buffers.document["accessors"][number])
+                refuse(count, finding(AT_ROW, element=where + ", row", row=first))
 
 
 def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
@@ -132,17 +128,15 @@ def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
 
 
 def _bad_in_accessor(buffers: Buffers, accessor: dict[str, Any]) -> tuple[int, int]:
-    if accessor["componentType"] != _GLTF_FLOAT:
-        return 0, 0
+    count, first = bad_in_table(buffers.table(accessor))
     sparse = accessor.get("sparse")
-    found = (
-        [(accessor["bufferView"], accessor.get("byteOffset", 0), accessor["count"])] if "bufferView" in accessor else []
-    )
     if sparse:
-        found.append((sparse["values"]["bufferView"], sparse["values"].get("byteOffset", 0), sparse["count"]))
-    width = _GLTF_WIDTHS[accessor["type"]]
-    bad = [bad_in_table(table) for table in (buffers.table(*one, width) for one in found) if table is not None]
-    return sum(count for count, _ in bad), min((first for count, first in bad if count), default=0)
+        size = {"count": sparse["count"]}
+        more, row = bad_in_table(buffers.table({key: accessor[key] for key in _KIND} | sparse["values"] | size))
+        if more and not count:
+            first = int(buffers.table({"type": "SCALAR"} | sparse["indices"] | size)[row, 0])
+        count += more
+    return count, first
 
 
 def unquote(uri: str) -> str:
@@ -163,16 +157,21 @@ class Buffers:
             end = 20 + struct.unpack_from("<I", data, 12)[0]
             text = data[20:end]
             self.binary = (data, end + 8)
-        self.document = json.loads(text[:])
+        # An exporter may write null for a value that it leaves out.
+        self.document = json.loads(
+            text[:], object_hook=lambda values: {key: value for key, value in values.items() if value is not None}
+        )
 
-    def table(self, view_number: int, offset: int, count: int, width: int) -> NDArray[np.float32] | None:
-        """Return a (count, width) table of a buffer view, None if an extension has compressed it."""
-        view = self.document["bufferViews"][view_number]
-        if "EXT_meshopt_compression" in view.get("extensions", {}):
-            return None
+    def table(self, accessor: dict[str, Any]) -> NDArray:
+        """Return the (n, k) numbers of an accessor without its sparse ones; none if an extension has compressed them."""
+        kind, width = np.dtype(_GLTF_TYPES[accessor["componentType"]]), _GLTF_WIDTHS[accessor["type"]]
+        view = self.document["bufferViews"][accessor["bufferView"]] if "bufferView" in accessor else None
+        if view is None or _GLTF_COMPRESSIONS & view.get("extensions", {}).keys():
+            return np.empty((0, width), kind)
         data, start = self._buffer(view["buffer"])
-        start += view.get("byteOffset", 0) + offset
-        return np.ndarray((count, width), "<f4", data, start, (view.get("byteStride", 4 * width), 4))
+        start += view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        stride = view.get("byteStride") or width * kind.itemsize
+        return np.ndarray((accessor["count"], width), kind, data, start, (stride, kind.itemsize))
 
     def _buffer(self, number: int) -> tuple[Data, int]:
         """Return the bytes that contain a buffer, and its start in them. FileError if it is missing or too short."""
