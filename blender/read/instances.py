@@ -16,9 +16,10 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix
+from ...core.bodies.reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix, name_subject
 from ...core.mesh.surface import Surface
-from ...core.verdict.finding import MeasureError, ReadError
+from ...core.moments.affine_maps import affine_matrices
+from ...core.verdict.finding import ReadError
 from .findings import INSTANCES_OF_HIDDEN_OBJECT, NON_FINITE_INSTANCES
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
 from .splines import spline_reading
@@ -180,9 +181,7 @@ class InstanceCollector:
 
     def _add_collection(self, collection, matrices: NDArray) -> None:
         self.collections[collection.original] = None
-        shift = np.eye(4)
-        shift[:3, 3] = -np.array(collection.instance_offset[:], np.float64)
-        matrices = matrices @ shift
+        matrices = matrices @ affine_matrices(np.eye(3), -np.array(collection.instance_offset[:], np.float64))
         for member in visible_objects(collection):
             evaluated = member.evaluated_get(self.depsgraph)
             self._add_object(evaluated, matrices @ float64_matrix(evaluated.matrix_world))
@@ -233,11 +232,8 @@ class InstanceCollector:
     def _read_attributes(self, mesh, owner) -> FaceAttributes:
         vertices = NO_VALUES
         if self.attribute is not None and len(mesh.polygons):
-            try:
+            with name_subject(self.root.name):
                 vertices = vertex_values(mesh, self.attribute)
-            except MeasureError as error:
-                error.about(self.root.name)
-                raise
         if not self.materials:
             return FaceAttributes(vertex_values=vertices)
         slots = _slots(mesh, owner)

@@ -20,12 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.bodies.findings import GRID_TOO_LARGE
-from ...core.bodies.reading import Reading, float64_matrix
+from ...core.bodies.reading import Reading, float64_matrix, name_subject
 from ...core.density.findings import GRID_TRANSFORM_SINGULAR
 from ...core.mesh.surface import Surface
 from ...core.numerics.float32 import shortest_decimal
 from ...core.scans.findings import OTHERS_LEFT_OUT
-from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.finding import Finding, ReadError, finding
 from .decisions import modifier_findings
 from .findings import (
     GRID_MISSING,
@@ -96,22 +96,18 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
         count = len(volume.geometry.instances_pointcloud().points)
         kinds = [finding(KIND_COUNT, kind="instances beside the volume", count=count).as_record()]
         findings.append(finding(SURFACELESS_LEFT_OUT, kinds=kinds))
-    try:
-        with _open_grid(obj, volume, chosen, depsgraph, findings) as source:
-            yield VolumeReading(
-                **vars(place),
-                grid=chosen.name,
-                level_set=source.level_set,
-                to_object=source.to_object,
-                low=source.low,
-                shape=tuple(source.shape.tolist()),
-                background=source.background,
-                blocks=source.blocks,
-                polygons=source.polygons,
-            )
-    except MeasureError as error:
-        error.about(obj.name)
-        raise
+    with name_subject(obj.name), _open_grid(obj, volume, chosen, depsgraph, findings) as source:
+        yield VolumeReading(
+            **vars(place),
+            grid=chosen.name,
+            level_set=source.level_set,
+            to_object=source.to_object,
+            low=source.low,
+            shape=tuple(source.shape.tolist()),
+            background=source.background,
+            blocks=source.blocks,
+            polygons=source.polygons,
+        )
 
 
 def _volume(obj, depsgraph):

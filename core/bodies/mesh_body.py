@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..inertia.principal_frames import OwnMoments
 from ..measurement.measurement import Body
 from ..mesh.surface import Surface, normals
-from ..moments.affine_maps import are_similarities
+from ..moments.affine_maps import affine_matrices, are_similarities
 from ..moments.images import invert_through_point, sum_of_images
 from ..moments.moments import Moments, monomials, stack_moments, sum_moments
 from ..numerics.rotations import polar_rotation
@@ -156,11 +156,7 @@ def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDAr
         key = (shape, int(is_mirrored[body])) if is_even[body] else (shape, 0, body)
         if key not in number:
             number[key] = len(moments)
-            own = shapes[shape]
-            if not is_even[body]:
-                matrix = np.eye(4)
-                matrix[:3, :3] = linear[body]
-                own = own.transform(matrix)
+            own = shapes[shape] if is_even[body] else shapes[shape].transform(affine_matrices(linear[body]))
             moments.append(invert_through_point(own) if is_even[body] and is_mirrored[body] else own)
         of_bodies.append(number[key])
     return OwnMoments(stack_moments(moments), np.array(of_bodies), rotation)

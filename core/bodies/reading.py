@@ -162,12 +162,20 @@ def bare_reading(name: str, kind: str) -> Reading:
 
 
 @contextmanager
-def about_file(name: str) -> Iterator[None]:
-    """Add the file's name to errors; errors of the system become a ReadError."""
+def name_subject(name: str) -> Iterator[None]:
+    """Add the name of an object or file to errors without a subject."""
     try:
         yield
     except MeasureError as error:
         error.about(name)
         raise
+
+
+@contextmanager
+def about_file(name: str) -> Iterator[None]:
+    """Add the file's name to errors; errors of the system become a ReadError."""
+    try:
+        with name_subject(name):
+            yield
     except OSError as error:
         raise ReadError(FILE_UNREADABLE, subject=name, error=system_reason(error)) from error

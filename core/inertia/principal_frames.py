@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..moments.affine_maps import affine_matrices
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
@@ -315,6 +316,4 @@ def pose_matrix(center: ArrayLike, axes: ArrayLike) -> NDArray[np.float64]:
     [-1.0, -2.0, -3.0]
     """
     axes = rotation_array("axes", axes)
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = axes.T, -axes.T @ float_array("center", center, 3)
-    return matrix + 0.0  # no negative zeros
+    return affine_matrices(axes.T, -axes.T @ float_array("center", center, 3)) + 0.0  # no negative zeros

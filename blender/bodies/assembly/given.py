@@ -17,6 +17,7 @@ from ....core.measurement.builder import find_extent, measure_total
 from ....core.measurement.findings import ZERO_QUANTITY
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Body, Measurement
 from ....core.measurement.settings import fingerprint
+from ....core.moments.affine_maps import placed_boxes
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics.float32 import shortest_decimal
@@ -88,12 +89,9 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
 def _is_outside(point: NDArray, reading: Reading, unit: float) -> bool:
     """Return whether a point is outside every box around a part of the reading; False if there are no parts."""
     for part in getattr(reading, "parts", ()):
-        low, high = part.surface.box
-        for matrix in to_si(part.matrices, unit):
-            center = matrix[:3, :3] @ ((low + high) / 2.0) + matrix[:3, 3]
-            half = np.abs(matrix[:3, :3]) @ ((high - low) / 2.0)
-            if (np.abs(point - center) <= half * (1.0 + GIVEN_RTOL)).all():
-                return False
+        center, half = placed_boxes(part.surface.box, to_si(part.matrices, unit))
+        if (np.abs(point - center) <= half * (1.0 + GIVEN_RTOL)).all(axis=1).any():
+            return False
     return bool(getattr(reading, "parts", ()))
 
 
