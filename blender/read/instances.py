@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterator
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -21,9 +22,11 @@ from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import affine_matrices
 from ...core.verdict.finding import ReadError
 from .findings import INSTANCES_OF_HIDDEN_OBJECT, NON_FINITE_INSTANCES
-from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
+from .mesh import face_slots, from_edit_mesh, mesh_surface, read_array, vertex_values
 from .splines import spline_reading
 from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, edit_modifiers, evaluated_geometry
+
+NO_PLACES = np.empty((0, 4, 4))
 
 
 class _NeedsInstanceList(Exception):
@@ -59,12 +62,8 @@ class InstanceCollector:
         self.sources: dict[bpy.types.Object, None] = {}
         self.drawn: dict[bpy.types.Object, None] = {}
         self.vanished_count = 0
-        self._surfaces: dict[Hashable, Surface] = {}
         self.splines: dict[bpy.types.Object, SplineReading | None] = {}
-        self._attributes: dict[Hashable, FaceAttributes] = {}
-        self._patches: dict[Hashable, SplineReading | None] = {}
-        self._matrices: dict[Hashable, list[NDArray[np.float64]]] = {}
-        self._names: dict[Hashable, str] = {}
+        self._parts: dict[Hashable, tuple[Part, list[NDArray[np.float64]]]] = {}
         self._path: list[bpy.types.Object] = []
 
     def collect(self) -> None:
@@ -79,9 +78,8 @@ class InstanceCollector:
     def parts(self) -> list[Part]:
         """Return a part for each surface, without instances of scale 0; ReadError for a non-finite matrix."""
         parts = []
-        for key, matrix_blocks in self._matrices.items():
-            surface = self._surfaces[key]
-            if not len(surface.triangles) and not len(surface.quads):
+        for part, matrix_blocks in self._parts.values():
+            if not len(part.surface.triangles) and not len(part.surface.quads):
                 continue
             matrices = np.concatenate(matrix_blocks)
             finite = np.isfinite(matrices).all(axis=(1, 2))
@@ -97,7 +95,7 @@ class InstanceCollector:
                 self.vanished_count += int((~there).sum())
                 matrices = matrices[there]
             if len(matrices):
-                parts.append(Part(surface, matrices, self._attributes[key], self._patches.get(key), self._names[key]))
+                parts.append(replace(part, matrices=matrices))
         return parts
 
     def _add_object(self, evaluated, matrices: NDArray) -> None:
@@ -133,7 +131,6 @@ class InstanceCollector:
         if original.type != "MESH":
             if original.type == "SURFACE" and evaluated not in self.splines:
                 self.splines[evaluated] = spline_reading(evaluated, self.depsgraph, geometry.mesh)
-                self._patches[self._surface_key(evaluated, evaluated)] = self.splines[evaluated]
             self._add_mesh(evaluated, geometry.mesh, matrices, evaluated)
         elif original.data.is_editmode:
             self._add_surface(evaluated, lambda: self._edit_mode_surface(evaluated), matrices, evaluated)
@@ -153,13 +150,10 @@ class InstanceCollector:
         cloud = geometry.instances_pointcloud()
         if cloud is None:  # there are no instances
             return False
-        count = len(cloud.points)
-        flat = np.empty(16 * count, np.float32)
-        cloud.attributes["instance_transform"].data.foreach_get("value", flat)
-        # Stored column by column.
-        transforms = flat.reshape(count, 4, 4).transpose(0, 2, 1).astype(np.float64)
-        chosen = np.empty(count, np.int32)
-        cloud.attributes[".reference_index"].data.foreach_get("value", chosen)
+        count, values = len(cloud.points), cloud.attributes
+        columns = read_array(values["instance_transform"].data, "value", (count, 4, 4), np.float32)
+        transforms = columns.transpose(0, 2, 1).astype(np.float64)
+        chosen = read_array(values[".reference_index"].data, "value", (count,), np.int32)
         references = geometry.instance_references()
         order = np.argsort(chosen, kind="stable")
         bounds = np.searchsorted(chosen[order], np.arange(len(references) + 1))
@@ -202,8 +196,8 @@ class InstanceCollector:
             matrix = float64_matrix(instance.matrix_world)[None]
             self.sources[source.original] = None
             key = self._surface_key(mesh, source)
-            if key in self._surfaces:
-                self._matrices[key].append(matrix)
+            if key in self._parts:
+                self._parts[key][1].append(matrix)
             elif source.data == mesh:
                 # Not the mesh itself: its subdivision may have been left to the graphics card.
                 self._add_mesh(mesh, self._geometry(source).mesh, matrix, source)
@@ -253,10 +247,11 @@ class InstanceCollector:
     def _add_surface(
         self, key: Hashable, read: Callable[[], tuple[Surface, FaceAttributes]], matrices: NDArray, owner
     ) -> None:
-        if key not in self._surfaces:
-            self._surfaces[key], self._attributes[key] = read()
-            self._names[key] = (self._path[-1] if owner is None else owner.original).name
-        self._matrices.setdefault(key, []).append(matrices)
+        if key not in self._parts:
+            surface, attributes = read()
+            name = (self._path[-1] if owner is None else owner.original).name
+            self._parts[key] = Part(surface, NO_PLACES, attributes, self.splines.get(owner), name), []
+        self._parts[key][1].append(matrices)
 
     def _count_surfaceless(self, geometry, count: int) -> None:
         if geometry.curves is not None and len(geometry.curves.curves):

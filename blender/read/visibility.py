@@ -24,19 +24,9 @@ from .findings import (
     SHAPE_KEYS_OF_OTHER_POINTS,
 )
 
-GEOMETRY_TYPES = {
-    "MESH",
-    "CURVE",
-    "SURFACE",
-    "META",
-    "FONT",
-    "CURVES",
-    "POINTCLOUD",
-    "VOLUME",
-    "GREASEPENCIL",
-}
 SECTION_TYPES = {"MESH", "CURVE", "FONT"}  # objects with faces or curves that may be flat
 SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
+GEOMETRY_TYPES = SURFACE_TYPES | {"CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}
 MAX_DEPTH = 7  # of instances within instances: Blender stops here too (MAX_DUPLI_RECUR - 1)
 
 

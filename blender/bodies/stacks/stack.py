@@ -34,7 +34,7 @@ from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
 from ....core.verdict.method import Method, Verdict
 from ...read.fingerprint import transform_key
-from ...read.mesh import surface_digest
+from ...read.mesh import MAX_DIGESTED_FACES, surface_digest
 from ...settings.accepted import accepted_codes, with_acceptance
 
 METHODS = {verdict: Method(verdict) for verdict in Verdict}
@@ -73,7 +73,7 @@ class MeshShape:
     @cached_property
     def digest(self) -> bytes | None:
         """Digest of the surface, for staleness; None for a large one."""
-        return surface_digest(self.surface, self.face_count)
+        return surface_digest(self.surface) if self.face_count <= MAX_DIGESTED_FACES else None
 
     def sixth_order(self) -> Moments:
         """Return the volume's moments to the order that axes need, for a mesh that was measured alone."""
