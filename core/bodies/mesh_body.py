@@ -74,7 +74,7 @@ class MeshBody(Body):
             same = (
                 solid.method in (Verdict.EXACT, Verdict.REORIENTED)
                 and not solid.health.duplicate_faces
-                and triangle_count(solid.repaired_surface) == triangle_count(surface)
+                and solid.repaired_surface.triangle_count == surface.triangle_count
             )  # otherwise the repaired surface has fewer or more faces
             volume, faces = polyhedron_moments(
                 solid.repaired_surface,
@@ -162,11 +162,6 @@ def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDAr
     return OwnMoments(stack_moments(moments), np.array(of_bodies), rotation)
 
 
-def triangle_count(surface: Surface) -> int:
-    """Return the number of triangles, quads counting as two."""
-    return len(surface.triangles) + 2 * len(surface.quads)
-
-
 def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
     """Return the sum of all parts, each measured once in its own coordinates, and mapped to its places."""
     volumes, areas, healths, verdicts, by_part, parts = [], [], [], [], [], []
@@ -204,7 +199,7 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
     findings = findings_by_part(by_part, reading.name)
     health = merge_health(healths)
     if not shell and instances_overlap(reading):
-        if sum(triangle_count(part.surface) * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
+        if sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
             comparison = compare_places(parts)
             findings += overlap_findings(reading, [solid for solid, _ in parts], comparison)
             nested, overlapping = (len(pairs) for pairs in (comparison.nested, comparison.overlapping))

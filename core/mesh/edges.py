@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ..numerics.arrays import NEXT_AXIS, first_occurrence, sums_by_index
 from ..numerics.graph import EDGES_PER_BLOCK, connected_components
-from .surface import Surface
+from .surface import Surface, face_of_each
 
 HASH_FACTOR = np.uint32(0x9E3779B1)  # a prime of xxHash, by Yann Collet
 NO_SIDES = np.empty(0, np.intp)
@@ -109,14 +109,6 @@ def ring_sizes(
     sizes = np.where(pieces > 0, pieces + 2, 0)
     sizes[quad_faces] = 4
     return sizes
-
-
-def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """Return the mesh face of each quad and of each triangle."""
-    return (
-        np.arange(len(surface.quads)) if surface.quad_faces is None else surface.quad_faces,
-        np.arange(len(surface.triangles)) if surface.triangle_faces is None else surface.triangle_faces,
-    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -114,7 +114,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
         planarity=accumulator,
         allow_open=True,
     )
-    if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // third_order.MIN_TRIANGLES_PER_THREAD) > 1:
+    if min(threads, surface.triangle_count // third_order.MIN_TRIANGLES_PER_THREAD) > 1:
         with ThreadPoolExecutor(1) as pool:
             waiting = pool.submit(prove_closed, surface)
             volume, area = integrate()

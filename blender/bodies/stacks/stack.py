@@ -28,8 +28,9 @@ from ....core.moments.moments import Moments, image, join_moments
 from ....core.numerics.rotations import rotation_matrix
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.integration import area_of_images
+from ....core.polyhedron.third_order import MAX_SMALL_TRIANGLES
 from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
-from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, measure_stack, small_moments_to_order
+from ....core.solid.solid_stack import SolidStack, can_be_stacked, measure_stack, small_moments_to_order
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
 from ....core.verdict.method import Method, Verdict
@@ -196,13 +197,12 @@ class MeasuredStack:
         )
 
 
+@dataclass(frozen=True, eq=False)
 class Stacked:
     """One object's measurement in a stack, the counterpart of `Measured`."""
 
-    __slots__ = ("index", "stack")
-
-    def __init__(self, stack: MeasuredStack, index: int):
-        self.stack, self.index = stack, index
+    stack: MeasuredStack
+    index: int
 
     @property
     def measurement(self) -> Measurement:
@@ -274,7 +274,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
             higher_order = solids.to_order(np.array(together), MAX_ORDER)
             sixth.update((row, higher_order.at(i)) for i, row in enumerate(together))
         alone = {row: each.alone for row, each in found.items() if each.alone is not None}
-        small = [row for row, solid in alone.items() if is_small(solid.repaired_surface)]
+        small = [row for row, solid in alone.items() if solid.repaired_surface.triangle_count <= MAX_SMALL_TRIANGLES]
         if small:
             higher_order = small_moments_to_order([alone[row] for row in small], MAX_ORDER)
             sixth.update((row, higher_order.at(i)) for i, row in enumerate(small))
