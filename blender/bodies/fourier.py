@@ -151,5 +151,4 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
 
 def _to_object(reading: Reading, unit: float) -> NDArray[np.float64]:
     """Return the (4, 4) map from the world to the object's frame, in meters."""
-    turn = np.asarray(reading.rotation, np.float64).T
-    return affine_matrices(turn, -turn @ np.asarray(reading.location, np.float64) * unit)
+    return affine_matrices(reading.rotation.T, -reading.rotation.T @ reading.location * unit)

@@ -40,17 +40,14 @@ class Measured:
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """The measurement's findings."""
         return self.measurement.findings
 
     @property
     def mass_properties(self) -> MassProperties:
-        """The measurement's mass properties."""
         return self.measurement.mass_properties
 
     @property
     def method(self) -> Method:
-        """The measurement's method."""
         return self.measurement.method
 
 

@@ -135,15 +135,12 @@ def union_surface(surface: Surface) -> Surface:
 
     made = []
     try:
-        mesh = bpy.data.meshes.new("")
-        made.append(mesh)
+        made.append(mesh := bpy.data.meshes.new(""))
         mesh.from_pydata((points - middle) / scale, [], faces)
-        body = bpy.data.objects.new(mesh.name, mesh)
-        made.append(body)
-        nothing = bpy.data.collections.new("")  # with no operand the solver still unites the object with itself
-        made.append(nothing)
-        scene = bpy.data.scenes.new("")
-        made.append(scene)
+        made.append(body := bpy.data.objects.new(mesh.name, mesh))
+        # With no operand the solver still unites the object with itself.
+        made.append(nothing := bpy.data.collections.new(""))
+        made.append(scene := bpy.data.scenes.new(""))
         scene.collection.objects.link(body)
         boolean = body.modifiers.new("", "BOOLEAN")
         boolean.operation, boolean.solver, boolean.use_self = "UNION", "EXACT", True

@@ -59,7 +59,6 @@ class Member:
 
     @property
     def name(self) -> str:
-        """Name of the object or collection."""
         return self.data.name
 
     @property
@@ -242,18 +241,11 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
             or not obj.visible_get(view_layer=view_layer)
         )
     ]
-    findings = []
-    if cutters:
-        findings.append(finding(TOTAL_DOUBTFUL_PARTS, kind="Boolean operands", objects=cutters))
-    if unseen:
-        findings.append(
-            finding(
-                TOTAL_DOUBTFUL_PARTS,
-                kind="Objects that are hidden, not rendered or displayed as wire or bounds",
-                objects=unseen,
-            )
-        )
-    return findings
+    doubtful = {
+        "Boolean operands": cutters,
+        "Objects that are hidden, not rendered or displayed as wire or bounds": unseen,
+    }
+    return [finding(TOTAL_DOUBTFUL_PARTS, kind=kind, objects=names) for kind, names in doubtful.items() if names]
 
 
 def _operands(obj: Object) -> Iterator[Object]:

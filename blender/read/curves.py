@@ -216,12 +216,5 @@ def _curve(
     pieces = (len(points) - 1) // (order - 1)
     if pieces < 1:
         return None
-    return Curve(SplineSpace(tuple(_join_knots(pieces, order)), order, len(points)), points)
-
-
-def _join_knots(pieces: int, order: int) -> Iterator[float]:
-    """Yield the knots of a chain of Bézier pieces."""
-    yield 0.0
-    for piece in range(pieces + 1):
-        yield from (float(piece),) * (order - 1)
-    yield float(pieces)
+    knots = [0.0, *np.repeat(np.arange(pieces + 1.0), order - 1).tolist(), float(pieces)]
+    return Curve(SplineSpace(tuple(knots), order, len(points)), points)

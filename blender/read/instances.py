@@ -24,7 +24,7 @@ from ...core.verdict.finding import ReadError
 from .findings import INSTANCES_OF_HIDDEN_OBJECT, NON_FINITE_INSTANCES
 from .mesh import face_slots, from_edit_mesh, mesh_surface, read_array, vertex_values
 from .splines import spline_reading
-from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, edit_modifiers, evaluated_geometry
+from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, evaluated_geometry
 
 NO_PLACES = np.empty((0, 4, 4))
 
@@ -237,8 +237,10 @@ class InstanceCollector:
 
     def _edit_mode_surface(self, evaluated) -> tuple[Surface, FaceAttributes]:
         """Return the surface of an object in Edit Mode of its mesh, with the modifiers that act there."""
-        if not edit_modifiers(evaluated.original) and not blends_keys(evaluated.original):
-            return from_edit_mesh(evaluated.original.data, lambda copy: self._read(copy, evaluated))
+        original = evaluated.original
+        acting = any(modifier.show_viewport and modifier.show_in_editmode for modifier in original.modifiers)
+        if not acting and not blends_keys(original):
+            return from_edit_mesh(original.data, lambda copy: self._read(copy, evaluated))
         # The evaluated mesh may be a BMesh in disguise, which only to_mesh() turns into arrays.
         read = self._read(evaluated.to_mesh(), evaluated)
         evaluated.to_mesh_clear()

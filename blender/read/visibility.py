@@ -158,11 +158,6 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     return None
 
 
-def edit_modifiers(obj) -> list:
-    """Return the modifiers that act while the mesh is in Edit Mode."""
-    return [modifier for modifier in obj.modifiers if modifier.show_viewport and modifier.show_in_editmode]
-
-
 def blends_keys(obj) -> bool:
     """Return whether Edit Mode shows the object's mesh with all of its shape keys, not just the edited one."""
     return obj.data.shape_keys is not None and obj.use_shape_key_edit_mode

@@ -150,8 +150,8 @@ def measure_reading(reading: Reading, body: Body, settings: Settings, transform:
         findings=tuple(reading.findings),
         name=reading.name,
         type=reading.type,
-        rotation=np.asarray(reading.rotation, np.float64),
-        location=np.asarray(reading.location, np.float64) * settings.unit,
+        rotation=reading.rotation,
+        location=reading.location * settings.unit,
         fingerprint=fingerprint(geometry, transform, settings.digest),
     )
 

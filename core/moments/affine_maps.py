@@ -95,11 +95,8 @@ def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: i
 
 def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
     """Map functionals (..., m, K): the first of m by the map (..., 3, 3), its bounds by the map's absolute value."""
-    forms, out = np.stack([linear, np.abs(linear)], axis=-3), np.array(values)
-    table = np.ones((*forms.shape[:-2], 1, 1))
-    for degree in range(1, order + 1):
-        table = _raise_polynomials(table, degree, forms)
-        part = slice(monomial_count(degree - 1), monomial_count(degree))
+    out = np.array(values)
+    for part, table in _image_coefficients(np.stack([linear, np.abs(linear)], axis=-3), order):
         out[..., 0, part] = np.add.reduce(table[..., 0, :, :] * values[..., 0, None, part], axis=-1)
         out[..., 1:, part] = np.einsum("...rc,...mc->...mr", table[..., 1, :, :], values[..., 1:, part])
     return out
@@ -112,12 +109,17 @@ def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.fl
         return np.concatenate([rotate_moments(raw[block], order, rotation[block]) for block in blocks])
     out = np.zeros((*np.broadcast_shapes(raw.shape[:-1], rotation.shape[:-2]), raw.shape[-1]))
     out += raw
-    table = np.ones((*rotation.shape[:-2], 1, 1))
-    for degree in range(1, order + 1):
-        table = _raise_polynomials(table, degree, rotation)
-        part = slice(monomial_count(degree - 1), monomial_count(degree))
+    for part, table in _image_coefficients(rotation, order):
         out[..., part] = np.add.reduce(table * raw[..., None, part], axis=-1)
     return out
+
+
+def _image_coefficients(forms: NDArray, order: int) -> Iterator[tuple[slice, NDArray[np.float64]]]:
+    """Yield, by degree from 1, the slice of its monomials, and the (..., rows, rows) coefficients of their images."""
+    table = np.ones((*forms.shape[:-2], 1, 1))
+    for degree in range(1, order + 1):
+        table = _raise_polynomials(table, degree, forms)
+        yield slice(monomial_count(degree - 1), monomial_count(degree)), table
 
 
 def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:

@@ -78,7 +78,7 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
     if not given:
         return body
     geometry = body.mass or find_extent(body, request.settings)  # raises MeasureError if there is no extent
-    location = np.asarray(reading.location, np.float64) * request.settings.unit
+    location = reading.location * request.settings.unit
     mass, findings = given_moments(request.settings.mass, given, reading.rotation, location, geometry)
     if given.center is not None and _is_outside(mass.about, reading, request.settings.unit):
         findings.append(finding(GIVEN_CENTER_OUTSIDE))
@@ -106,10 +106,9 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
     """Return the results of a part without geometry, and its body, or raise ReadError if it has no mass."""
     properties, settings = request.obj.body_moments, request.settings
     given = GivenPart.from_settings(properties, settings.unit)
-    location = np.asarray(reading.location, np.float64) * settings.unit
-    rotation = np.asarray(reading.rotation, np.float64)
+    location = reading.location * settings.unit
     own = shortest_decimal(properties.mass) if settings.mass is None else settings.mass  # a point has no density
-    mass, findings = given_moments(own, given, rotation, location, None)
+    mass, findings = given_moments(own, given, reading.rotation, location, None)
     varying = GivenPart.from_settings(properties, 1.0).key
     settings = replace(settings, kind=properties.kind.lower(), density=None, mass=own, varying=varying)
     measurement = measure_total(
@@ -119,7 +118,7 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
         kind="point",
         method=Method(Verdict.GIVEN),
         findings=(*reading.findings, *findings),
-        rotation=rotation,
+        rotation=reading.rotation,
         location=location,
         fingerprint=fingerprint(mass.raw.tobytes(), matrix_hash(request.obj), settings.digest),
         density_from=DENSITY_FROM_MASS,

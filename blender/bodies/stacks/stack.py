@@ -59,7 +59,6 @@ class MeshShape:
 
     @property
     def health(self) -> MeshHealth:
-        """Health of the mesh."""
         if self.solids is not None:
             return self.solids.health(self.row)
         assert self.alone is not None
@@ -206,22 +205,18 @@ class Stacked:
 
     @property
     def measurement(self) -> Measurement:
-        """The measurement."""
         return self.stack.measurement(self.index)
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """The measurement's findings."""
         return self.stack.findings[self.index]
 
     @property
     def mass_properties(self) -> MassProperties:
-        """The measurement's mass properties."""
         return self.stack.mass_properties.at(self.index)
 
     @property
     def method(self) -> Method:
-        """The measurement's method."""
         return self.stack.members[self.index].shape.method
 
     @property
