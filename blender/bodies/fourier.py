@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.bodies.findings import WIRE_UNSUPPORTED
-from ...core.bodies.reading import Reading, to_si
+from ...core.bodies.reading import Reading, name_subject, to_si
 from ...core.flat.section import foot
 from ...core.fourier.findings import FOURIER_OF_OPEN_SURFACE
 from ...core.fourier.instances import FOURIER_RTOL, BodyTransform
@@ -20,8 +20,9 @@ from ...core.fourier.polygon import RegionTransform
 from ...core.fourier.wave_vectors import APPROXIMATE, FrequencyGrid, Spectrum
 from ...core.measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
 from ...core.mesh.surface import Surface
+from ...core.moments.affine_maps import affine_matrices, placed_boxes
 from ...core.moments.moments import Measure
-from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.method import Verdict
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
@@ -48,11 +49,8 @@ class ObjectTransform:
 
     def steps(self) -> Generator[float, None, None]:
         """Do the work and yield the fraction done, or raise MeasureError."""
-        try:
+        with name_subject(self.name):
             yield from self.transform.steps()
-        except MeasureError as error:
-            error.about(self.name)
-            raise
 
     def result(self) -> tuple[Spectrum, tuple[Finding, ...]]:
         """Return the spectrum, and a finding for each decision that was taken."""
@@ -82,7 +80,7 @@ def object_transform(
     unit = resolved.unit
     reading = read_object(obj, depsgraph)
     shell = resolved.kind == "shell"
-    try:
+    with name_subject(obj.name):
         body = mesh_body(reading, unit, shell=shell, union=resolved.overlap == "union", threads=resolved.threads)
         if area or shell:
             if shell and not area and resolved.wall != "thin":
@@ -105,9 +103,6 @@ def object_transform(
             q = q(_extent(parts))
         transform = BodyTransform(parts, q, of, total, resolved.threads)
         varies = not area and density_field(obj.body_moments) is not None
-    except MeasureError as error:
-        error.about(obj.name)
-        raise
     factor = resolved.thickness if shell and not area else 1.0
     findings = [*reading.findings, *body.findings]
     if reading.has_patches or (obj.type == "CURVE" and shell and shows_flat_region(obj)):
@@ -146,9 +141,7 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
     """Return the longest side, in m, of the box that holds the boxes of all parts, or raise ReadError if it is 0."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for surface, matrices in parts:
-        box, linear = np.array(surface.box, np.float64), matrices[:, :3, :3]
-        center = linear @ box.mean(axis=0) + matrices[:, :3, 3]
-        extent = np.abs(linear) @ (np.ptp(box, axis=0) / 2.0)
+        center, extent = placed_boxes(surface.box, matrices)
         low, high = np.minimum(low, (center - extent).min(axis=0)), np.maximum(high, (center + extent).max(axis=0))
     size = float((high - low).max())
     if not 0.0 < size < np.inf:
@@ -158,7 +151,4 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
 
 def _to_object(reading: Reading, unit: float) -> NDArray[np.float64]:
     """Return the (4, 4) map from the world to the object's frame, in meters."""
-    turn = np.eye(4)
-    turn[:3, :3] = np.asarray(reading.rotation, np.float64).T
-    turn[:3, 3] = -turn[:3, :3] @ np.asarray(reading.location, np.float64) * unit
-    return turn
+    return affine_matrices(reading.rotation.T, -reading.rotation.T @ reading.location * unit)

@@ -28,6 +28,7 @@ from ...core.density.grid_values import sample_positions
 from ...core.density.spline_grid import Blocks
 from ...core.measurement.measurement import Body
 from ...core.measurement.settings import Settings
+from ...core.moments.affine_maps import affine_matrices
 from ...core.moments.exponents import KNOWN_ORDER
 from ...core.scans.formats import AXES, Positions
 from ...core.verdict.finding import ReadError, finding
@@ -78,8 +79,7 @@ def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings)
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
     positions = sample_positions(options, reading.grid, reading.low, reading.shape)
-    first = np.eye(4)
-    first[:3, 3] = [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
+    first = affine_matrices(np.eye(3), [low if row is None else 0.0 for low, row in zip(reading.low, positions)])
     shape = [count if row is None else len(row) for count, row in zip(reading.shape, positions)]
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
     density = finding(GRID_DENSITY, samples=list(reading.shape), cause=options.meaning().as_record())
@@ -125,7 +125,5 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
         if block.dtype.itemsize > 4:
             values = values.astype(np.float64, copy=False)
         values[i : i + block.shape[0], j : j + block.shape[1], k : k + block.shape[2]] = block
-    first = np.eye(4)
-    first[:3, 3] = reading.low
-    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
+    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ affine_matrices(np.eye(3), reading.low)
     return ThresholdGrid(reading.grid, values, matrix, float(reading.background))

@@ -15,10 +15,10 @@ from dataclasses import dataclass
 
 import bpy
 
-from ...core.bodies.reading import Reading
+from ...core.bodies.reading import Reading, name_subject
 from ...core.inertia.mass_properties import MassProperties
 from ...core.measurement.measurement import Body, Measurement
-from ...core.verdict.finding import Finding, MeasureError
+from ...core.verdict.finding import Finding
 from ...core.verdict.method import Method
 from ..settings.options import AS_SET, MeasureOptions
 from . import grid, mesh, nurbs, wire
@@ -40,17 +40,14 @@ class Measured:
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """The measurement's findings."""
         return self.measurement.findings
 
     @property
     def mass_properties(self) -> MassProperties:
-        """The measurement's mass properties."""
         return self.measurement.mass_properties
 
     @property
     def method(self) -> Method:
-        """The measurement's method."""
         return self.measurement.method
 
 
@@ -63,19 +60,15 @@ def measure_object(
 
 def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET) -> Measured:
     """Return the measurement of one evaluated object with its reading and body, or raise MeasureError."""
-    try:
-        with ExitStack() as opened:
-            request = Request.resolve(obj, depsgraph, options, opened=opened)
-            point = read_point(request)
-            if point is not None:
-                measurement, body = point_measurement(point, request)
-                return Measured(measurement, point, body)
-            kinds = (kind for kind in KINDS if request.settings.kind in kind.MEASURED_AS)
-            found = ((kind, kind.read(request)) for kind in kinds)
-            # The last kind raises MeasureError in place of returning None.
-            kind, reading = next((kind, reading) for kind, reading in found if reading is not None)
-            body = with_given(kind.body(reading, request), reading, request)
-            return Measured(measurement_of(reading, body, request), reading, body)
-    except MeasureError as error:
-        error.about(obj.name)
-        raise
+    with name_subject(obj.name), ExitStack() as opened:
+        request = Request.resolve(obj, depsgraph, options, opened=opened)
+        point = read_point(request)
+        if point is not None:
+            measurement, body = point_measurement(point, request)
+            return Measured(measurement, point, body)
+        kinds = (kind for kind in KINDS if request.settings.kind in kind.MEASURED_AS)
+        found = ((kind, kind.read(request)) for kind in kinds)
+        # The last kind raises MeasureError in place of returning None.
+        kind, reading = next((kind, reading) for kind, reading in found if reading is not None)
+        body = with_given(kind.body(reading, request), reading, request)
+        return Measured(measurement_of(reading, body, request), reading, body)

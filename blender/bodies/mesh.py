@@ -12,10 +12,9 @@ from dataclasses import replace
 import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object
-from numpy.typing import NDArray
 
 from ...core.bodies.instances import singular_instances_message
-from ...core.bodies.mesh_body import MeshBody, drawn_names, of_drawn, sum_of_instances, triangle_count
+from ...core.bodies.mesh_body import MeshBody, drawn_names, of_drawn, sum_of_instances
 from ...core.bodies.reading import Reading
 from ...core.bodies.wall import find_walls
 from ...core.measurement.measurement import Body
@@ -88,7 +87,7 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
         for matrix in matrices
     ]
     surface = union_surface(join_surfaces(repaired))
-    solid = measure_solid(surface, threads=threads) if triangle_count(surface) else None
+    solid = measure_solid(surface, threads=threads) if surface.triangle_count else None
     if solid is None or solid.method == Verdict.OPEN:
         raise ReadError(UNION_FAILED)
     findings = [finding(UNION_BY_BOOLEAN)]
@@ -117,7 +116,7 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     to_local = np.linalg.inv(reading.matrix)
     points, noise = [], 0.0
     for part in reading.parts:
-        corners = _used_points(part.surface)
+        corners = part.surface.used_points().astype(np.float64)
         if len(part.matrices) > 1:
             corners = convex_hull(corners, HULL_RTOL, MAX_CORNERS).points
         for matrix in to_local @ part.matrices:
@@ -128,12 +127,6 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     return convex_hull(joined, max(HULL_RTOL, NOISE * noise / (extent or np.inf)), MAX_CORNERS)
 
 
-def _used_points(surface: Surface) -> NDArray[np.float64]:
-    """Return the points that are corners of faces."""
-    users = np.bincount(surface.all_triangles()[0].ravel(), minlength=len(surface.points))
-    return surface.points[users > 0].astype(np.float64)
-
-
 def union_surface(surface: Surface) -> Surface:
     """Return the surface around the union of all shells, computed in float32 about their middle and at unit size."""
     points, faces = surface.points.astype(np.float64), surface.all_triangles()[0]
@@ -142,15 +135,12 @@ def union_surface(surface: Surface) -> Surface:
 
     made = []
     try:
-        mesh = bpy.data.meshes.new("")
-        made.append(mesh)
+        made.append(mesh := bpy.data.meshes.new(""))
         mesh.from_pydata((points - middle) / scale, [], faces)
-        body = bpy.data.objects.new(mesh.name, mesh)
-        made.append(body)
-        nothing = bpy.data.collections.new("")  # with no operand the solver still unites the object with itself
-        made.append(nothing)
-        scene = bpy.data.scenes.new("")
-        made.append(scene)
+        made.append(body := bpy.data.objects.new(mesh.name, mesh))
+        # With no operand the solver still unites the object with itself.
+        made.append(nothing := bpy.data.collections.new(""))
+        made.append(scene := bpy.data.scenes.new(""))
         scene.collection.objects.link(body)
         boolean = body.modifiers.new("", "BOOLEAN")
         boolean.operation, boolean.solver, boolean.use_self = "UNION", "EXACT", True

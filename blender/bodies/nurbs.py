@@ -28,7 +28,7 @@ from ...core.bodies.reading import Part, Reading, SplineReading, to_si
 from ...core.measurement.findings import WALL_UNSUPPORTED
 from ...core.measurement.measurement import Body
 from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
+from ...core.moments.affine_maps import affine_matrices, are_similarities, distinct_linear_parts
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
 from ...core.nurbs.findings import ERROR_ESTIMATE_LARGE
@@ -252,9 +252,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
 def _distinct_images(patches: Sequence[Face], matrices: NDArray) -> Iterator[tuple[list[Face], NDArray]]:
     """Yield the patches under each distinct linear map, facing as before, with (k, 4, 4) translations to the places."""
     for linear, members in distinct_linear_parts(matrices):
-        turn = np.eye(4)
-        turn[:3, :3] = linear
-        mapped = [patch.transform(turn) for patch in patches]
-        if np.linalg.det(turn) < 0.0:
+        mapped = [patch.transform(affine_matrices(linear)) for patch in patches]
+        if np.linalg.det(linear) < 0.0:
             mapped = [patch.reverse_orientation() for patch in mapped]
-        yield mapped, translation_matrices(matrices[members, :3, 3])
+        yield mapped, affine_matrices(np.eye(3), matrices[members, :3, 3])

@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 
 from ...core.bodies.reading import Reading
 from ...core.measurement.measurement import Body
-from ...core.moments.moments import FLOAT32_HALF_ULP, Measure, Moments, U, monomial_count, monomials
+from ...core.moments.exponents import KNOWN_ORDER, monomials
+from ...core.moments.moments import FLOAT32_HALF_ULP, Moments, U
 from ...core.nurbs.curve_moments import length_moments
 from ...core.nurbs.splines import Curve
+from ...core.polyhedron.third_order import nothing
 from ...core.verdict.finding import ReadError
 from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict
@@ -24,7 +26,7 @@ from .request import Request
 
 MEASURED_AS = frozenset({"wire"})
 
-DEGREE = monomials(3).sum(axis=1)
+DEGREE = monomials(KNOWN_ORDER).sum(axis=1)
 CLOSED_RTOL = 1e-9  # of the wire's reach: ends that are nearer count as one point
 
 
@@ -36,9 +38,7 @@ class WireBody(Body):
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
         """Return zero moments of the volume and of the area, to an order."""
-        nothing = np.zeros(monomial_count(order))
-        about = self.volume.about
-        return Moments(nothing, about, Measure.VOLUME), Moments(nothing, about, Measure.AREA)
+        return nothing(order, self.volume.about)
 
     def third_order(self) -> Moments:
         """Return the moments of the length, to third order."""
@@ -57,13 +57,11 @@ def body(reading: Reading, request: Request) -> Body:
     length = length_moments(curves)
     if not length.total > 0.0:
         raise ReadError(NO_CURVE)
-    nothing = Moments(np.zeros(monomial_count(3)), length.about, Measure.VOLUME)
     # an estimate for smooth curves: a length changes with its ends, and as much again by its turning
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
     moved = stored * (2.0 * len(curves) + 8.0 * length.total / reach) * reach**DEGREE
     return WireBody(
-        nothing,
-        Moments(nothing.raw, length.about, Measure.AREA),
+        *nothing(KNOWN_ORDER, length.about),
         MeshHealth(closed=all(_is_closed(curve, reach) for curve in curves), components=len(curves)),
         Method(Verdict.WIRE),
         (),

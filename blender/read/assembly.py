@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from operator import attrgetter
 
 import bpy
 from bpy.types import Depsgraph, LayerCollection, Object, Scene, ViewLayer
@@ -25,6 +26,8 @@ from ..settings.given import GivenPart, is_point_mass, shows_collection
 from .findings import BOOLEAN_OPERAND, HIDDEN_IN_VIEWPORT, MEMBER_COUNTED_BEFORE, NOT_RENDERED, TOTAL_DOUBTFUL_PARTS
 from .fingerprint import matrix_bytes, matrix_hash
 from .visibility import MAX_DEPTH, hidden_reason, instanced_by_parent, measurable
+
+by_name = attrgetter("name")
 
 
 class MemberKind(StrEnum):
@@ -56,7 +59,6 @@ class Member:
 
     @property
     def name(self) -> str:
-        """Name of the object or collection."""
         return self.data.name
 
     @property
@@ -127,7 +129,7 @@ class _Walk:
         if self.inside and (collection.hide_render or collection.hide_viewport):
             return Member(collection, MemberKind.COLLECTION, left_out=finding(NOT_RENDERED))
         members = [self.collection(child, depth) for child in collection.children]
-        for obj in sorted(collection.objects, key=_name):
+        for obj in sorted(collection.objects, key=by_name):
             if obj in self.replaced:
                 continue
             if obj in self.given and obj not in self.counted:
@@ -145,7 +147,7 @@ class _Walk:
     def children(self, parent: Object, depth: int) -> list[Member]:
         """Return the members of an object's children."""
         members: list[Member] = []
-        for child in sorted(self.of_parent.get(parent, ()), key=_name):
+        for child in sorted(self.of_parent.get(parent, ()), key=by_name):
             if child.type == "EMPTY" and not shows_collection(child) and child in self.of_parent:
                 members.append(self.empty(child, depth))
                 continue
@@ -196,10 +198,6 @@ def _shows_members(obj: Object) -> bool:
     )
 
 
-def _name(obj: Object) -> str:
-    return obj.name
-
-
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
     """Return the objects that are no parts of the body, each with the reason: it is an operand, or not rendered."""
     # A layer that is switched off renders nothing; if all are switched off, the open layer counts.
@@ -218,7 +216,7 @@ def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Findin
 def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:
     """Return the operands of objects' Boolean modifiers, each with the first object by name that uses it."""
     operands: dict[Object, Object] = {}
-    for user in sorted(objects, key=lambda obj: obj.name):
+    for user in sorted(objects, key=by_name):
         for operand in _operands(user):
             operands.setdefault(operand, user)
     return operands
@@ -228,7 +226,7 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
     """Return a finding for each reason why some of the summed objects may be no parts of the body."""
     if len(objects) < 2:
         return []
-    objects = sorted(objects, key=lambda obj: obj.name)
+    objects = sorted(objects, key=by_name)
     operands = operands_of(objects)
     cutters = [[obj.name, operands[obj].name] for obj in objects if obj in operands]
     rendered = set(_rendered(view_layer.layer_collection))
@@ -243,18 +241,11 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
             or not obj.visible_get(view_layer=view_layer)
         )
     ]
-    findings = []
-    if cutters:
-        findings.append(finding(TOTAL_DOUBTFUL_PARTS, kind="Boolean operands", objects=cutters))
-    if unseen:
-        findings.append(
-            finding(
-                TOTAL_DOUBTFUL_PARTS,
-                kind="Objects that are hidden, not rendered or displayed as wire or bounds",
-                objects=unseen,
-            )
-        )
-    return findings
+    doubtful = {
+        "Boolean operands": cutters,
+        "Objects that are hidden, not rendered or displayed as wire or bounds": unseen,
+    }
+    return [finding(TOTAL_DOUBTFUL_PARTS, kind=kind, objects=names) for kind, names in doubtful.items() if names]
 
 
 def _operands(obj: Object) -> Iterator[Object]:

@@ -18,6 +18,7 @@ from ...core.nurbs.findings import NON_FINITE_CONTROL_POINTS
 from ...core.nurbs.splines import Curve
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import CURVE_MEASURED_WHOLE, NO_CURVE, SPLINES_LEFT_OUT, UNKNOWN_KNOTS
+from .mesh import read_array
 from .splines import deform, is_deformed, spline_modifiers, weighted_points
 from .visibility import evaluated_geometry
 
@@ -100,10 +101,9 @@ def _control_points(spline) -> NDArray[np.float64]:
     """Return (n, 3) points in Blender's order; a Bézier point counts as left handle, point and right handle."""
     if spline.type != "BEZIER":
         return weighted_points(spline)[:, :3].astype(np.float64)
-    coordinates = np.empty((3, 3 * len(spline.bezier_points)), np.float32)
-    for row, name in zip(coordinates, ("handle_left", "co", "handle_right")):
-        spline.bezier_points.foreach_get(name, row)
-    return coordinates.reshape(3, -1, 3).swapaxes(0, 1).reshape(-1, 3).astype(np.float64)
+    knots, names = spline.bezier_points, ("handle_left", "co", "handle_right")
+    rows = [read_array(knots, name, (len(knots), 3), np.float32) for name in names]
+    return np.stack(rows, axis=1).reshape(-1, 3).astype(np.float64)
 
 
 def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
@@ -185,9 +185,7 @@ def _values(curves, name: str, item: str, shape: tuple[int, int], default: float
         return np.full(shape, default)
     attribute = curves.attributes[name]
     kind = {"BOOLEAN": bool, "FLOAT": np.float32, "FLOAT_VECTOR": np.float32}.get(attribute.data_type, np.int32)
-    values = np.empty(shape, kind)
-    attribute.data.foreach_get(item, values.reshape(-1))
-    return values.astype(np.float64)
+    return read_array(attribute.data, item, shape, kind).astype(np.float64)
 
 
 def _require_finite(positions: NDArray, name: str) -> None:
@@ -218,12 +216,5 @@ def _curve(
     pieces = (len(points) - 1) // (order - 1)
     if pieces < 1:
         return None
-    return Curve(SplineSpace(tuple(_join_knots(pieces, order)), order, len(points)), points)
-
-
-def _join_knots(pieces: int, order: int) -> Iterator[float]:
-    """Yield the knots of a chain of Bézier pieces."""
-    yield 0.0
-    for piece in range(pieces + 1):
-        yield from (float(piece),) * (order - 1)
-    yield float(pieces)
+    knots = [0.0, *np.repeat(np.arange(pieces + 1.0), order - 1).tolist(), float(pieces)]
+    return Curve(SplineSpace(tuple(knots), order, len(points)), points)

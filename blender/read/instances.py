@@ -11,18 +11,22 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterator
+from dataclasses import replace
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix
+from ...core.bodies.reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix, name_subject
 from ...core.mesh.surface import Surface
-from ...core.verdict.finding import MeasureError, ReadError
+from ...core.moments.affine_maps import affine_matrices
+from ...core.verdict.finding import ReadError
 from .findings import INSTANCES_OF_HIDDEN_OBJECT, NON_FINITE_INSTANCES
-from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
+from .mesh import face_slots, from_edit_mesh, mesh_surface, read_array, vertex_values
 from .splines import spline_reading
-from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, edit_modifiers, evaluated_geometry
+from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, evaluated_geometry
+
+NO_PLACES = np.empty((0, 4, 4))
 
 
 class _NeedsInstanceList(Exception):
@@ -58,12 +62,8 @@ class InstanceCollector:
         self.sources: dict[bpy.types.Object, None] = {}
         self.drawn: dict[bpy.types.Object, None] = {}
         self.vanished_count = 0
-        self._surfaces: dict[Hashable, Surface] = {}
         self.splines: dict[bpy.types.Object, SplineReading | None] = {}
-        self._attributes: dict[Hashable, FaceAttributes] = {}
-        self._patches: dict[Hashable, SplineReading | None] = {}
-        self._matrices: dict[Hashable, list[NDArray[np.float64]]] = {}
-        self._names: dict[Hashable, str] = {}
+        self._parts: dict[Hashable, tuple[Part, list[NDArray[np.float64]]]] = {}
         self._path: list[bpy.types.Object] = []
 
     def collect(self) -> None:
@@ -78,9 +78,8 @@ class InstanceCollector:
     def parts(self) -> list[Part]:
         """Return a part for each surface, without instances of scale 0; ReadError for a non-finite matrix."""
         parts = []
-        for key, matrix_blocks in self._matrices.items():
-            surface = self._surfaces[key]
-            if not len(surface.triangles) and not len(surface.quads):
+        for part, matrix_blocks in self._parts.values():
+            if not len(part.surface.triangles) and not len(part.surface.quads):
                 continue
             matrices = np.concatenate(matrix_blocks)
             finite = np.isfinite(matrices).all(axis=(1, 2))
@@ -96,7 +95,7 @@ class InstanceCollector:
                 self.vanished_count += int((~there).sum())
                 matrices = matrices[there]
             if len(matrices):
-                parts.append(Part(surface, matrices, self._attributes[key], self._patches.get(key), self._names[key]))
+                parts.append(replace(part, matrices=matrices))
         return parts
 
     def _add_object(self, evaluated, matrices: NDArray) -> None:
@@ -132,7 +131,6 @@ class InstanceCollector:
         if original.type != "MESH":
             if original.type == "SURFACE" and evaluated not in self.splines:
                 self.splines[evaluated] = spline_reading(evaluated, self.depsgraph, geometry.mesh)
-                self._patches[self._surface_key(evaluated, evaluated)] = self.splines[evaluated]
             self._add_mesh(evaluated, geometry.mesh, matrices, evaluated)
         elif original.data.is_editmode:
             self._add_surface(evaluated, lambda: self._edit_mode_surface(evaluated), matrices, evaluated)
@@ -152,13 +150,10 @@ class InstanceCollector:
         cloud = geometry.instances_pointcloud()
         if cloud is None:  # there are no instances
             return False
-        count = len(cloud.points)
-        flat = np.empty(16 * count, np.float32)
-        cloud.attributes["instance_transform"].data.foreach_get("value", flat)
-        # Stored column by column.
-        transforms = flat.reshape(count, 4, 4).transpose(0, 2, 1).astype(np.float64)
-        chosen = np.empty(count, np.int32)
-        cloud.attributes[".reference_index"].data.foreach_get("value", chosen)
+        count, values = len(cloud.points), cloud.attributes
+        columns = read_array(values["instance_transform"].data, "value", (count, 4, 4), np.float32)
+        transforms = columns.transpose(0, 2, 1).astype(np.float64)
+        chosen = read_array(values[".reference_index"].data, "value", (count,), np.int32)
         references = geometry.instance_references()
         order = np.argsort(chosen, kind="stable")
         bounds = np.searchsorted(chosen[order], np.arange(len(references) + 1))
@@ -180,9 +175,7 @@ class InstanceCollector:
 
     def _add_collection(self, collection, matrices: NDArray) -> None:
         self.collections[collection.original] = None
-        shift = np.eye(4)
-        shift[:3, 3] = -np.array(collection.instance_offset[:], np.float64)
-        matrices = matrices @ shift
+        matrices = matrices @ affine_matrices(np.eye(3), -np.array(collection.instance_offset[:], np.float64))
         for member in visible_objects(collection):
             evaluated = member.evaluated_get(self.depsgraph)
             self._add_object(evaluated, matrices @ float64_matrix(evaluated.matrix_world))
@@ -203,8 +196,8 @@ class InstanceCollector:
             matrix = float64_matrix(instance.matrix_world)[None]
             self.sources[source.original] = None
             key = self._surface_key(mesh, source)
-            if key in self._surfaces:
-                self._matrices[key].append(matrix)
+            if key in self._parts:
+                self._parts[key][1].append(matrix)
             elif source.data == mesh:
                 # Not the mesh itself: its subdivision may have been left to the graphics card.
                 self._add_mesh(mesh, self._geometry(source).mesh, matrix, source)
@@ -233,11 +226,8 @@ class InstanceCollector:
     def _read_attributes(self, mesh, owner) -> FaceAttributes:
         vertices = NO_VALUES
         if self.attribute is not None and len(mesh.polygons):
-            try:
+            with name_subject(self.root.name):
                 vertices = vertex_values(mesh, self.attribute)
-            except MeasureError as error:
-                error.about(self.root.name)
-                raise
         if not self.materials:
             return FaceAttributes(vertex_values=vertices)
         slots = _slots(mesh, owner)
@@ -247,8 +237,10 @@ class InstanceCollector:
 
     def _edit_mode_surface(self, evaluated) -> tuple[Surface, FaceAttributes]:
         """Return the surface of an object in Edit Mode of its mesh, with the modifiers that act there."""
-        if not edit_modifiers(evaluated.original) and not blends_keys(evaluated.original):
-            return from_edit_mesh(evaluated.original.data, lambda copy: self._read(copy, evaluated))
+        original = evaluated.original
+        acting = any(modifier.show_viewport and modifier.show_in_editmode for modifier in original.modifiers)
+        if not acting and not blends_keys(original):
+            return from_edit_mesh(original.data, lambda copy: self._read(copy, evaluated))
         # The evaluated mesh may be a BMesh in disguise, which only to_mesh() turns into arrays.
         read = self._read(evaluated.to_mesh(), evaluated)
         evaluated.to_mesh_clear()
@@ -257,10 +249,11 @@ class InstanceCollector:
     def _add_surface(
         self, key: Hashable, read: Callable[[], tuple[Surface, FaceAttributes]], matrices: NDArray, owner
     ) -> None:
-        if key not in self._surfaces:
-            self._surfaces[key], self._attributes[key] = read()
-            self._names[key] = (self._path[-1] if owner is None else owner.original).name
-        self._matrices.setdefault(key, []).append(matrices)
+        if key not in self._parts:
+            surface, attributes = read()
+            name = (self._path[-1] if owner is None else owner.original).name
+            self._parts[key] = Part(surface, NO_PLACES, attributes, self.splines.get(owner), name), []
+        self._parts[key][1].append(matrices)
 
     def _count_surfaceless(self, geometry, count: int) -> None:
         if geometry.curves is not None and len(geometry.curves.curves):

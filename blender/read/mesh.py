@@ -84,7 +84,7 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
         return {"triangles": corners.reshape(-1, 3)}
 
     mesh.calc_loop_triangles()
-    owners = _array(mesh.loop_triangle_polygons, "value", (len(mesh.loop_triangles),), np.int32)
+    owners = read_array(mesh.loop_triangle_polygons, "value", (len(mesh.loop_triangles),), np.int32)
     # The owners are 0, 0, 1, 1, … if all faces are quads, and no triangle stands beside a pentagon.
     if len(corners) == 4 * faces and np.array_equal(owners, np.arange(2 * faces, dtype=np.int32) >> 1):
         return {"quads": corners.reshape(-1, 4)}
@@ -131,13 +131,12 @@ def vertex_values(mesh, name: str) -> NDArray[np.float64]:
 
 
 def _attribute(mesh, name: str, member: str, shape: tuple[int, ...], dtype) -> NDArray:
-    array = np.empty(shape, dtype)
-    if shape[0]:  # without elements there may be no attribute either
-        mesh.attributes[name].data.foreach_get(member, array.reshape(-1))
-    return array
+    """Return the values of an attribute; without elements there may be no attribute either."""
+    return read_array(mesh.attributes[name].data, member, shape, dtype) if shape[0] else np.empty(shape, dtype)
 
 
-def _array(data, member: str, shape: tuple[int, ...], dtype) -> NDArray:
+def read_array(data, member: str, shape: tuple[int, ...], dtype) -> NDArray:
+    """Return a member of all elements of a collection as an array."""
     array = np.empty(shape, dtype)
     data.foreach_get(member, array.reshape(-1))
     return array
@@ -148,7 +147,7 @@ def _loop_triangles(mesh, indices: NDArray) -> NDArray[np.int32]:
     if SINGLE_ACCESS_COST * len(indices) < len(triangles):
         vertices = chain.from_iterable(triangles[row].vertices for row in indices.tolist())
         return np.fromiter(vertices, np.int32, 3 * len(indices)).reshape(-1, 3)
-    return _array(triangles, "vertices", (len(triangles), 3), np.int32)[indices]
+    return read_array(triangles, "vertices", (len(triangles), 3), np.int32)[indices]
 
 
 def shape_digest(obj: Object, depsgraph: Depsgraph) -> bytes | None:
@@ -169,13 +168,11 @@ def shape_digest(obj: Object, depsgraph: Depsgraph) -> bytes | None:
     mesh = geometry.mesh
     if mesh is None or len(mesh.polygons) > MAX_DIGESTED_FACES:
         return None
-    return surface_digest(mesh_surface(mesh, edges=False), len(mesh.polygons))
+    return surface_digest(mesh_surface(mesh, edges=False))
 
 
-def surface_digest(surface: Surface, face_count: int) -> bytes | None:
-    """Return a digest of the faces of a surface, or None if there are more than MAX_DIGESTED_FACES."""
-    if face_count > MAX_DIGESTED_FACES:
-        return None
+def surface_digest(surface: Surface) -> bytes:
+    """Return a digest of the faces of a surface."""
     shape = hashlib.blake2b(digest_size=16)
     for array in (surface.points, surface.triangles, surface.quads):
         shape.update(np.ascontiguousarray(array).data)

@@ -8,6 +8,7 @@ Reading changes nothing. An object that Blender has not evaluated is refused, ne
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.bodies.reading import Part, Reading, attribute_to_source, float64_matrix
 from ...core.mesh.surface import Surface
@@ -40,7 +41,10 @@ def read_object(
     if not parts:
         raise ReadError(why_empty(obj, gathered, depsgraph), subject=obj.name)
     for part in parts:
-        _require_finite(obj, part)
+        if not np.isfinite(part.surface.box).all():
+            if obj.type == "SURFACE" and nonpositive_weights(obj.data.splines):
+                raise ReadError(NON_POSITIVE_WEIGHTS, subject=obj.name)
+            require_finite(obj, part.surface.points, part.source_object_name)
     reading.parts, reading.findings = parts, list(reading_findings(obj, gathered, depsgraph))
     return reading
 
@@ -89,13 +93,9 @@ def locate(obj, depsgraph) -> Reading:
     )
 
 
-def _require_finite(obj, part: Part) -> None:
-    surface = part.surface
-    if np.isfinite(surface.box).all():
-        return
-    if obj.type == "SURFACE" and nonpositive_weights(obj.data.splines):
-        raise ReadError(NON_POSITIVE_WEIGHTS, subject=obj.name)
-    points = surface.points
+def require_finite(obj, points: NDArray, source: str = "") -> None:
+    """Raise ReadError if (n, 3) points of an object, or of an instance of the object `source`, are not finite."""
     misplaced = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    found = finding(NON_FINITE_VERTICES, misplaced, count=len(misplaced), total=len(points))
-    raise ReadError(attribute_to_source(found, part.source_object_name, obj.name), subject=obj.name)
+    if len(misplaced):
+        found = finding(NON_FINITE_VERTICES, misplaced, count=len(misplaced), total=len(points))
+        raise ReadError(attribute_to_source(found, source, obj.name), subject=obj.name)

@@ -21,7 +21,6 @@ from ...core.bodies.reading import Reading
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import polar_rotation
 from ...core.nurbs.splines import Curve
-from ...core.solid.findings import NON_FINITE_VERTICES
 from ...core.verdict.finding import Finding, ReadError, finding
 from .curves import read_curves, text_curves
 from .findings import (
@@ -37,8 +36,8 @@ from .findings import (
     SECTION_SPLINES_OPEN,
     SECTION_TEXT_ON_CURVE,
 )
-from .mesh import from_edit_mesh, mesh_surface
-from .objects import locate, read_object
+from .mesh import from_edit_mesh, mesh_surface, read_array
+from .objects import locate, read_object, require_finite
 from .visibility import SECTION_TYPES
 
 ZERO_SCALE = 1e-17  # a scale that `decompose()` takes for zero
@@ -109,9 +108,7 @@ def _section(
 
 def _selected_faces(obj, depsgraph) -> SectionReading:
     def selected(copy: bpy.types.Mesh) -> tuple[NDArray[np.bool_], Surface]:
-        chosen = np.empty(len(copy.polygons), bool)
-        copy.polygons.foreach_get("select", chosen)
-        return chosen, mesh_surface(copy, edges=False)
+        return read_array(copy.polygons, "select", (len(copy.polygons),), bool), mesh_surface(copy, edges=False)
 
     chosen, surface = from_edit_mesh(obj.data, selected)
     if not chosen.any():
@@ -121,7 +118,7 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     triangles, faces = surface.all_triangles()
     inside = chosen[faces]
     triangles = triangles[inside]
-    _require_finite(obj, surface.points)  # all points bound the effect of float32 on any
+    require_finite(obj, surface.points)  # all points bound the effect of float32 on any
     acting = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
     findings = [finding(MODIFIERS_LEFT_OUT, modifiers=acting)] if acting else []
     count = int(np.count_nonzero(chosen))
@@ -157,7 +154,7 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
             a, b, c = (filled.points.astype(np.float64)[filled.all_triangles()[0][:, i]] for i in range(3))
             ab, ac = b - a, c - a
             drawn = float(np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum() / 2.0 * np.sqrt(facing @ facing))
-    _require_finite(obj, surface.points)
+    require_finite(obj, surface.points)
     more = {"loops": loops, "facing": facing, "drawn_area": drawn, "findings": findings}
     return _section("Text" if obj.type == "FONT" else "Curve", surface, triangles, faces, place, **more)
 
@@ -196,10 +193,8 @@ def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], 
         mesh = copy.to_mesh()
         if mesh is None:
             return np.empty((0, 3), np.float32), [], 0
-        points = np.empty((len(mesh.vertices), 3), np.float32)
-        mesh.vertices.foreach_get("co", points.reshape(-1))
-        edges = np.empty((len(mesh.edges), 2), np.int32)
-        mesh.edges.foreach_get("vertices", edges.reshape(-1))
+        points = read_array(mesh.vertices, "co", (len(mesh.vertices), 3), np.float32)
+        edges = read_array(mesh.edges, "vertices", (len(mesh.edges), 2), np.int32)
         copy.to_mesh_clear()
     finally:
         bpy.data.curves.remove(data)  # and the object with it
@@ -221,11 +216,3 @@ def _fill_area(obj, depsgraph) -> Surface | None:
         return mesh_surface(mesh, edges=False) if mesh is not None and len(mesh.polygons) else None
     finally:
         evaluated.to_mesh_clear()
-
-
-def _require_finite(obj, points: NDArray) -> None:
-    misplaced = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    if len(misplaced):
-        raise ReadError(
-            NON_FINITE_VERTICES, subject=obj.name, elements=misplaced, count=len(misplaced), total=len(points)
-        )

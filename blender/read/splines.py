@@ -24,6 +24,7 @@ from ...core.nurbs.blender_knots import blender_space, display_parameters, displ
 from ...core.nurbs.splines import Patch
 from ...core.verdict.finding import ReadError, finding
 from .findings import CONTROL_POINTS_RECOVERED, SCALE_ZERO_AXIS, SPLINES_LEFT_OUT
+from .mesh import read_array, vertex_points
 
 AGREEMENT_RTOL = 4e-6  # relative to the largest coordinate: error of float32 evaluation, up to order 6 by order 6
 RECOVERY_RTOL = 1e-6  # relative to the size: error of recovered control points
@@ -124,9 +125,7 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     if left_out:
         findings.append(finding(SPLINES_LEFT_OUT, count=left_out, total=len(splines)))
     if mesh is not None:
-        shown = np.empty(3 * len(mesh.vertices), np.float32)
-        mesh.attributes["position"].data.foreach_get("vector", shown)
-        proved = _verified(patches, samples, shown.reshape(-1, 3), AGREEMENT_RTOL * largest)
+        proved = _verified(patches, samples, vertex_points(mesh), AGREEMENT_RTOL * largest)
         if proved is None:
             return None
         if proved is not patches:
@@ -142,9 +141,7 @@ def nonpositive_weights(splines) -> int:
 
 def weighted_points(spline) -> NDArray[np.float32]:
     """Return (n, 4) control points and weights of a spline that is not a Bézier one."""
-    row = np.empty(4 * len(spline.points), np.float32)
-    spline.points.foreach_get("co", row)
-    return row.reshape(-1, 4)
+    return read_array(spline.points, "co", (len(spline.points), 4), np.float32)
 
 
 def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:

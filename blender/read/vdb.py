@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from ...core.bodies.findings import GRID_TOO_LARGE
 from ...core.mesh.surface import Surface
+from ...core.moments.affine_maps import affine_matrices
 from ...core.verdict.finding import ReadError
 from .findings import GRID_FAR_FROM_ORIGIN, GRID_FRUSTUM, GRID_TYPE, GRID_UNREADABLE
 
@@ -63,13 +64,8 @@ class VdbGrid:
             raise ReadError(GRID_FRUSTUM, grid=name)
         self.background = float(self._grid.background)
         self.level_set = self._grid.gridClass == "level set"
-        corner = np.array(transform.indexToWorld((0, 0, 0)), np.float64)
-        self.to_object = np.eye(4)
-        self.to_object[:3, 3] = corner
-        for axis in range(3):
-            step = [0, 0, 0]
-            step[axis] = 1
-            self.to_object[:3, axis] = np.array(transform.indexToWorld(tuple(step)), np.float64) - corner
+        places = np.array([transform.indexToWorld(voxel) for voxel in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))])
+        self.to_object = affine_matrices((places[1:] - places[0]).T, places[0])
         low, high = (np.array(end, np.int64) for end in self._grid.evalActiveVoxelBoundingBox())
         if self._grid.activeVoxelCount() == 0:
             low, high = np.zeros(3, np.int64), np.full(3, -1)

@@ -24,19 +24,9 @@ from .findings import (
     SHAPE_KEYS_OF_OTHER_POINTS,
 )
 
-GEOMETRY_TYPES = {
-    "MESH",
-    "CURVE",
-    "SURFACE",
-    "META",
-    "FONT",
-    "CURVES",
-    "POINTCLOUD",
-    "VOLUME",
-    "GREASEPENCIL",
-}
 SECTION_TYPES = {"MESH", "CURVE", "FONT"}  # objects with faces or curves that may be flat
 SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
+GEOMETRY_TYPES = SURFACE_TYPES | {"CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}
 MAX_DEPTH = 7  # of instances within instances: Blender stops here too (MAX_DUPLI_RECUR - 1)
 
 
@@ -171,11 +161,6 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     if obj.hide_get(view_layer=depsgraph.view_layer):
         return finding(HIDDEN_IN_VIEWPORT, name=obj.name, switch="eye icon")
     return None
-
-
-def edit_modifiers(obj) -> list:
-    """Return the modifiers that act while the mesh is in Edit Mode."""
-    return [modifier for modifier in obj.modifiers if modifier.show_viewport and modifier.show_in_editmode]
 
 
 def blends_keys(obj) -> bool:

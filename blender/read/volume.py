@@ -20,12 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.bodies.findings import GRID_TOO_LARGE
-from ...core.bodies.reading import Reading, float64_matrix
+from ...core.bodies.reading import Reading, float64_matrix, name_subject
 from ...core.density.findings import GRID_TRANSFORM_SINGULAR
 from ...core.mesh.surface import Surface
 from ...core.numerics.float32 import shortest_decimal
 from ...core.scans.findings import OTHERS_LEFT_OUT
-from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.finding import Finding, ReadError, finding
 from .decisions import modifier_findings
 from .findings import (
     GRID_MISSING,
@@ -81,10 +81,11 @@ class VolumeReading(Reading):
 def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | None]:
     """Yield the named grid, else “density” or the first scalar grid; None if polygons or no volume are shown."""
     obj = obj.original
-    volume = _volume(obj, depsgraph)
-    if volume is None:
+    shown = _volume(obj, depsgraph)
+    if shown is None:
         yield None
         return
+    volume, geometry = shown  # the set of geometry may own the volume
     place = locate(obj, depsgraph)
     findings = place.findings
     chosen = _choose_grid(obj, volume, grid, findings)
@@ -92,30 +93,26 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
     if hidden:
         findings.append(finding(HIDDEN_OBJECT_MEASURED, cause=hidden.as_record()))
     findings.extend(modifier_findings(obj, depsgraph.scene))
-    if volume.geometry.instances_pointcloud() is not None:
-        count = len(volume.geometry.instances_pointcloud().points)
+    if geometry.instances_pointcloud() is not None:
+        count = len(geometry.instances_pointcloud().points)
         kinds = [finding(KIND_COUNT, kind="instances beside the volume", count=count).as_record()]
         findings.append(finding(SURFACELESS_LEFT_OUT, kinds=kinds))
-    try:
-        with _open_grid(obj, volume, chosen, depsgraph, findings) as source:
-            yield VolumeReading(
-                **vars(place),
-                grid=chosen.name,
-                level_set=source.level_set,
-                to_object=source.to_object,
-                low=source.low,
-                shape=tuple(source.shape.tolist()),
-                background=source.background,
-                blocks=source.blocks,
-                polygons=source.polygons,
-            )
-    except MeasureError as error:
-        error.about(obj.name)
-        raise
+    with name_subject(obj.name), _open_grid(obj, volume, chosen, depsgraph, findings) as source:
+        yield VolumeReading(
+            **vars(place),
+            grid=chosen.name,
+            level_set=source.level_set,
+            to_object=source.to_object,
+            low=source.low,
+            shape=tuple(source.shape.tolist()),
+            background=source.background,
+            blocks=source.blocks,
+            polygons=source.polygons,
+        )
 
 
-def _volume(obj, depsgraph):
-    """Return the evaluated volume with its grids loaded; None if the object shows polygons or no volume."""
+def _volume(obj, depsgraph) -> tuple[bpy.types.Volume, bpy.types.GeometrySet] | None:
+    """Return the evaluated volume, its grids loaded, and its geometry set; None if polygons or no volume are shown."""
     if obj.type not in {"VOLUME", "MESH", "CURVE", "FONT", "SURFACE", "POINTCLOUD", "CURVES"}:
         return None
     evaluated = obj.evaluated_get(depsgraph)
@@ -138,21 +135,13 @@ def _volume(obj, depsgraph):
         if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:
             return None
         raise ReadError(VOLUME_WITHOUT_GRIDS, subject=obj.name)
-    return _OwnedVolume(geometry, volume)
+    return volume, geometry
 
 
-@dataclass
-class _OwnedVolume:
-    """A volume, together with the geometry set that may own it."""
-
-    geometry: bpy.types.GeometrySet
-    data: bpy.types.Volume
-
-
-def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):
+def _choose_grid(obj, volume: bpy.types.Volume, name: str, findings: list[Finding]):
     """Return the grid of that name, or if the name is empty “density”, else the first scalar grid."""
-    grids = {grid.name: grid for grid in volume.data.grids}
-    if len(grids) < len(volume.data.grids):
+    grids = {grid.name: grid for grid in volume.grids}
+    if len(grids) < len(volume.grids):
         findings.append(finding(GRID_NAMES_REPEATED))
     if name:
         if name not in grids:
@@ -171,7 +160,9 @@ def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):
 
 
 @contextmanager
-def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Finding]) -> Iterator[VdbGrid | SampledGrid]:
+def _open_grid(
+    obj, volume: bpy.types.Volume, grid, depsgraph, findings: list[Finding]
+) -> Iterator[VdbGrid | SampledGrid]:
     path = None if openvdb() is None else _unchanged_file(obj, volume)
     render = depsgraph.scene.render
     if not path and render.use_simplify and render.simplify_volumes < 1.0:
@@ -185,17 +176,17 @@ def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Findin
     with tempfile.TemporaryDirectory(prefix="body_moments_", dir=bpy.app.tempdir) as folder:
         path = os.path.join(folder, "volume.vdb")
         try:
-            volume.data.grids.save(filepath=path)
+            volume.grids.save(filepath=path)
         except RuntimeError:
             raise ReadError(TEMPORARY_FOLDER_FULL) from None
         yield VdbGrid(path, grid.name)
 
 
-def _unchanged_file(obj, volume: _OwnedVolume) -> str | None:
+def _unchanged_file(obj, volume: bpy.types.Volume) -> str | None:
     """Return the file of the grids, if they were not changed after loading."""
     if any(modifier.show_viewport for modifier in obj.modifiers) or obj.data.packed_file is not None:
         return None
-    path = volume.data.grids.frame_filepath
+    path = volume.grids.frame_filepath
     return path if os.path.isfile(path) else None
 
 

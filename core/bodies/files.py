@@ -16,6 +16,7 @@ from ..density.grid_options import GridOptions
 from ..measurement.findings import NO_VOLUME
 from ..measurement.measurement import Body, Measurement
 from ..measurement.settings import Settings
+from ..moments.affine_maps import affine_matrices
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Moments
 from ..scans import Scan, read_scan, sample_matrix
@@ -219,8 +220,7 @@ def _threshold_body(
     if spline_order > TRILINEAR and scan.samples.size > MAX_SAMPLES:
         raise ReadError(GRID_TOO_LARGE, grid=name, samples=list(scan.samples.shape))
     slowest = np.argsort([-abs(stride) for stride in scan.samples.strides], kind="stable")  # read in the file's order
-    turned = np.eye(4)
-    turned[:3, :3] = np.eye(3)[:, slowest]
+    turned = affine_matrices(np.eye(3)[:, slowest])
 
     def values(block: NDArray) -> NDArray[np.float64]:
         progress(block.size)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..mesh.bvh import boxes_overlap, sort_components
 from ..mesh.surface import Surface
-from ..moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
+from ..moments.affine_maps import affine_matrices, are_similarities, placed_boxes, similarity_groups
 from ..moments.images import sum_of_images
 from ..moments.moments import Moments
 from ..polyhedron.integration import area_of_images
@@ -158,12 +158,7 @@ def instances_size(reading: Reading) -> float:
 
 def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return (k, 3) middles and (k, 3) half sides of the boxes around the places of parts."""
-    centers, extents = [], []
-    for part in reading.parts:
-        low, high = part.surface.box
-        linear = part.matrices[:, :3, :3]
-        centers.append(linear @ ((low + high) / 2.0) + part.matrices[:, :3, 3])
-        extents.append(np.abs(linear) @ ((high - low) / 2.0))
+    centers, extents = zip(*[placed_boxes(part.surface.box, part.matrices) for part in reading.parts])
     return np.concatenate(centers), np.concatenate(extents)
 
 
@@ -184,14 +179,11 @@ def area_of_instances(
 
 def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
     """Yield (surface, (j, 4, 4) similarities, (j,) rows of `matrices`), with a mapped surface for each uneven map."""
-    even = are_similarities(matrices[:, :3, :3])
-    if even.any():
-        yield surface, matrices[even], np.flatnonzero(even)
-    if even.all():
-        return
-    rest = np.flatnonzero(~even)
-    for linear, members in distinct_linear_parts(matrices[rest]):
-        yield surface.transform(linear), translation_matrices(matrices[rest[members], :3, 3]), rest[members]
+    for rows, is_even in similarity_groups(matrices):
+        if is_even:
+            yield surface, matrices[rows], rows
+        else:
+            yield surface.transform(matrices[rows[0], :3, :3]), affine_matrices(np.eye(3), matrices[rows, :3, 3]), rows
 
 
 def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:

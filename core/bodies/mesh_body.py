@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..inertia.principal_frames import OwnMoments
 from ..measurement.measurement import Body
 from ..mesh.surface import Surface, normals
-from ..moments.affine_maps import are_similarities
+from ..moments.affine_maps import affine_matrices, are_similarities
 from ..moments.images import invert_through_point, sum_of_images
 from ..moments.moments import Moments, monomials, stack_moments, sum_moments
 from ..numerics.rotations import polar_rotation
@@ -74,7 +74,7 @@ class MeshBody(Body):
             same = (
                 solid.method in (Verdict.EXACT, Verdict.REORIENTED)
                 and not solid.health.duplicate_faces
-                and triangle_count(solid.repaired_surface) == triangle_count(surface)
+                and solid.repaired_surface.triangle_count == surface.triangle_count
             )  # otherwise the repaired surface has fewer or more faces
             volume, faces = polyhedron_moments(
                 solid.repaired_surface,
@@ -156,19 +156,10 @@ def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDAr
         key = (shape, int(is_mirrored[body])) if is_even[body] else (shape, 0, body)
         if key not in number:
             number[key] = len(moments)
-            own = shapes[shape]
-            if not is_even[body]:
-                matrix = np.eye(4)
-                matrix[:3, :3] = linear[body]
-                own = own.transform(matrix)
+            own = shapes[shape] if is_even[body] else shapes[shape].transform(affine_matrices(linear[body]))
             moments.append(invert_through_point(own) if is_even[body] and is_mirrored[body] else own)
         of_bodies.append(number[key])
     return OwnMoments(stack_moments(moments), np.array(of_bodies), rotation)
-
-
-def triangle_count(surface: Surface) -> int:
-    """Return the number of triangles, quads counting as two."""
-    return len(surface.triangles) + 2 * len(surface.quads)
 
 
 def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
@@ -208,7 +199,7 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
     findings = findings_by_part(by_part, reading.name)
     health = merge_health(healths)
     if not shell and instances_overlap(reading):
-        if sum(triangle_count(part.surface) * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
+        if sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
             comparison = compare_places(parts)
             findings += overlap_findings(reading, [solid for solid, _ in parts], comparison)
             nested, overlapping = (len(pairs) for pairs in (comparison.nested, comparison.overlapping))

@@ -150,8 +150,8 @@ def measure_reading(reading: Reading, body: Body, settings: Settings, transform:
         findings=tuple(reading.findings),
         name=reading.name,
         type=reading.type,
-        rotation=np.asarray(reading.rotation, np.float64),
-        location=np.asarray(reading.location, np.float64) * settings.unit,
+        rotation=reading.rotation,
+        location=reading.location * settings.unit,
         fingerprint=fingerprint(geometry, transform, settings.digest),
     )
 
@@ -162,12 +162,20 @@ def bare_reading(name: str, kind: str) -> Reading:
 
 
 @contextmanager
-def about_file(name: str) -> Iterator[None]:
-    """Add the file's name to errors; errors of the system become a ReadError."""
+def name_subject(name: str) -> Iterator[None]:
+    """Add the name of an object or file to errors without a subject."""
     try:
         yield
     except MeasureError as error:
         error.about(name)
         raise
+
+
+@contextmanager
+def about_file(name: str) -> Iterator[None]:
+    """Add the file's name to errors; errors of the system become a ReadError."""
+    try:
+        with name_subject(name):
+            yield
     except OSError as error:
         raise ReadError(FILE_UNREADABLE, subject=name, error=system_reason(error)) from error

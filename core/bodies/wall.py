@@ -19,6 +19,7 @@ from ..measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
 from ..measurement.measurement import Body
 from ..mesh.bvh import boxes_overlap
 from ..mesh.surface import Surface
+from ..moments.affine_maps import placed_boxes
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.images import sum_of_images
 from ..moments.moments import Measure, Moments, monomials, sum_moments
@@ -83,9 +84,7 @@ class WallPiece:
 
     def boxes(self, side: str, thickness: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return (k, 3) middles and (k, 3) half sides of boxes around the wall in its places, in m."""
-        low, high = self.offset.box(*split_thickness(side, thickness / self.scale))
-        linear = self.matrices[:, :3, :3]
-        return linear @ ((low + high) / 2.0) + self.matrices[:, :3, 3], np.abs(linear) @ ((high - low) / 2.0)
+        return placed_boxes(self.offset.box(*split_thickness(side, thickness / self.scale)), self.matrices)
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..numerics.vectors import cross, dot
-from .canonical_frame import NOISE_LEVEL, EquivalentFrames, _lexicographic_maximum
+from .canonical_frame import NOISE_LEVEL, EquivalentFrames, lexicographic_maximum
 
 MAX_AXIAL_ORDER = 30
 MAX_TILT = 1e-2  # rad; harmonics about an axis with a larger tilt say nothing about the body
@@ -134,7 +134,7 @@ def turn_by_harmonics(
             frames.append(turned.frame[:, np.argsort(order)])
             values.append(np.concatenate([turned.values.real.ravel(), turned.values.imag.ravel()]))
     least = np.full(len(values[0]), 2.0 * noise)
-    frames, known, least = _lexicographic_maximum(np.array(frames), np.array(values), least)
+    frames, known = lexicographic_maximum(np.array(frames), np.array(values), least)
     tilt = noise / (float(m) * float(np.abs(harmonics.values[k, m])))
     return EquivalentFrames(
         frames, np.concatenate([alike.values, known]), np.concatenate([alike.noise, least]), (), alike.tilt + tilt

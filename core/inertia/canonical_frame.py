@@ -102,16 +102,21 @@ def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray
     """Return the frames that moments of order 3 to MAX_ORDER choose; starts: (k, 3, 3) frames by third moments."""
     central = moments.about_center()
     total = central.raw[0]
-    with np.errstate(over="ignore", under="ignore"):
-        reach = total * spread.size.max() ** central.order
-    if not np.finfo(float).tiny < reach < np.inf:
-        raise MeasureError(MOMENTS_OVERFLOW, order=central.order)
+    check_range(central.at(None), spread.size[None])
     central = replace(
         central, raw=central.raw / total, rounding_error=central.rounding_error / total, measure=Measure.MASS
     )
     frames, revolution_axes, tilt, rule = _candidates(central, spread, starts)
     values, noise = _normalized_moments(central, spread, frames)
-    return EquivalentFrames(*_lexicographic_maximum(frames, values, noise), revolution_axes, tilt, rule)
+    return EquivalentFrames(*lexicographic_maximum(frames, values, noise), noise, revolution_axes, tilt, rule)
+
+
+def check_range(moments: Moments, size: NDArray[np.float64]) -> None:
+    """Raise MeasureError if the highest moments of bodies with these (n, 3) extents are no numbers."""
+    with np.errstate(over="ignore", under="ignore"):
+        reach = moments.raw[:, 0] * size.max(axis=1) ** moments.order
+    if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
+        raise MeasureError(MOMENTS_OVERFLOW, order=moments.order)
 
 
 def _candidates(
@@ -297,12 +302,12 @@ def extents_of(size: NDArray) -> NDArray[np.float64]:
     return np.where(size > FLAT_EXTENT_RTOL * size.max(axis=-1, keepdims=True), size, np.inf)
 
 
-def _lexicographic_maximum(frames: NDArray, values: NDArray, noise: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Return the frames with the largest values, compared entry by entry up to noise; these values; and the noise."""
+def lexicographic_maximum(frames: NDArray, values: NDArray, noise: NDArray) -> tuple[NDArray, NDArray]:
+    """Return the frames with the largest values, compared entry by entry up to noise; and these values."""
     best = np.arange(len(frames))
     for column, least in zip(values.T, noise):
         best = best[column[best] >= column[best].max() - least]
-    return frames[best], values[best[0]], noise
+    return frames[best], values[best[0]]
 
 
 def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:

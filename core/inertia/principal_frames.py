@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..moments.affine_maps import affine_matrices
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
@@ -156,8 +157,7 @@ def principal_frame(
         found = higher()
         return found if isinstance(found, OwnMoments) else OwnMoments(found.at(None), np.zeros(1, np.intp))
 
-    fixed = third_moment_frames(moments.at(None), (lambda _which: refine().at(None)) if refine else None)
-    _require_body(moments, fixed)
+    fixed = _frames_of_body(moments, refine=refine)
     return principal_frames(fixed, preferred_axes[None], None if higher is None else higher_of_all).at(0)
 
 
@@ -243,21 +243,20 @@ def _frames_of_shapes(fixed: ThirdMomentFrames, left: NDArray[np.intp], known: O
 
 def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> EquivalentFrames:
     """Return the principal frames in which a body is the same; noise: of normalized third moments."""
-    fixed = _of_one_body(moments, noise / NOISE_LEVEL)
+    fixed = _frames_of_body(moments, noise / NOISE_LEVEL)
     return canonical_frames(moments, fixed.spread(0), fixed.frames(0))
 
 
-def _of_one_body(moments: Moments, noise_factor: float = 1.0) -> ThirdMomentFrames:
-    fixed = third_moment_frames(moments.at(None), None, noise_factor)
-    _require_body(moments, fixed)
-    return fixed
-
-
-def _require_body(moments: Moments, fixed: ThirdMomentFrames) -> None:
-    """Raise MeasureError if no body can have the second moments."""
+def _frames_of_body(
+    moments: Moments, noise_factor: float = 1.0, refine: Callable[[], Moments] | None = None
+) -> ThirdMomentFrames:
+    """Return the frames of a stack of one body, or raise MeasureError if no body can have the second moments."""
+    refined = None if refine is None else (lambda _which: refine().at(None))
+    fixed = third_moment_frames(moments.at(None), refined, noise_factor)
     if not fixed.is_body[0]:
         is_lost = np.abs(moments.raw[4:10]).max() < np.finfo(float).tiny  # in the smallest of numbers
         raise MeasureError(OBJECT_TOO_SMALL if is_lost else NEGATIVE_INERTIA)
+    return fixed
 
 
 def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDArray[np.float64]:
@@ -281,9 +280,9 @@ def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = No
     MeasureError if one of the two moments is noise, or second moments are equal: the rule has no answer there.
     """
     check_type("moments", moments, Moments)
-    fixed = _of_one_body(moments)
+    fixed = _frames_of_body(moments)
     if refine is not None and not (np.abs(fixed.skewness[0, :2]) > 2.0 * fixed.skewness_error[0, :2]).all():
-        fixed = _of_one_body(refine())
+        fixed = _frames_of_body(refine())
     if fixed.symmetry[0]:
         raise MeasureError(STRICT_RULE_UNDEFINED, where="for equal principal moments")
     if not (np.abs(fixed.skewness[0, :2]) > fixed.skewness_error[0, :2]).all():
@@ -315,6 +314,4 @@ def pose_matrix(center: ArrayLike, axes: ArrayLike) -> NDArray[np.float64]:
     [-1.0, -2.0, -3.0]
     """
     axes = rotation_array("axes", axes)
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = axes.T, -axes.T @ float_array("center", center, 3)
-    return matrix + 0.0  # no negative zeros
+    return affine_matrices(axes.T, -axes.T @ float_array("center", center, 3)) + 0.0  # no negative zeros

@@ -34,7 +34,6 @@ from ..moments.exponents import (
 from ..moments.moments import Measure, Moments
 from ..moments.solid_harmonics import circular_coefficients
 from ..numerics.arrays import cross_rows, lengths
-from ..verdict.finding import MeasureError
 from .canonical_frame import (
     FLAT_EXTENT_RTOL,
     MAX_ORDER,
@@ -43,9 +42,9 @@ from .canonical_frame import (
     FrameRule,
     SecondMomentAxes,
     canonical_frames,
+    check_range,
     extents_of,
 )
-from .findings import MOMENTS_OVERFLOW
 from .plain_body import EQUAL_AXES, SYMMETRIES
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
@@ -71,7 +70,7 @@ HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.
 
 def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> list[EquivalentFrames]:
     """Find `canonical_frames`, without values, of the bodies (indices) with two or three equal second moments."""
-    _check_range(moments, fixed.size[bodies])
+    check_range(moments, fixed.size[bodies])
     found: list[EquivalentFrames | None] = [None] * len(bodies)
     symmetry = fixed.symmetry[bodies]
     for number in set(symmetry.tolist()) - {SYMMETRIES.index("asymmetric")}:
@@ -83,14 +82,6 @@ def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np
         canonical_frames(moments.at(i), fixed.spread(int(body)), fixed.frames(int(body))) if frames is None else frames
         for i, (body, frames) in enumerate(zip(bodies, found))
     ]
-
-
-def _check_range(moments: Moments, size: NDArray[np.float64]) -> None:
-    """Raise MeasureError if the highest moments of bodies with these (n, 3) extents exceed the range of numbers."""
-    with np.errstate(over="ignore", under="ignore"):
-        reach = moments.raw[:, 0] * size.max(axis=1) ** moments.order
-    if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
-        raise MeasureError(MOMENTS_OVERFLOW, order=moments.order)
 
 
 def _frames_alike(
@@ -291,7 +282,7 @@ def _along_axes(
     """Return (n, columns) normalized moments of order ≥ 3 along the axes, their noise, and (n, K) central moments."""
     central = moments.about_center()
     order, total, size = central.order, central.raw[:, :1], fixed.size[bodies]
-    _check_range(central, size)
+    check_range(central, size)
     turned = fixed.axes[bodies].transpose(0, 2, 1)
     raw = rotate_moments(central.raw / total, order, turned)
     error = rotate_moments(central.rounding_error / total, order, np.abs(turned))[:, THIRD:]

@@ -378,7 +378,5 @@ def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
     """Return whether any two of k boxes, (k, 3) centers and half sides, overlap by more than rounding."""
     extents = extents * (1.0 - ROUNDING)
     low, high = centers - extents, centers + extents
-    pairs = following_pairs(
-        *_sweep(low, high, 0.0), PAIRS_PER_BATCH
-    )  # a flat box in another one overlaps it by nothing
+    pairs = following_pairs(*_sweep(low, high, 0.0), PAIRS_PER_BATCH)  # a flat box overlaps another one by nothing
     return any(bool(((low[i] < high[j]) & (low[j] < high[i])).all(axis=1).any()) for i, j in pairs)

@@ -255,7 +255,7 @@ class _GrowingHull:
             sees = self._heights(apexes[apex], beyond) > 0.0
             edges.append(np.stack([apex, face, side], axis=1)[~sees])
             new = np.unique(apex[sees] * size + beyond[sees])
-            new = new[~_is_in(new, known)]
+            new = np.setdiff1d(new, known, assume_unique=True)
             known = np.sort(np.concatenate([known, new]))
             front = np.stack(np.divmod(new, size), axis=1)
         return np.stack(np.divmod(known, size), axis=1), np.concatenate(edges)
@@ -304,11 +304,6 @@ class _GrowingHull:
         self.outside = np.concatenate([self.outside[stays], points])
         self.seen = np.concatenate([number[self.seen[stays]], seen])
         self.height = np.concatenate([self.height[stays], height])
-
-
-def _is_in(values: NDArray[np.intp], known: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Return whether values are in a sorted array, which is not empty."""
-    return known[np.minimum(np.searchsorted(known, values), len(known) - 1)] == values
 
 
 def _flat_hull(points: NDArray[np.float64], corners: list[int], tolerance: float) -> ConvexHull:

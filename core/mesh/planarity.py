@@ -16,15 +16,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics.arrays import segment_ranges, segment_starts, sums_by_index
 from ..numerics.vectors import cross, dot
-from .edges import face_of_each, ring_sizes
-from .surface import Surface
+from .edges import ring_sizes
+from .surface import Surface, face_of_each
 from .surface_stack import SurfaceStack
 
 FACES_PER_BLOCK = 1 << 14
@@ -114,9 +114,10 @@ class PlanarityAccumulator:
         """Return the planarity from the kernel's reports, and from a pass over the faces that these leave undecided."""
         surface, triangle_faces = self.surface, self.surface.triangle_faces
         non_planar_count, seen_volume, total_volume, degenerate = 0, 0.0, 0.0, NO_FACES
+        classify = partial(_classify_rows, surface.points, error=self.error, exponent=self.exponent)
         if len(surface.quads):
             merged = _merge_blocks(self.quads, len(surface.quads))
-            volumes, narrow = self._classify_rows(surface.quads[merged.undecided], QUAD)
+            volumes, narrow = classify(surface.quads[merged.undecided], QUAD)
             degenerate = merged.undecided[narrow]
             if surface.quad_faces is not None:
                 degenerate = surface.quad_faces[degenerate]
@@ -124,22 +125,19 @@ class PlanarityAccumulator:
             total_volume = _sum_in_order(volumes)
         if len(surface.triangles):
             undecided_rows = _merge_blocks(self.triangles, len(surface.triangles)).undecided
-            undecided_rows = undecided_rows[self._classify_rows(surface.triangles[undecided_rows], TRIANGLE)[1]]
+            undecided_rows = undecided_rows[classify(surface.triangles[undecided_rows], TRIANGLE)[1]]
             if triangle_faces is not None:
                 pieces, degenerate_pieces = np.bincount(triangle_faces), np.bincount(triangle_faces[undecided_rows])
                 undecided_rows = np.flatnonzero(
                     (degenerate_pieces == pieces[: len(degenerate_pieces)]) & (degenerate_pieces > 0)
                 )
                 polygon, corners = self._polygon_tetrahedra(pieces)
-                volumes, _ = self._classify_rows(corners, QUAD)
+                volumes, _ = classify(corners, QUAD)
                 non_planar_count += len(np.unique(polygon[volumes > 0.0]))
                 total_volume += _sum_in_order(volumes)
             degenerate = np.concatenate([degenerate, undecided_rows])
         volume_spread = (seen_volume + float(np.ldexp(total_volume, 3 * self.exponent))) / 6.0
         return Planarity(int(non_planar_count), volume_spread, np.sort(degenerate))
-
-    def _classify_rows(self, corners: NDArray, pairs: tuple) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-        return _classify_rows(self.surface.points, corners, pairs, self.error, self.exponent)
 
     def _polygon_tetrahedra(self, pieces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
         """Return (m,) faces and (m, 4) corners of the polygons' tetrahedra. pieces: the triangles of each mesh face."""
@@ -159,10 +157,11 @@ class StackPlanarity:
     volume_spread: NDArray[np.float64]
     is_degenerate: NDArray[np.bool_]
     has_degenerate: NDArray[np.bool_]
+    face_stops: NDArray[np.intp]
 
-    def at(self, i: int, faces: slice) -> Planarity:
-        """Return the planarity of one surface with these faces."""
-        degenerate = np.flatnonzero(self.is_degenerate[faces])
+    def at(self, i: int) -> Planarity:
+        """Return the planarity of one surface."""
+        degenerate = np.flatnonzero(self.is_degenerate[self.face_stops[i - 1] if i else 0 : self.face_stops[i]])
         return Planarity(int(self.non_planar_counts[i]), float(self.volume_spread[i]), degenerate)
 
 
@@ -205,6 +204,7 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
         np.ldexp(total, 3 * exponent) / 6.0,
         degenerate,
         np.logical_or.reduceat(degenerate, first_face),
+        np.cumsum(stack.face_counts),
     )
 
 

@@ -172,7 +172,7 @@ def _cells(
 def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int) -> NDArray[np.intp]:
     """Return the (b,) numbers of triangles of the bodies."""
     if body is None:
-        return np.array([len(surface.triangles) + 2 * len(surface.quads)])
+        return np.array([surface.triangle_count])
     quads, triangles = (
         np.bincount(body[faces[:, 0]], minlength=bodies) for faces in (surface.quads, surface.triangles)
     )

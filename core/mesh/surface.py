@@ -108,6 +108,15 @@ class Surface:
         low, high = self.box
         return half_ulp(np.maximum(high, -low))
 
+    @property
+    def triangle_count(self) -> int:
+        """The number of triangles, two for each quad."""
+        return len(self.triangles) + 2 * len(self.quads)
+
+    def used_points(self) -> NDArray[np.floating]:
+        """Return the (k, 3) points that are corners of faces."""
+        return self.points[np.bincount(self.all_triangles()[0].ravel(), minlength=len(self.points)) > 0]
+
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
         """Map the points by (3, 3) `linear` @ x + (3,) `offset` in float64; the surface is then one of triangles alone.
 
@@ -140,12 +149,19 @@ class Surface:
 
     def all_triangles(self) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
         """Return (m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of each."""
-        faces = np.arange(len(self.triangles)) if self.triangle_faces is None else self.triangle_faces
+        quad_faces, faces = face_of_each(self)
         if not len(self.quads):
             return self.triangles, faces
         cut = turned_quads(self.points, self.quads)[:, HALVES].reshape(-1, 3)
-        quad_faces = np.arange(len(self.quads)) if self.quad_faces is None else self.quad_faces
         return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
+
+
+def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """Return the mesh face of each quad and of each triangle."""
+    return (
+        np.arange(len(surface.quads)) if surface.quad_faces is None else surface.quad_faces,
+        np.arange(len(surface.triangles)) if surface.triangle_faces is None else surface.triangle_faces,
+    )
 
 
 def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from ..numerics.arrays import as_unsigned, segment_starts
 from ..numerics.graph import connected_components
-from .edges import face_of_each, ring_sizes
-from .surface import HALVES, Surface, half_ulp, turned_quads
+from .edges import ring_sizes
+from .surface import HALVES, Surface, face_of_each, half_ulp, turned_quads
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,15 +99,15 @@ class SurfaceStack(TriangleStack):
     edge_counts: NDArray[np.intp]
 
     @staticmethod
-    def takes(surfaces: Sequence[Surface]) -> list[bool]:
-        """Return which surfaces can be in a stack: with the mesh's own corners and edges, of float32 points."""
+    def takes(surfaces: Sequence[Surface], most: int) -> list[bool]:
+        """Return which surfaces can be stacked: `most` triangles, float32 points, the mesh's own corners and edges."""
         fits = [
             surface.points.dtype == np.float32
             and surface.displacement is None
             and surface.corner_vertices is not None
             and surface.corner_edges is not None
             and 0 < len(surface.corner_vertices) == len(surface.corner_edges)
-            and len(surface.triangles) + len(surface.quads) > 0
+            and 0 < surface.triangle_count <= most
             for surface in surfaces
         ]
         known = [surface for surface, is_fit in zip(surfaces, fits) if is_fit]

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arrays import segment_ranges, segment_starts
 from .exponents import count_of_degree, monomial_count, monomial_index, monomials, product_indices, quotient_indices
@@ -40,11 +40,26 @@ def distinct_linear_parts(matrices: NDArray) -> Iterator[tuple[NDArray[np.float6
         yield row.reshape(3, 3), np.flatnonzero(which.ravel() == i)
 
 
-def translation_matrices(offsets: NDArray) -> NDArray[np.float64]:
-    """Return (k, 4, 4) maps that move points by (k, 3) offsets."""
-    matrices = np.tile(np.eye(4), (len(offsets), 1, 1))
-    matrices[:, :3, 3] = offsets
+def similarity_groups(matrices: NDArray) -> Iterator[tuple[NDArray[np.intp], bool]]:
+    """Yield the indices of all similarities of (k, 4, 4) maps and True, then of each uneven linear part and False."""
+    even = are_similarities(matrices[:, :3, :3])
+    if even.any():
+        yield np.flatnonzero(even), True
+    uneven = np.flatnonzero(~even)
+    yield from ((uneven[members], False) for _, members in distinct_linear_parts(matrices[uneven]))
+
+
+def affine_matrices(linear: NDArray, offsets: ArrayLike = 0.0) -> NDArray[np.float64]:
+    """Return (..., 4, 4) maps with these (..., 3, 3) linear parts and (..., 3) offsets, either of which may be one."""
+    matrices = np.zeros((*np.broadcast_shapes(linear.shape[:-2], np.shape(offsets)[:-1]), 4, 4))
+    matrices[..., :3, :3], matrices[..., :3, 3], matrices[..., 3, 3] = linear, offsets, 1.0
     return matrices
+
+
+def placed_boxes(box: tuple[NDArray, NDArray], matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return (k, 3) middles and half sides of boxes around the images of a box, (3,) and (3,), by (k, 4, 4) maps."""
+    (low, high), linear = box, matrices[:, :3, :3]
+    return linear @ ((low + high) / 2.0) + matrices[:, :3, 3], np.abs(linear) @ ((high - low) / 2.0)
 
 
 def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
@@ -80,11 +95,8 @@ def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: i
 
 def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
     """Map functionals (..., m, K): the first of m by the map (..., 3, 3), its bounds by the map's absolute value."""
-    forms, out = np.stack([linear, np.abs(linear)], axis=-3), np.array(values)
-    table = np.ones((*forms.shape[:-2], 1, 1))
-    for degree in range(1, order + 1):
-        table = _raise_polynomials(table, degree, forms)
-        part = slice(monomial_count(degree - 1), monomial_count(degree))
+    out = np.array(values)
+    for part, table in _image_coefficients(np.stack([linear, np.abs(linear)], axis=-3), order):
         out[..., 0, part] = np.add.reduce(table[..., 0, :, :] * values[..., 0, None, part], axis=-1)
         out[..., 1:, part] = np.einsum("...rc,...mc->...mr", table[..., 1, :, :], values[..., 1:, part])
     return out
@@ -97,12 +109,17 @@ def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.fl
         return np.concatenate([rotate_moments(raw[block], order, rotation[block]) for block in blocks])
     out = np.zeros((*np.broadcast_shapes(raw.shape[:-1], rotation.shape[:-2]), raw.shape[-1]))
     out += raw
-    table = np.ones((*rotation.shape[:-2], 1, 1))
-    for degree in range(1, order + 1):
-        table = _raise_polynomials(table, degree, rotation)
-        part = slice(monomial_count(degree - 1), monomial_count(degree))
+    for part, table in _image_coefficients(rotation, order):
         out[..., part] = np.add.reduce(table * raw[..., None, part], axis=-1)
     return out
+
+
+def _image_coefficients(forms: NDArray, order: int) -> Iterator[tuple[slice, NDArray[np.float64]]]:
+    """Yield, by degree from 1, the slice of its monomials, and the (..., rows, rows) coefficients of their images."""
+    table = np.ones((*forms.shape[:-2], 1, 1))
+    for degree in range(1, order + 1):
+        table = _raise_polynomials(table, degree, forms)
+        yield slice(monomial_count(degree - 1), monomial_count(degree)), table
 
 
 def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:

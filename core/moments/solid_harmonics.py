@@ -17,7 +17,7 @@ from math import comb, factorial, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from .moments import monomial_count, monomial_index, monomials
+from .exponents import monomial_count, monomial_index, product_indices
 
 Multiplets = dict[tuple[int, int], NDArray[np.complex128]]
 
@@ -31,7 +31,8 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
             half = np.add.reduce(along_first(_solid(l).conj(), block) * block, axis=1)  # m = 0..l
             result[l + 2 * j, l] = with_negative_orders(half)
         if order - 2 * j >= 2:
-            raw = raw[_square_product_indices(order - 2 * j)].sum(axis=0)  # ∫ r² f for each monomial f two orders lower
+            products = zip(product_indices(order - 2 * j), product_indices(order - 2 * j - 1))
+            raw = raw[np.array([twice[once] for twice, once in products])].sum(axis=0)  # ∫ r² f, f two orders lower
     return result
 
 
@@ -78,14 +79,6 @@ def circular_coefficients(plus: int, minus: int) -> tuple[complex, ...]:
     plus_powers = [comb(plus, i) * 1j ** (i % 4) for i in range(plus + 1)]
     minus_powers = [comb(minus, i) * (-1j) ** (i % 4) for i in range(minus + 1)]
     return tuple(np.convolve(plus_powers, minus_powers).tolist())
-
-
-@lru_cache
-def _square_product_indices(order: int) -> NDArray[np.int64]:
-    """Return the (3, K) indices of the products of the monomials two orders lower with x², y² and z²."""
-    return np.array(
-        [[monomial_index(*(row + 2 * unit)) for row in monomials(order - 2)] for unit in np.eye(3, dtype=int)]
-    )
 
 
 @lru_cache(maxsize=256)

@@ -75,7 +75,7 @@ def integrate(
     planarity: PlanarityAccumulator | None = None,
 ) -> tuple[Moments, Moments]:
     """Return the moments of the volume to third order; and the area if `area`, its moments if `area_moments`."""
-    count = len(surface.triangles) + 2 * len(surface.quads)
+    count = surface.triangle_count
     if not count:
         return nothing(3, about)
     points = np.ascontiguousarray(surface.points)

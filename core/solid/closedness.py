@@ -11,13 +11,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import closed_side_faces, faces_across_sides
+from ..mesh.edges import closed_side_faces
 from ..mesh.planarity import Planarity, PlanarityAccumulator
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type
 from ..numerics.arrays import indices_in_range
-from ..numerics.graph import connected_components, connected_neighbors
+from ..numerics.graph import connected_components
 from ..polyhedron import third_order
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
@@ -114,7 +114,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
         planarity=accumulator,
         allow_open=True,
     )
-    if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // third_order.MIN_TRIANGLES_PER_THREAD) > 1:
+    if min(threads, surface.triangle_count // third_order.MIN_TRIANGLES_PER_THREAD) > 1:
         with ThreadPoolExecutor(1) as pool:
             waiting = pool.submit(prove_closed, surface)
             volume, area = integrate()
@@ -133,10 +133,10 @@ def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray
 
 def prove_closed(surface: Surface) -> RepairedMesh | None:
     """Return the mesh, without triangles if one component, if its own edges prove it closed and oriented; else None."""
-    found = _components_of_closed(surface)
-    if found is None:
+    sides = closed_side_faces(surface)
+    if sides is None:
         return None
-    component, component_count = found
+    component, component_count = connected_components(int(sides.max()) + 1, *sides)
     triangles, face = surface.triangles[:0], component[:0]
     if component_count > 1:
         triangles, face = surface.all_triangles()
@@ -151,16 +151,3 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
         np.zeros((component_count, 3)),
         report=MeshHealth(closed=True, components=component_count),
     )
-
-
-def _components_of_closed(surface: Surface) -> tuple[NDArray[np.intp], int] | None:
-    """Return the component of each mesh face and their number; None if not proven closed and oriented."""
-    if surface.corner_edges is not None:
-        sides = closed_side_faces(surface)
-        return None if sides is None else connected_components(int(sides.max()) + 1, *sides)
-    if surface.triangle_faces is not None or surface.quad_faces is not None:
-        return None
-    if len(surface.triangles) and len(surface.quads):
-        return None
-    across = faces_across_sides(surface.triangles if len(surface.triangles) else surface.quads, len(surface.points))
-    return None if across is None else connected_neighbors(across)

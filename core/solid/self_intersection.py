@@ -63,8 +63,7 @@ def find_self_intersection(checked: CheckedSurface, given: GivenIntegrals, orien
         ):
             return SelfIntersection(Intersection.EXCLUDED)
     low, high = surface.box
-    faces = np.array([len(surface.triangles) + 2 * len(surface.quads)])
-    grids = LineGrids.over_boxes(low[None], high[None], line_counts(faces))
+    grids = LineGrids.over_boxes(low[None], high[None], line_counts(np.array([surface.triangle_count])))
     excess = measure_excess(find_crossings(surface, grids), grids, np.array([checked.tolerance]), component)
     if excess.unsure[0] > MAX_UNSURE_LINES:
         return SelfIntersection(Intersection.NOT_CHECKED)

@@ -12,14 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.mass_properties import are_physical
 from ..mesh.bvh import sort_components
-from ..mesh.planarity import Planarity, StackPlanarity, stack_planarity
+from ..mesh.planarity import StackPlanarity, stack_planarity
 from ..mesh.scan_lines import LineGrids, find_crossings, line_counts
 from ..mesh.surface import Surface
 from ..mesh.surface_stack import Connections, SurfaceStack, TriangleStack
@@ -30,7 +29,7 @@ from ..polyhedron.any_order import extend_small_moments
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import small_moments
 from ..verdict.finding import Finding
-from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
+from ..verdict.health import DefectiveElements, Intersection, MeshHealth
 from ..verdict.tolerances import WELDING_RTOL
 from .boundary_loops import OwnedLoops, has_distinct_vertices, side_ends
 from .closedness import SUM_ROUNDING, GivenIntegrals, prove_closed, same_sign
@@ -61,17 +60,14 @@ class SolidStack:
     planarity: StackPlanarity
     intersection: NDArray[np.object_]
     component_counts: NDArray[np.intp]
-    first_face: NDArray[np.intp]
     caps: StackCaps
 
     def given(self, i: int, surface: Surface) -> GivenIntegrals | None:
         """Return the integrals over the faces of a surface that is not measured, or None if they do not hold."""
         if not self.is_integrated[i]:
             return None
-        stop = self.first_face[i + 1] if i + 1 < len(self.first_face) else None
-        planarity = self.planarity.at(i, slice(self.first_face[i], stop))
         agree = bool(same_sign(*self.cones[i].tolist()))
-        return GivenIntegrals(self.volume.at(i), self.area.at(i), planarity, agree, prove_closed(surface))
+        return GivenIntegrals(self.volume.at(i), self.area.at(i), self.planarity.at(i), agree, prove_closed(surface))
 
     def health(self, i: int) -> MeshHealth:
         """Return the state of a measured body's surface."""
@@ -94,8 +90,7 @@ class SolidStack:
             share, total = self._cap_share(i), float(self.volume.raw[i, 0])
             found.append(cap_finding(self.caps.edges_of(i), self.caps.counts[i], share, float(self.size[i]), total))
         if flat.volume_spread[i]:
-            planarity = Planarity(int(flat.non_planar_counts[i]), float(flat.volume_spread[i]), NO_FACES)
-            found += shape_findings(True, planarity, self.volume.at(i))
+            found += shape_findings(True, flat.at(i), self.volume.at(i))
         return tuple(found)
 
     def _cap_share(self, i: int) -> float:
@@ -129,16 +124,9 @@ def _extend(volume: Moments, order: int, stack: TriangleStack, error: NDArray[np
     return extend_small_moments(volume, order, stack.points, stack.triangles, stack.triangle_counts, reach)
 
 
-def is_small(surface: Surface) -> bool:
-    """Return whether a surface has few enough triangles to be stacked with others."""
-    return len(surface.triangles) + 2 * len(surface.quads) <= MAX_SMALL_TRIANGLES
-
-
 def can_be_stacked(surfaces: Sequence[Surface]) -> list[bool]:
     """Return which surfaces `measure_stack` can measure."""
-    fits = [is_small(surface) for surface in surfaces]
-    taken = iter(SurfaceStack.takes([surface for surface, is_fit in zip(surfaces, fits) if is_fit]))
-    return [is_fit and next(taken) for is_fit in fits]
+    return SurfaceStack.takes(surfaces, MAX_SMALL_TRIANGLES)
 
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
@@ -204,7 +192,6 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         planarity,
         intersection,
         links.component_counts,
-        stack.first_face,
         caps,
     )
 
@@ -310,12 +297,8 @@ class StackCaps:
 
     def edges_of(self, i: int) -> NDArray[np.intp]:
         """Return the (k, 2) edges along the holes of one surface."""
-        stop = self._edge_stops[i]
-        return self.edges[stop - self.edge_counts[i] : stop]
-
-    @cached_property
-    def _edge_stops(self) -> NDArray[np.intp]:
-        return np.cumsum(self.edge_counts)
+        start = int(self.edge_counts[:i].sum())
+        return self.edges[start : start + self.edge_counts[i]]
 
 
 def cap_stack(

@@ -170,10 +170,8 @@ def judge(
     elif intersection is not None and verdict is not Verdict.OPEN:
         findings += _intersection_findings(intersection, volume.total)
     findings += shape_findings(oriented.is_solid, given.planarity, volume)
-    health = copy_with(
-        _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share),
-        self_intersection=Intersection.NOT_CHECKED if intersection is None else intersection.state,
-    )
+    state = Intersection.NOT_CHECKED if intersection is None else intersection.state
+    health = _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share, state)
     return SolidIntegrals(volume, given.area, health, verdict, tuple(findings), oriented, checked.surface)
 
 
@@ -192,6 +190,7 @@ def _health(
     flipped: NDArray[np.integer],
     inverted_count: int,
     cap_share: float,
+    intersection: Intersection,
 ) -> MeshHealth:
     """Return the report of the repair, completed, with edges in the input's vertices."""
     report, vertices = oriented.mesh.report, checked.vertices
@@ -208,6 +207,7 @@ def _health(
         non_planar_faces=planarity.non_planar_count,
         volume_spread=planarity.volume_spread,
         cap_area_share=cap_share,
+        self_intersection=intersection,
         defective_elements=DefectiveElements(
             flipped, *edges, duplicate_faces=defects.duplicate_faces, degenerate_faces=planarity.degenerate_faces
         ),

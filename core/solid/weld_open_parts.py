@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import Edges, face_of_each, find_edges, ring_sizes
-from ..mesh.surface import Surface, normals
+from ..mesh.edges import Edges, find_edges, ring_sizes
+from ..mesh.surface import Surface, face_of_each, normals
 from ..mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups, vertex_tolerance
 from ..numerics.arrays import first_occurrence
 from ..numerics.graph import connected_components

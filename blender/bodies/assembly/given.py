@@ -17,6 +17,7 @@ from ....core.measurement.builder import find_extent, measure_total
 from ....core.measurement.findings import ZERO_QUANTITY
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Body, Measurement
 from ....core.measurement.settings import fingerprint
+from ....core.moments.affine_maps import placed_boxes
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics.float32 import shortest_decimal
@@ -77,7 +78,7 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
     if not given:
         return body
     geometry = body.mass or find_extent(body, request.settings)  # raises MeasureError if there is no extent
-    location = np.asarray(reading.location, np.float64) * request.settings.unit
+    location = reading.location * request.settings.unit
     mass, findings = given_moments(request.settings.mass, given, reading.rotation, location, geometry)
     if given.center is not None and _is_outside(mass.about, reading, request.settings.unit):
         findings.append(finding(GIVEN_CENTER_OUTSIDE))
@@ -88,12 +89,9 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
 def _is_outside(point: NDArray, reading: Reading, unit: float) -> bool:
     """Return whether a point is outside every box around a part of the reading; False if there are no parts."""
     for part in getattr(reading, "parts", ()):
-        low, high = part.surface.box
-        for matrix in to_si(part.matrices, unit):
-            center = matrix[:3, :3] @ ((low + high) / 2.0) + matrix[:3, 3]
-            half = np.abs(matrix[:3, :3]) @ ((high - low) / 2.0)
-            if (np.abs(point - center) <= half * (1.0 + GIVEN_RTOL)).all():
-                return False
+        center, half = placed_boxes(part.surface.box, to_si(part.matrices, unit))
+        if (np.abs(point - center) <= half * (1.0 + GIVEN_RTOL)).all(axis=1).any():
+            return False
     return bool(getattr(reading, "parts", ()))
 
 
@@ -108,10 +106,9 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
     """Return the results of a part without geometry, and its body, or raise ReadError if it has no mass."""
     properties, settings = request.obj.body_moments, request.settings
     given = GivenPart.from_settings(properties, settings.unit)
-    location = np.asarray(reading.location, np.float64) * settings.unit
-    rotation = np.asarray(reading.rotation, np.float64)
+    location = reading.location * settings.unit
     own = shortest_decimal(properties.mass) if settings.mass is None else settings.mass  # a point has no density
-    mass, findings = given_moments(own, given, rotation, location, None)
+    mass, findings = given_moments(own, given, reading.rotation, location, None)
     varying = GivenPart.from_settings(properties, 1.0).key
     settings = replace(settings, kind=properties.kind.lower(), density=None, mass=own, varying=varying)
     measurement = measure_total(
@@ -121,7 +118,7 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
         kind="point",
         method=Method(Verdict.GIVEN),
         findings=(*reading.findings, *findings),
-        rotation=rotation,
+        rotation=reading.rotation,
         location=location,
         fingerprint=fingerprint(mass.raw.tobytes(), matrix_hash(request.obj), settings.digest),
         density_from=DENSITY_FROM_MASS,

@@ -31,7 +31,7 @@ from ....core.density.polynomial_mass import find_negative_point, local_coordina
 from ....core.density.voxel_fill import MAX_VOXELS, inside_moments
 from ....core.measurement.settings import Settings
 from ....core.mesh.surface import Surface
-from ....core.moments.affine_maps import translation_matrices
+from ....core.moments.affine_maps import affine_matrices
 from ....core.moments.moments import Measure, Moments
 from ....core.numerics.rotations import polar_rotation
 from ....core.polyhedron import polyhedron_moments
@@ -118,9 +118,7 @@ def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float)
 def _to_local(matrices: NDArray) -> NDArray[np.float64]:
     """Return (k, 4, 4) maps from world coordinates, in meters, to coordinates along the axes of each place."""
     axes = polar_rotation(matrices)[0].transpose(0, 2, 1)
-    to_own = translation_matrices(-(axes @ matrices[:, :3, 3, None])[..., 0])
-    to_own[:, :3, :3] = axes
-    return to_own
+    return affine_matrices(axes, -(axes @ matrices[:, :3, 3, None])[..., 0])
 
 
 def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
@@ -131,8 +129,7 @@ def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Pi
         for surface, image_matrices, which in group_by_similarity(part.surface, matrices):
             to_local = fields[which]
             if surface is not part.surface:  # mapped already: only the turn is left
-                to_local = translation_matrices(np.zeros((len(which), 3)))
-                to_local[:, :3, :3] = axes[which].transpose(0, 2, 1)
+                to_local = affine_matrices(axes[which].transpose(0, 2, 1))
             yield _Piece(surface, image_matrices, image_matrices if in_world else to_local)
 
 
@@ -194,9 +191,8 @@ def voxel_filled_body(
         raise ReadError(OPEN_SURFACE_OF_GRID, subject=name)
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, subject=name, **names)
-    shift = np.eye(4)
-    shift[:3, 3] = reading.low - 0.5  # from corners of voxels, not from their centers
-    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ shift
+    corner = affine_matrices(np.eye(3), reading.low - 0.5)  # from corners of voxels, not from their centers
+    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ corner
     if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
         raise ReadError(GRID_EMPTY, subject=name, **names)
     inverse = np.linalg.inv(matrix)
@@ -209,8 +205,8 @@ def voxel_filled_body(
         raise ReadError(GRID_TOO_LARGE, subject=name, **names, samples=(high - low).tolist())
     moments, volume = inside_moments(triangles - low, _box_densities(reading, options, low, high), order)
     volume *= abs(np.linalg.det(matrix[:3, :3]))
-    shift[:3, 3] = low
-    mass = replace(replace(moments, measure=Measure.VOLUME).transform(matrix @ shift), measure=Measure.MASS)
+    matrix = matrix @ affine_matrices(np.eye(3), low)
+    mass = replace(replace(moments, measure=Measure.VOLUME).transform(matrix), measure=Measure.MASS)
     mass = replace(mass, input_error=_input_error(body, mass))
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError(MASS_OVERFLOW)

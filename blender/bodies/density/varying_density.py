@@ -27,7 +27,7 @@ from ....core.density.piecewise_mass import (
 )
 from ....core.measurement.builder import find_extent
 from ....core.mesh.surface import Surface
-from ....core.moments.affine_maps import are_similarities, distinct_linear_parts
+from ....core.moments.affine_maps import similarity_groups
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.images import sum_of_images
 from ....core.moments.moments import Moments, sum_moments
@@ -240,7 +240,7 @@ def _solid_moments(
     has_foreign_material = is_slight = False
     mixed = bool(part_densities(components, values).has_several_materials.any())
     # a mean density by area needs the areas after the map
-    for matrix_group in _similarity_groups(matrices) if mixed else [matrices]:
+    for matrix_group in [matrices[rows] for rows, _ in similarity_groups(matrices)] if mixed else [matrices]:
         part_density = part_densities(components, values, matrix_group[0, :3, :3])
         density = part_density.density[components.part]
         mass = solid_mass_moments(components.points, components.triangles, density, volume)
@@ -253,16 +253,6 @@ def _solid_moments(
     if has_foreign_material:
         findings.append(finding(CAVITY_MATERIAL_IGNORED, slight=is_slight))
     return moments, findings
-
-
-def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
-    """Yield groups of (k, 4, 4) maps that keep ratios of areas: all similarities, then each different uneven map."""
-    even = are_similarities(matrices[:, :3, :3])
-    if even.any():
-        yield matrices[even]
-    rest = matrices[~even]
-    for _, members in distinct_linear_parts(rest):
-        yield rest[members]
 
 
 def _mixed_parts_notes(

@@ -8,7 +8,7 @@ moments. The region that closed curves bound is also measured as a sheet, from c
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import ClassVar
 
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ....core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE
 from ....core.bodies.mesh_body import extend_input_error
-from ....core.bodies.reading import Reading
+from ....core.bodies.reading import Reading, name_subject
 from ....core.flat.findings import SECTION_NOT_FLAT
 from ....core.flat.polygon import find_defects, orient_loops, plane_positions, region_moments
 from ....core.flat.section import fit_plane, measure_section, project, projection_rounding, region
@@ -26,6 +26,7 @@ from ....core.flat.section_properties import Plane, Section
 from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
 from ....core.measurement.findings import NO_VOLUME
 from ....core.measurement.measurement import Body
+from ....core.moments.affine_maps import affine_matrices
 from ....core.moments.exponents import monomial_count, monomials
 from ....core.moments.moments import Measure, Moments
 from ....core.numerics.float32 import shortest_decimal
@@ -123,12 +124,9 @@ def flat_region(
     """Return an object, or its selected faces, as a region of a plane, in SI units; MeasureError if it is not one."""
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
     unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
-    try:
+    with name_subject(obj.name):
         found = _region_of(reading, obj.type, unit)
         outlines = _curves(obj, depsgraph, reading, found.plane, unit) if exact else None
-    except MeasureError as error:
-        error.about(obj.name)
-        raise
     if outlines is None:
         return found
     curves, stored = outlines
@@ -207,9 +205,7 @@ def _curves(
         return None
     try:
         curves, matrix = read_outline_curves(obj, depsgraph)
-        to_plane = np.eye(4)
-        to_plane[:3, :3] = plane.axes.T
-        to_plane[:3, 3] = -plane.axes.T @ plane.origin
+        to_plane = affine_matrices(plane.axes.T, -plane.axes.T @ plane.origin)
         placed, stored = curves_in_world(curves, matrix, unit)
         boundary, _ = planar_region([curve.transform(to_plane) for curve in placed], stored)
     except MeasureError:
@@ -286,8 +282,7 @@ def read(request: Request) -> RegionReading | None:
             raise
         request.findings.append(finding(CURVE_FILL_MEASURED, cause=error.finding.as_record()))
         return None
-    common = {entry.name: getattr(reading, entry.name) for entry in fields(Reading)}
-    return RegionReading(**common, boundary=tuple(boundary), normal=normal, stored=stored)
+    return RegionReading(**vars(reading), boundary=tuple(boundary), normal=normal, stored=stored)
 
 
 def body(reading: RegionReading, request: Request) -> Body:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.bodies.findings import SHAPE_FAR_FROM_ORIGIN
+from ....core.bodies.reading import name_subject
 from ....core.inertia.canonical_frame import NOISE_LEVEL
 from ....core.measurement.settings import fingerprint
 from ....core.mesh.surface import Surface
@@ -149,11 +150,8 @@ def flat_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: f
     """Return a flat object's shape, or raise MeasureError if it is not flat, or its outlines cross."""
     region = flat_region(obj, depsgraph, selected=False, resolution=OUTLINE_RESOLUTION, exact=False, unit=unit)
     mark = fingerprint(region.points.tobytes(), matrix_hash(obj), settings_hash(obj, depsgraph.scene))
-    try:
+    with name_subject(obj.name):
         shape = FlatShape(region, region.moments(MAX_ORDER_BY_MOMENTS), mark)
-    except MeasureError as error:
-        error.about(obj.name)
-        raise
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
         raise ReadError(SHAPE_FAR_FROM_ORIGIN, subject=obj.name)
     return shape

@@ -271,11 +271,7 @@ class Shape:
 
     def points_about_center(self) -> NDArray[np.float64]:
         """Return (n, 3) corners of all faces, relative to the center."""
-        points = []
-        for piece in self.pieces():
-            users = np.bincount(piece.all_triangles()[0].ravel(), minlength=len(piece.points))
-            points.append(piece.points[users > 0] - self.center)
-        return np.concatenate(points)
+        return np.concatenate([piece.used_points() - self.center for piece in self.pieces()])
 
 
 class NoShapeError(ReadError):

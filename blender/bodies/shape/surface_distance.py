@@ -37,7 +37,7 @@ class SurfaceDistance:
         self._center, self._scale = shape.center, shape.size
         self._triangles = triangles = whole.all_triangles()[0]
         self._corners = (whole.points - self._center) / self._scale
-        used = whole.points[np.bincount(triangles.ravel(), minlength=len(whole.points)) > 0]
+        used = whole.used_points()
         middles = whole.points[thinned(triangles)].mean(axis=1)
         far = np.argsort(((used - self._center) ** 2).sum(axis=1), kind="stable")[-SURFACE_SAMPLES // 10 :]
         points = np.concatenate([used[far], thinned(used), middles])

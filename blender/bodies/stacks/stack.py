@@ -28,13 +28,14 @@ from ....core.moments.moments import Moments, image, join_moments
 from ....core.numerics.rotations import rotation_matrix
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.integration import area_of_images
+from ....core.polyhedron.third_order import MAX_SMALL_TRIANGLES
 from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
-from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, measure_stack, small_moments_to_order
+from ....core.solid.solid_stack import SolidStack, can_be_stacked, measure_stack, small_moments_to_order
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
 from ....core.verdict.method import Method, Verdict
 from ...read.fingerprint import transform_key
-from ...read.mesh import surface_digest
+from ...read.mesh import MAX_DIGESTED_FACES, surface_digest
 from ...settings.accepted import accepted_codes, with_acceptance
 
 METHODS = {verdict: Method(verdict) for verdict in Verdict}
@@ -58,7 +59,6 @@ class MeshShape:
 
     @property
     def health(self) -> MeshHealth:
-        """Health of the mesh."""
         if self.solids is not None:
             return self.solids.health(self.row)
         assert self.alone is not None
@@ -73,7 +73,7 @@ class MeshShape:
     @cached_property
     def digest(self) -> bytes | None:
         """Digest of the surface, for staleness; None for a large one."""
-        return surface_digest(self.surface, self.face_count)
+        return surface_digest(self.surface) if self.face_count <= MAX_DIGESTED_FACES else None
 
     def sixth_order(self) -> Moments:
         """Return the volume's moments to the order that axes need, for a mesh that was measured alone."""
@@ -196,32 +196,27 @@ class MeasuredStack:
         )
 
 
+@dataclass(frozen=True, eq=False)
 class Stacked:
     """One object's measurement in a stack, the counterpart of `Measured`."""
 
-    __slots__ = ("index", "stack")
-
-    def __init__(self, stack: MeasuredStack, index: int):
-        self.stack, self.index = stack, index
+    stack: MeasuredStack
+    index: int
 
     @property
     def measurement(self) -> Measurement:
-        """The measurement."""
         return self.stack.measurement(self.index)
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """The measurement's findings."""
         return self.stack.findings[self.index]
 
     @property
     def mass_properties(self) -> MassProperties:
-        """The measurement's mass properties."""
         return self.stack.mass_properties.at(self.index)
 
     @property
     def method(self) -> Method:
-        """The measurement's method."""
         return self.stack.members[self.index].shape.method
 
     @property
@@ -274,7 +269,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
             higher_order = solids.to_order(np.array(together), MAX_ORDER)
             sixth.update((row, higher_order.at(i)) for i, row in enumerate(together))
         alone = {row: each.alone for row, each in found.items() if each.alone is not None}
-        small = [row for row, solid in alone.items() if is_small(solid.repaired_surface)]
+        small = [row for row, solid in alone.items() if solid.repaired_surface.triangle_count <= MAX_SMALL_TRIANGLES]
         if small:
             higher_order = small_moments_to_order([alone[row] for row in small], MAX_ORDER)
             sixth.update((row, higher_order.at(i)) for i, row in enumerate(small))

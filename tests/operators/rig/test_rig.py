@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.bodies.rig import measure_rig
-from body_moments.blender.session.displayed import drawn, drawn_bone
 from body_moments.blender.read.joints import bone_freedom, bone_parents
+from body_moments.blender.session.displayed import drawn, drawn_bone
 from body_moments.blender.session.robots import bone_links
 from body_moments.blender.session.tracking import handlers, staleness
 from body_moments.blender.session.tracking.stamps import Stale
