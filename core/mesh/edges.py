@@ -4,7 +4,12 @@
 
 A surface bounds a body exactly when every edge is used as often one way as the other. If a mesh names the edge at each
 of its corners, one scatter proves the common case (each edge once each way) without sorting anything: the corners fill
-as many slots as there are corners, one for each direction of an edge. Without named edges, edges are found by hashes.
+as many slots as there are corners, one for each direction of an edge. Without named edges, the sides of faces are
+paired through a table: each is written into the row of its start, at a place that a hash of its stop gives, so that
+neighbors in the mesh stay in the cache, and its partner is looked up in the row of its stop, by the hash of its start.
+Two sides that find each other so are partners, for each starts at the stop of the other, whatever the hashes. Sides
+that found their places taken try again with another hash; those left after some rounds (around a vertex of many faces)
+are sorted.
 
 Orientation is decided by connected parts on the double cover: each face becomes two nodes, one for each orientation. A
 part is orientable if its two covers stay apart.
@@ -12,7 +17,7 @@ part is orientable if its two covers stay apart.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,15 +28,19 @@ from ..numerics.graph import EDGES_PER_BLOCK, connected_components
 from .surface import Surface, face_of_each
 
 HASH_FACTOR = np.uint32(0x9E3779B1)  # a prime of xxHash, by Yann Collet
-NO_SIDES = np.empty(0, np.intp)
+FACES_PER_BLOCK = 1 << 14  # in the cache with all that is made of them
+MAX_SORTED_SIDES = 3 << 10  # a table is made for more
+HASH_FACTORS = 0x9E3779B1, 0x85EBCA77, 0xC2B2AE3D, 0x27D4EB2F, 0x165667B1  # primes of xxHash, by Yann Collet
+SAMPLED_VERTICES = 512  # vertices with sides that decide on the hash
+NOBODY = -1
+# Sides as three arrays: their indices, their starts and their stops.
+Sides = tuple[NDArray[np.int32], NDArray[np.integer], NDArray[np.integer]]
 
 
-def closed_side_faces(surface: Surface) -> NDArray[np.integer] | None:
+def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     """Return the (2, e) mesh faces beside the used edges if each has two, run in opposite directions; else None."""
     corners, edges = surface.corner_vertices, surface.corner_edges
-    if edges is None:
-        return _side_faces_by_search(surface)
-    if corners is None or not len(corners) == len(edges) > 0:
+    if corners is None or edges is None or not len(corners) == len(edges) > 0:
         return None
     sides_at = _sides_at(surface, corners)
     if sides_at is None:
@@ -50,19 +59,6 @@ def closed_side_faces(surface: Surface) -> NDArray[np.integer] | None:
     if len(corners) != 2 * count:  # edges without faces
         sides = sides[:, sides.max(axis=0) >= 0]
     return sides if len(corners) == sides.size and sides.min() >= 0 else None
-
-
-def _side_faces_by_search(surface: Surface) -> NDArray[np.integer] | None:
-    """Return `closed_side_faces` of a surface without named edges; None also for faces that are not all of one size."""
-    if surface.triangle_faces is not None or surface.quad_faces is not None:
-        return None
-    if len(surface.triangles) and len(surface.quads):
-        return None
-    faces = surface.triangles if len(surface.triangles) else surface.quads
-    edges = _edges_of_sides(faces.ravel(), np.roll(faces, -1, axis=1).ravel())
-    if (edges.count != 2).any() or sums_by_index(edges.of_side, np.where(edges.upward, 1.0, -1.0)).any():
-        return None
-    return np.stack(edges.manifold_side_pairs()) // faces.shape[1]
 
 
 def _sides_at(
@@ -154,14 +150,7 @@ class Edges:
 
 def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
     """Return the edges of (m, 3) triangles; the last 2 * `quads` are halves with diagonals of their own."""
-    diagonals = 3 * (len(triangles) - 2 * quads + 2 * np.arange(quads)) + 2
-    return _edges_of_sides(triangles.ravel(), triangles.take(NEXT_AXIS, 1).ravel(), diagonals)
-
-
-def _edges_of_sides(
-    start: NDArray[np.integer], stop: NDArray[np.integer], diagonals: NDArray[np.intp] = NO_SIDES
-) -> Edges:
-    """Return the edges of sides from these vertices to those; each of the diagonals is an edge with the next side."""
+    start, stop = triangles.ravel(), triangles.take(NEXT_AXIS, 1).ravel()
     low, high = np.minimum(start, stop), np.maximum(start, stop)
     width = int(high.max(initial=0)) + 1
     bits = (len(low) // width).bit_length() + 1  # neighbors in the mesh share the table's cached part
@@ -169,7 +158,8 @@ def _edges_of_sides(
     slots += (high.astype(np.uint32) * HASH_FACTOR) >> np.uint32(32 - bits)
     keys = np.multiply(low, width, dtype=np.int64)
     keys += high
-    keys[diagonals] = keys[diagonals + 1] = width * width + np.arange(len(diagonals))
+    diagonals = 3 * (len(triangles) - 2 * quads + 2 * np.arange(quads))
+    keys[diagonals + 2] = keys[diagonals + 3] = width * width + np.arange(quads)
     first = first_occurrence(keys, slots=slots)
     begins = first == np.arange(len(first))
     of_side = (np.cumsum(begins) - 1).take(first)
@@ -239,3 +229,130 @@ def group_components(
     meet[edges.of_side[side]] = part[side // 3]  # any part at the edge
     component, number = connected_components(parts, part[side // 3], meet[edges.of_side[side]])
     return component[part], number
+
+
+def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray[np.int32] | None:
+    """Return the (n, k) faces across the sides of (n, k) faces; None unless every edge has two opposite sides."""
+    if 2 * vertex_count > faces.size or faces.size % 2:  # a vertex has one face
+        return None
+    bits = int(2 * faces.size // vertex_count).bit_length()
+    if max(faces.size, vertex_count << bits) > np.iinfo(np.int32).max:
+        return None
+    faces = np.ascontiguousarray(faces)
+    if any((faces[:, k] == faces[:, k - 1]).any() for k in range(faces.shape[1])):  # a side that is its own partner
+        return None
+    partner = np.empty(faces.size + 1, np.int32)
+    partner[NOBODY] = NOBODY
+    left = next(_all_sides(faces, len(faces))) if faces.size <= MAX_SORTED_SIDES else None
+    if left is None:
+        table = _Table(vertex_count, bits)
+        for factor in table.factors_by_distinct_places(faces):
+            left = _pair(faces, left, table, np.uint32(factor), partner)
+            if left is None:
+                return None
+    assert left is not None
+    found = _paired_by_sorting(*left)
+    if found is None:
+        return None
+    partner[left[0]] = found
+    across = partner[:-1].reshape(faces.shape)
+    return np.floor_divide(across, np.int32(faces.shape[1]), out=across)
+
+
+class _Table:
+    """A table of sides, by the row of one end vertex and a hash of the other."""
+
+    def __init__(self, vertex_count: int, bits: int):
+        self.bits, self.sides = bits, np.zeros(vertex_count << bits, np.int32)  # counted from 1
+
+    def places(self, row: NDArray[np.integer], other: NDArray[np.integer], factor: np.uint32) -> NDArray[np.intp]:
+        """Return the table slots of the sides with these end vertices."""
+        place = row.astype(np.intp)
+        place <<= self.bits
+        hashes = other.astype(np.uint32)
+        hashes *= factor
+        hashes >>= np.uint32(32 - self.bits)
+        place += hashes
+        return place
+
+    def at(self, places: NDArray[np.intp]) -> NDArray[np.int32]:
+        """Return the sides in these slots, NOBODY for an empty slot."""
+        return self.sides.take(places, mode="clip") - np.int32(1)
+
+    def factors_by_distinct_places(self, faces: NDArray[np.integer]) -> list[int]:
+        """Return the hash factors, those that give sides around some vertices the most distinct places first."""
+        flat = faces.ravel()
+        first = len(self.sides) >> self.bits + 1
+        number = np.flatnonzero((flat >= first) & (flat < first + SAMPLED_VERTICES))
+        start, stop = flat[number], flat[_following(number, faces.shape[1])]
+        return sorted(HASH_FACTORS, key=lambda factor: -len(np.unique(self.places(start, stop, np.uint32(factor)))))
+
+
+def _pair(
+    faces: NDArray[np.integer], left: Sides | None, table: _Table, factor: np.uint32, partner: NDArray[np.int32]
+) -> Sides | None:
+    """Pair the sides in `left` (None: all) by a hash. Return the sides still unpaired; None if a side occurs twice."""
+
+    def blocks() -> Iterator[Sides]:
+        return _all_sides(faces, FACES_PER_BLOCK) if left is None else _slices(left)
+
+    for number, start, stop in blocks():
+        table.sides[table.places(start, stop, factor)] = number + np.int32(1)
+    for number, start, stop in blocks():
+        partner[_range(number)] = table.at(table.places(stop, start, factor))
+    flat = faces.ravel()
+    rest: list[tuple[NDArray[np.integer], ...]] = [(np.empty(0, np.int32), flat[:0], flat[:0])]
+    for number, start, stop in blocks():
+        apart = np.flatnonzero(partner.take(partner[_range(number)], mode="wrap") != number)
+        if not len(apart):
+            continue
+        number, start, stop = (each.take(apart, mode="clip") for each in (number, start, stop))
+        winner = table.at(table.places(start, stop, factor))
+        if ((flat.take(_following(winner, faces.shape[1]), mode="clip") == stop) & (winner != number)).any():
+            return None
+        rest.append((number, start, stop))
+    number, start, stop = (np.concatenate(each) for each in zip(*rest))
+    return number, start, stop
+
+
+def _following(number: NDArray[np.integer], corners: int) -> NDArray[np.integer]:
+    """Return the next side of the same face, for each side."""
+    return np.where(number % corners == corners - 1, number - (corners - 1), number + 1)
+
+
+def _range(number: NDArray[np.int32]) -> slice | NDArray[np.int32]:
+    """Return ascending numbers as a slice, if they are without gaps."""
+    first, last = int(number[0]), int(number[-1])
+    return slice(first, last + 1) if last - first + 1 == len(number) else number
+
+
+def _all_sides(faces: NDArray[np.integer], faces_per_block: int) -> Iterator[Sides]:
+    corners = faces.shape[1]
+    for first in range(0, len(faces), faces_per_block):
+        start = faces[first : first + faces_per_block].ravel()
+        stop = np.empty_like(start)
+        stop[:-1] = start[1:]
+        stop[corners - 1 :: corners] = start[::corners]
+        yield np.arange(corners * first, corners * first + len(start), dtype=np.int32), start, stop
+
+
+def _slices(sides: Sides) -> Iterator[Sides]:
+    number, start, stop = sides
+    for first in range(0, len(number), 3 * FACES_PER_BLOCK):
+        block = slice(first, first + 3 * FACES_PER_BLOCK)
+        yield number[block], start[block], stop[block]
+
+
+def _paired_by_sorting(
+    number: NDArray[np.int32], start: NDArray[np.integer], stop: NDArray[np.integer]
+) -> NDArray[np.int32] | None:
+    """Return the partner of each of an even number of sides; None if they are no pairs."""
+    low, high = np.minimum(start, stop).astype(np.uint64), np.maximum(start, stop).astype(np.uint64)
+    key = low << np.uint64(32) | high << np.uint64(1) | (start < stop)
+    order = np.argsort(key)
+    order = order.reshape(-1, 2)
+    if not (np.bitwise_xor(*key[order].T) == 1).all():
+        return None
+    partner = np.empty_like(number)
+    partner[order] = number[order[:, ::-1]]
+    return partner

@@ -11,13 +11,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import closed_side_faces
+from ..mesh.edges import closed_side_faces, faces_across_sides
 from ..mesh.planarity import Planarity, PlanarityAccumulator
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type
 from ..numerics.arrays import indices_in_range
-from ..numerics.graph import connected_components
+from ..numerics.graph import connected_components, connected_neighbors
 from ..polyhedron import third_order
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
@@ -133,10 +133,10 @@ def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray
 
 def prove_closed(surface: Surface) -> RepairedMesh | None:
     """Return the mesh, without triangles if one component, if its own edges prove it closed and oriented; else None."""
-    sides = closed_side_faces(surface)
-    if sides is None:
+    found = _components_of_closed(surface)
+    if found is None:
         return None
-    component, component_count = connected_components(int(sides.max()) + 1, *sides)
+    component, component_count = found
     triangles, face = surface.triangles[:0], component[:0]
     if component_count > 1:
         triangles, face = surface.all_triangles()
@@ -151,3 +151,16 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
         np.zeros((component_count, 3)),
         report=MeshHealth(closed=True, components=component_count),
     )
+
+
+def _components_of_closed(surface: Surface) -> tuple[NDArray[np.intp], int] | None:
+    """Return the component of each mesh face and their number; None if not proven closed and oriented."""
+    if surface.corner_edges is not None:
+        sides = closed_side_faces(surface)
+        return None if sides is None else connected_components(int(sides.max()) + 1, *sides)
+    if surface.triangle_faces is not None or surface.quad_faces is not None:
+        return None
+    if len(surface.triangles) and len(surface.quads):
+        return None
+    across = faces_across_sides(surface.triangles if len(surface.triangles) else surface.quads, len(surface.points))
+    return None if across is None else connected_neighbors(across)
