@@ -163,7 +163,7 @@ class Buffers:
         )
 
     def table(self, accessor: dict[str, Any]) -> NDArray:
-        """Return the (n, k) numbers of an accessor without its sparse ones; none if an extension has compressed them."""
+        """Return the (n, k) numbers of an accessor without its sparse ones; none if an extension compresses them."""
         kind, width = np.dtype(_GLTF_TYPES[accessor["componentType"]]), _GLTF_WIDTHS[accessor["type"]]
         view = self.document["bufferViews"][accessor["bufferView"]] if "bufferView" in accessor else None
         if view is None or _GLTF_COMPRESSIONS & view.get("extensions", {}).keys():

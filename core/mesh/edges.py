@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Connections of faces: edges, the cheap proof of closedness, connected parts, consistent orientation.
 
-A surface bounds a body exactly when every edge is used as often one way as the other. If a mesh names the edge at each
-of its corners, one scatter proves the common case (each edge once each way) without sorting anything: the corners fill
-as many slots as there are corners, one for each direction of an edge. Without named edges, the sides of faces are
-paired through a table: each is written into the row of its start, at a place that a hash of its stop gives, so that
-neighbors in the mesh stay in the cache, and its partner is looked up in the row of its stop, by the hash of its start.
-Two sides that find each other so are partners, for each starts at the stop of the other, whatever the hashes. Sides
-that found their places taken try again with another hash; those left after some rounds (around a vertex of many faces)
-are sorted.
+A surface bounds a body exactly when every edge is used equally often in both directions. If a mesh names the edge at
+each of its corners, one scatter proves the common case (each edge once each way) without sorting: there is one slot for
+each direction of an edge, and the corners fill as many slots as there are corners. Without named edges, the sides of
+faces are paired through a table. Each side is written into the row of its start, at a place that a hash of its stop
+gives, so that neighbors in the mesh stay in the cache. Its partner is looked up in the row of its stop, by the hash of
+its start. Two sides that find each other so are partners, because each starts at the stop of the other, whatever the
+hashes. Sides whose places are taken try again with another hash; sides left after some rounds (around a vertex of many
+faces) are sorted.
 
 Orientation is decided by connected parts on the double cover: each face becomes two nodes, one for each orientation. A
 part is orientable if its two covers stay apart.
