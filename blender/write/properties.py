@@ -331,11 +331,8 @@ def is_estimated(obj: bpy.types.Object) -> bool:
     how = method(obj)
     if how is None:
         return False
-    return (
-        how.source == Source.NURBS
-        or how.verdict == Verdict.WIRE
-        or (how.source == Source.GRID and obj.type != "VOLUME")
-    )
+    is_filled = how.source == Source.GRID and obj.type != "VOLUME"
+    return is_filled or how.source == Source.NURBS or how.verdict == Verdict.WIRE
 
 
 def optional(obj: Owner, key: str) -> float | None:

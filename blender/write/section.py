@@ -143,46 +143,34 @@ def text(name: str, section: StoredSection, outdated: str | None = None) -> str:
 
 def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> Iterator[str]:
     section, plane = stored_section.section, stored_section.section.plane
+    size = section.area**0.5
     x, y, normal = zip(*plane.axes)
     yield "Section properties, SI units, world frame"
     yield ""
     yield name
     if outdated:
         yield report_line("Out of date", outdated)
-    yield report_line(
-        "Measured",
-        "{}; outer outlines {}, holes {}".format(stored_section.description, section.outlines, section.holes),
-    )
-    yield report_line("Area", "{} m²".format(report_number(section.area)))
-    yield report_line("Perimeter", "{} m".format(report_number(section.perimeter)))
-    yield report_line("Centroid", "{} m".format(report_vector(section.center, section.area**0.5)))
-    yield report_line(
-        "Plane",
-        "normal {}, x {}, y {}; x nearest to the object's {} axis".format(
-            report_vector(normal, 1.0), report_vector(x, 1.0), report_vector(y, 1.0), plane.x_axis_name
-        ),
-    )
-    yield report_line(
-        "Centroid in plane",
-        "{} m, from the foot of the object's origin".format(report_vector(section.centroid, section.area**0.5)),
-    )
+    outlines = "outer outlines {}, holes {}".format(section.outlines, section.holes)
+    yield report_line("Measured", "{}; {}".format(stored_section.description, outlines))
+    yield report_line("Area", report_number(section.area), "m²")
+    yield report_line("Perimeter", report_number(section.perimeter), "m")
+    yield report_line("Centroid", report_vector(section.center, size), "m")
+    axes = "normal {}, x {}, y {}".format(*(report_vector(axis, 1.0) for axis in (normal, x, y)))
+    yield report_line("Plane", "{}; x nearest to the object's {} axis".format(axes, plane.x_axis_name))
+    place = report_vector(section.centroid, size)
+    yield report_line("Centroid in plane", place, "m, from the foot of the object's origin")
     yield report_line("Second moments", "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)")
     for label, value in zip(("Ix", "Iy", "Ixy"), clean(section.second, section.polar)):
         yield report_line("  " + label, report_number(value))
     yield report_line("  Polar Jp", "{} = Ix + Iy; not the torsion constant".format(report_number(section.polar)))
     first, second = section.principal
-    yield report_line(
-        "Principal",
-        "I1 {}, I2 {} m⁴; {}".format(
-            report_number(first),
-            report_number(second),
-            "every axis through the centroid is principal"
-            if section.axes_undetermined
-            else "axis 1 at {}° from x towards y".format(report_number(degrees(section.angle))),
-        ),
-    )
-    yield report_line("Radii of gyration", _labeled_values("i", section.radii) + " m")
-    yield report_line("Section moduli", _labeled_values("W", section.moduli) + " m³ (elastic, outermost corner)")
+    direction = "axis 1 at {}° from x towards y".format(report_number(degrees(section.angle)))
+    if section.axes_undetermined:
+        direction = "every axis through the centroid is principal"
+    moments = "I1 {}, I2 {} m⁴".format(report_number(first), report_number(second))
+    yield report_line("Principal", "{}; {}".format(moments, direction))
+    yield report_line("Radii of gyration", _labeled_values("i", section.radii), "m")
+    yield report_line("Section moduli", _labeled_values("W", section.moduli), "m³ (elastic, outermost corner)")
     for label, bound in (("Rounding, at most", section.rounding_error), ("float32 coordinates", section.input_error)):
         yield report_line(
             label,

@@ -64,15 +64,9 @@ def text(file_document: dict[str, Any]) -> str:
     if len(file_document["objects"]) > 1:
         heading = "Total of {} objects, world frame".format(len(file_document["objects"]))
         lines += ["", heading, *_body(file_document["total"], "world")]
-    if file_document["left_out"]:
-        lines += ["", "Left out"]
-        lines += ["{}{}: {}".format(INDENT, entry["name"], entry["reason"]) for entry in file_document["left_out"]]
-    if file_document["errors"]:
-        lines += ["", "Not measured"]
-        lines += [
-            "{}{}: {}".format(INDENT, failure["name"] or "File", failure["reason"])
-            for failure in file_document["errors"]
-        ]
+    for heading, entries in (("Left out", file_document["left_out"]), ("Not measured", file_document["errors"])):
+        lines += ["", heading] if entries else []
+        lines += ["{}{}: {}".format(INDENT, one["name"] or "File", one["reason"]) for one in entries]
     return "".join(visible(line) + "\n" for line in lines)
 
 
@@ -97,13 +91,9 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     yield report_line("Volume", report_number(entry["volume"]), "m³")
     yield report_line("Surface area", report_number(entry["area"]), "m²")
     if "display_mesh" in entry:
-        yield report_line(
-            "Its display mesh",
-            "{} m³, {:+.3g} %".format(
-                report_number(entry["display_mesh"]["volume"]),
-                100.0 * entry["display_mesh"]["difference"] / entry["volume"] if entry["volume"] else 0.0,
-            ),
-        )
+        display, volume = entry["display_mesh"], entry["volume"]
+        share = 100.0 * display["difference"] / volume if volume else 0.0
+        yield report_line("Its display mesh", "{} m³, {:+.3g} %".format(report_number(display["volume"]), share))
     if entry["center_of_mass"] is None or entry["inertia"] is None:
         return
     size = entry.get("length") or abs(entry["volume"] or 0.0) ** (1.0 / 3.0)
@@ -137,10 +127,8 @@ def _principal(entry: dict[str, Any]) -> Iterable[str]:
 
 
 def _tensor(inertia: list[list[float]], frame: str) -> Iterable[str]:
-    yield report_line(
-        "Inertia tensor",
-        "about the center of mass, {} axes, kg·m² (entries: Ixy = −∫ρxy dV)".format(frame),
-    )
+    axes = "about the center of mass, {} axes".format(frame)
+    yield report_line("Inertia tensor", axes + ", kg·m² (entries: Ixy = −∫ρxy dV)")
     values = clean([inertia[i][j] for _, i, j in TENSOR])
     for row in (slice(0, 3), slice(3, 6)):
         cells = ["I{} {:<16}".format(name, report_number(value)) for (name, *_), value in zip(TENSOR[row], values[row])]

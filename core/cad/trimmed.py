@@ -105,10 +105,8 @@ def _flat_face(
             return None
         return [curve.transform(matrix) for curve in boundary.parameters]
 
-    in_space, by_parameters = (
-        [boundary.curves or placed(boundary) for boundary in boundaries],
-        [placed(boundary) or boundary.curves for boundary in boundaries],
-    )
+    in_space = [boundary.curves or placed(boundary) for boundary in boundaries]
+    by_parameters = [placed(boundary) or boundary.curves for boundary in boundaries]
     choices = [in_space, by_parameters][:: -1 if any(one.prefers_parameters for one in boundaries) else 1]
     return first_region(choices, vector_area([surface]))
 

@@ -120,7 +120,8 @@ def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.in
             if clear.max() < 0.25:
                 raise MeasureError(OUTLINES_COINCIDE)
             depth += int(winding[np.argmax(clear)] > 0.5)
-        ahead = _twice_the_area(points, edges) > 0.0
+        a, b = (points[edges[:, k]] - points[edges[0, 0]] for k in (0, 1))
+        ahead = float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum()) > 0.0
         order.append(loop if ahead == (depth % 2 == 0) else loop[::-1])
     return directed_edges(order)
 
@@ -212,11 +213,6 @@ def _steep_side_windings(points: NDArray, edges: NDArray, chosen: NDArray, touch
     return left, right
 
 
-def _twice_the_area(points: NDArray, edges: NDArray) -> float:
-    a, b = (points[edges[:, i]] - points[edges[0, 0]] for i in (0, 1))
-    return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum())
-
-
 def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
     """Count pairs of edges that cross by more than `touch`, and sum opposed lengths; True if there are too many."""
     start, end = points[edges[:, 0]], points[edges[:, 1]]
@@ -259,11 +255,8 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
         first, last = (((point[j] - start[i]) * unit).sum(axis=1) for point in (start, end))
         common = np.minimum(first, length[i]) - np.maximum(last, 0.0)  # For opposite edges first is beyond last.
         opposed.update(zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist()))
-    return (
-        len(np.unique(np.concatenate(crossings))),
-        float(sum(opposed.values())),
-        compared_count > MAX_EDGE_PAIRS,
-    )
+    crossing_count = len(np.unique(np.concatenate(crossings)))
+    return crossing_count, float(sum(opposed.values())), compared_count > MAX_EDGE_PAIRS
 
 
 @lru_cache

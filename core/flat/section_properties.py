@@ -97,8 +97,13 @@ class Section:
 
     @property
     def angle(self) -> float:
-        """Angle from x towards y to principal axis 1, in radians; 0 if every axis is principal."""
-        return 0.0 if self.axes_undetermined else principal_angle(self.second, self._noise)
+        """Angle from x towards y to principal axis 1, in radians, above -π/2 to π/2; 0 if every axis is principal."""
+        first, second, mixed = map(float, self.second)
+        if self.axes_undetermined:
+            return 0.0
+        if abs(mixed) <= self._noise:  # then the product of inertia cannot turn the axis over
+            return 0.0 if first >= second else pi / 2.0
+        return 0.5 * atan2(-2.0 * mixed, first - second)
 
     @property
     def _noise(self) -> float:
@@ -124,11 +129,3 @@ class Section:
     def _about_axes(self) -> tuple[float, ...]:
         first, second, _ = map(float, self.second)
         return first, second, *self.principal
-
-
-def principal_angle(second: Vector, noise: float) -> float:
-    """Return the angle of axis 1, in (-π/2, π/2]; a product of inertia below `noise` cannot turn the axis over."""
-    first, last, mixed = map(float, second)
-    if abs(mixed) <= noise:
-        return 0.0 if first >= last else pi / 2.0
-    return 0.5 * atan2(-2.0 * mixed, first - last)

@@ -176,11 +176,8 @@ def extent_of(measurement: Measurement, name: str) -> Extent:
 def add_extents(extents: list[Extent]) -> Extent:
     """Return the sum of volumes or areas, with its bounds."""
     values, rounding, inputs = np.array(extents, np.float64).reshape(-1, 3).T
-    return (
-        float(values.sum()),
-        float(rounding.sum() + len(values) * U * np.abs(values).sum()),
-        float(inputs.sum()),
-    )
+    bound = rounding.sum() + len(values) * U * np.abs(values).sum()
+    return float(values.sum()), float(bound), float(inputs.sum())
 
 
 def find_extent(body: Body, settings: Settings) -> Moments:

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arguments import check_type
+from ..numerics.vectors import cross, dot
 from ..verdict.tolerances import check_size
 from .bezier import ROUNDING, VOLUME_RTOL, bernstein, halves, homogeneous
 from .splines import Curve
@@ -84,9 +85,7 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
     reach, degree = _reach(curves, center), monomials(order).sum(axis=1)
 
     def flux(place: NDArray, velocity: NDArray) -> NDArray:
-        x, y, z = place
-        a, b, c = velocity
-        return normal[0] * (y * c - z * b) + normal[1] * (z * a - x * c) + normal[2] * (x * b - y * a)
+        return dot(normal, cross(place, velocity))
 
     values, estimate, size = np.zeros(len(degree)), 0.0, 0.0
     exact = [curve for curve in curves if curve.weights is None]

@@ -153,10 +153,7 @@ class FlatFace:
 
 def split_faces(faces: Sequence[Face]) -> tuple[list[Patch], list[FlatFace]]:
     """Return the patches and the flat faces."""
-    return (
-        [face for face in faces if isinstance(face, Patch)],
-        [face for face in faces if isinstance(face, FlatFace)],
-    )
+    return [one for one in faces if isinstance(one, Patch)], [one for one in faces if isinstance(one, FlatFace)]
 
 
 def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], NDArray[np.float64]]:

@@ -292,9 +292,9 @@ def with_area_error(area: Moments, slope: float, stored: float, reach: float) ->
     return with_swept_error(area, stored * (slope + area.total / reach), reach)
 
 
-def stored_area_moments(faces: Sequence[Face], order: int, about: NDArray | None = None, *, stored: float) -> Moments:
-    """Return the area moments of faces, by default about their box's center, with errors of stored points."""
-    area = area_moments(faces, order, about)[0]
+def stored_area_moments(faces: Sequence[Face], order: int, *, stored: float) -> Moments:
+    """Return the area moments of faces, about their box's center, with errors of stored points."""
+    area = area_moments(faces, order)[0]
     return with_area_error(area, area_slope(faces), stored, patches_size(faces) + 4.0 * stored)
 
 

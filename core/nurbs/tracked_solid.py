@@ -53,7 +53,7 @@ class TrackedSolid:
         self._fixed = _fixed_part(patches)
         self._evaluators = [IncrementalPatchMoments(patch, 3, volume.about) for patch in patches]
         self._fluxes = [evaluator.moments(patch.points) for evaluator, patch in zip(self._evaluators, patches)]
-        largest = self._largest(patches, area.total)
+        largest = _largest_moments(patches, volume.about, area.total)
         self._error, self._area_error = volume.rounding_error / largest, area.rounding_error[:1] / area.total
         if any(patch.weights is not None for patch in patches):
             tables = self._assess(patches, self.measure.topology, stored).volume
@@ -61,13 +61,6 @@ class TrackedSolid:
             off = float((np.abs(tables.raw - volume.raw) / largest).max())
             off = max([off] + [_rule_error_at_random(patch) for patch in patches if patch.weights is not None])
             self._error, self._is_tracking = self._error + RULE_ERROR_GROWTH * off, off <= MAX_RULE_ERROR
-
-    def _largest(self, patches: Sequence[Patch], area: float) -> NDArray[np.float64]:
-        """Return (K,) upper bounds of the body's moments."""
-        reach = max(
-            float(np.sqrt(((patch.points - self.measure.volume.about) ** 2).sum(axis=2).max())) for patch in patches
-        )
-        return np.asarray(area * reach ** (monomials(3).sum(axis=1) + 1.0), np.float64)
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
         """Measure the patches in their current shape; return True if tables sufficed, False if all is measured anew."""
@@ -106,14 +99,19 @@ class TrackedSolid:
             self._slope,
             stored,
         )
-        return replace(
-            measure, volume=replace(measure.volume, rounding_error=self._error * self._largest(patches, total))
-        )
+        error = self._error * _largest_moments(patches, about, total)
+        return replace(measure, volume=replace(measure.volume, rounding_error=error))
 
 
 def _fixed_part(patches: Sequence[Patch]) -> list[tuple[tuple[SplineSpace, SplineSpace], bytes]]:
     """Return the function spaces and the weights of patches, which must stay as they are."""
     return [(patch.spaces, b"" if patch.weights is None else patch.weights.tobytes()) for patch in patches]
+
+
+def _largest_moments(patches: Sequence[Patch], about: NDArray, area: float) -> NDArray[np.float64]:
+    """Return (K,) upper bounds of the moments of a body."""
+    reach = max(float(np.sqrt(((patch.points - about) ** 2).sum(axis=2).max())) for patch in patches)
+    return np.asarray(area * reach ** (monomials(3).sum(axis=1) + 1.0), np.float64)
 
 
 def _rule_error_at_random(patch: Patch) -> float:
@@ -122,8 +120,7 @@ def _rule_error_at_random(patch: Patch) -> float:
     perturbed, about = replace(patch, points=points), np.zeros(3)
     evaluator = IncrementalPatchMoments(perturbed, 3, about)
     off = np.abs(evaluator.moments(points).raw - volume_moments([perturbed], 3, about)[0].raw)
-    reach = float(np.sqrt((points**2).sum(axis=2).max()))
-    return float((off / (evaluator.area * reach ** (monomials(3).sum(axis=1) + 1.0))).max())
+    return float((off / _largest_moments([perturbed], about, evaluator.area)).max())
 
 
 class IncrementalPatchMoments:

@@ -94,7 +94,6 @@ def data_file(fields: dict[str, str]) -> str | None:
 def read_nrrd(path: Path, limits: Limits) -> Scan:
     """Read the scan as a memory map, or unpacked if it is gzipped."""
     fields, start = read_header(path, limits)
-
     sizes = _numbers(fields, "sizes", parse_whole)
     if not sizes:
         raise _field(fields, "sizes", "three numbers")
