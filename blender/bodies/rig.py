@@ -154,8 +154,6 @@ class _Measuring:
         found.sources[source.name] = None
         return found
 
-    # ------------------------------------------------------------ Objects parented to bones
-
     def _hang(self, obj: Object, bone: str) -> None:
         if bone not in self.bones.frames:
             self.findings.append(finding(BONE_MISSING, bone=bone).of_sources([obj.name]))
@@ -172,8 +170,6 @@ class _Measuring:
             found.surfaces.append((surface, np.eye(4)))
         if not self.is_given and unset_density(obj, measurement, self.depsgraph.scene) is not None:
             self.unset.append(obj.name)
-
-    # ------------------------------------------------------------ Skinned objects
 
     def _skin(self, obj: Object) -> None:
         request = Request.resolve(obj, self.depsgraph, self.options)
@@ -260,8 +256,6 @@ class _Measuring:
             )
             area = _area(sheet, metric, KNOWN_ORDER)
             yield self.bones.deforming[bone], area, area, sheet, metric, Verdict.SHELL
-
-    # ------------------------------------------------------------ Parts and their sum
 
     def _part(self, name: str, found: _Sum) -> BonePart:
         settings = self.armature.pose.bones[name].body_moments
