@@ -129,14 +129,14 @@ class _Measuring:
             self._try(obj, self._skin)
         for obj, bone in hanging:
             self._try(obj, lambda obj, bone=bone: self._hang(obj, bone))
-        if self.refused:
-            self.findings.append(finding(MEMBERS_NOT_MEASURED, count=len(self.refused), names=self.refused))
-        if self.unset:
-            self.findings.append(finding(MEMBERS_DENSITY_UNSET, count=len(self.unset), names=self.unset))
         parts = tuple(self._part(name, self.sums[name]) for name in self.bones.names if name in self.sums)
         impossible = [part.name for part in parts if part.refusal is not None]
-        if impossible:
-            self.findings.append(finding(BONE_PARTS_IMPOSSIBLE, count=len(impossible), names=impossible))
+        named = {
+            MEMBERS_NOT_MEASURED: self.refused,
+            MEMBERS_DENSITY_UNSET: self.unset,
+            BONE_PARTS_IMPOSSIBLE: impossible,
+        }
+        self.findings += [finding(code, count=len(names), names=names) for code, names in named.items() if names]
         return Rig(self.armature, parts, self._total(parts), tuple(self.objects))
 
     def _try(self, obj: Object, measure) -> None:
