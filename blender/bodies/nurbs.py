@@ -136,16 +136,12 @@ def body(reading: Reading, request: Request) -> Body:
         return replace(united, findings=(finding(DISPLAY_MESH_NEEDED, purpose="a union"), *united.findings))
     rest = mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
     pieces = [(part, measure, to_si(part.matrices, unit)) for part, measure in zip(patch_parts, measures)]
-    volume = sum_moments(
-        [
-            *(sum_of_images(measure.volume, matrices) for _, measure, matrices in pieces),
-            *([rest.volume] if rest else []),
-        ]
-    )
+    volumes = [sum_of_images(measure.volume, matrices) for _, measure, matrices in pieces]
     areas = [sum_moments(list(_image_areas(part, measure.area, matrices))) for part, measure, matrices in pieces]
     healths = [(measure.health, len(part.matrices), faces.total) for (part, measure, _), faces in zip(pieces, areas)]
     verdicts = [Verdict(measure.method) for measure in measures]
     if rest:
+        volumes.append(rest.volume)
         areas.append(rest.area)
         healths.append((rest.health, 1, rest.area.total))
         verdicts.append(rest.method.verdict)
@@ -154,7 +150,7 @@ def body(reading: Reading, request: Request) -> Body:
         with suppress(MeasureError):  # a display mesh that cannot be measured compares with nothing
             display = mesh_body(reading, unit, shell=False, union=False, threads=threads).volume.total
     return PatchBody(
-        volume,
+        sum_moments(volumes),
         sum_moments(areas),
         merge_health(healths),
         Method(least_trusted(verdicts), _source(reading)),

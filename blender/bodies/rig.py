@@ -129,14 +129,14 @@ class _Measuring:
             self._try(obj, self._skin)
         for obj, bone in hanging:
             self._try(obj, lambda obj, bone=bone: self._hang(obj, bone))
-        if self.refused:
-            self.findings.append(finding(MEMBERS_NOT_MEASURED, count=len(self.refused), names=self.refused))
-        if self.unset:
-            self.findings.append(finding(MEMBERS_DENSITY_UNSET, count=len(self.unset), names=self.unset))
         parts = tuple(self._part(name, self.sums[name]) for name in self.bones.names if name in self.sums)
         impossible = [part.name for part in parts if part.refusal is not None]
-        if impossible:
-            self.findings.append(finding(BONE_PARTS_IMPOSSIBLE, count=len(impossible), names=impossible))
+        named = {
+            MEMBERS_NOT_MEASURED: self.refused,
+            MEMBERS_DENSITY_UNSET: self.unset,
+            BONE_PARTS_IMPOSSIBLE: impossible,
+        }
+        self.findings += [finding(code, count=len(names), names=names) for code, names in named.items() if names]
         return Rig(self.armature, parts, self._total(parts), tuple(self.objects))
 
     def _try(self, obj: Object, measure) -> None:
@@ -154,8 +154,6 @@ class _Measuring:
         found.sources[source.name] = None
         return found
 
-    # ------------------------------------------------------------ Objects parented to bones
-
     def _hang(self, obj: Object, bone: str) -> None:
         if bone not in self.bones.frames:
             self.findings.append(finding(BONE_MISSING, bone=bone).of_sources([obj.name]))
@@ -172,8 +170,6 @@ class _Measuring:
             found.surfaces.append((surface, np.eye(4)))
         if not self.is_given and unset_density(obj, measurement, self.depsgraph.scene) is not None:
             self.unset.append(obj.name)
-
-    # ------------------------------------------------------------ Skinned objects
 
     def _skin(self, obj: Object) -> None:
         request = Request.resolve(obj, self.depsgraph, self.options)
@@ -260,8 +256,6 @@ class _Measuring:
             )
             area = _area(sheet, metric, KNOWN_ORDER)
             yield self.bones.deforming[bone], area, area, sheet, metric, Verdict.SHELL
-
-    # ------------------------------------------------------------ Parts and their sum
 
     def _part(self, name: str, found: _Sum) -> BonePart:
         settings = self.armature.pose.bones[name].body_moments

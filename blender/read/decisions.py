@@ -129,12 +129,10 @@ def _member_findings(collections) -> Iterator[Finding]:
         }
         for switch in ("hide_viewport", "hide_render")
     )
-    missing = [member for member in rendered if member not in shown]
-    if missing:
-        yield finding(RENDER_ONLY_MEMBERS, objects=_names(missing))
-    extra = [member for member in shown if member not in rendered]
-    if extra:
-        yield finding(VIEWPORT_ONLY_MEMBERS, objects=_names(extra))
+    for code, here, there in ((RENDER_ONLY_MEMBERS, rendered, shown), (VIEWPORT_ONLY_MEMBERS, shown, rendered)):
+        names = [member.name for member in here if member not in there]
+        if names:
+            yield finding(code, objects=names)
 
 
 def _node_errors(obj) -> Iterator[Finding]:

@@ -170,23 +170,17 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
     def measured_area(surface: Surface) -> Moments:
         return polyhedron_moments(surface, area_order=3, threads=threads, allow_open=True)[1]
 
+    measured = measured_area if shell else None
     for part in reading.parts:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
         matrices = to_si(part.matrices, unit)
         volumes.append(sum_of_images(solid.volume, matrices))
-        image_areas = list(
-            area_of_instances(solid.given_surface, solid.area, matrices, measured_area if shell else None)
-        )
+        image_areas = list(area_of_instances(solid.given_surface, solid.area, matrices, measured))
         areas.extend(image_areas)
         total = float(solid.volume.raw[0])
         stretch = float(volumes[-1].raw[0]) / total if total else 0.0  # Σ |det|
-        healths.append(
-            (
-                replace(solid.health, volume_spread=solid.health.volume_spread * stretch),
-                len(matrices),
-                sum([float(moments.raw[0]) for moments in image_areas]),
-            )
-        )
+        health = replace(solid.health, volume_spread=solid.health.volume_spread * stretch)
+        healths.append((health, len(matrices), sum([float(moments.raw[0]) for moments in image_areas])))
         flat = not shell and not solid.volume.raw.any()
         verdicts.append(None if flat else Verdict(solid.method))
         if shell:  # A sheet is not repaired.

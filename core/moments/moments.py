@@ -288,18 +288,19 @@ def join_moments(stacks: Sequence[Moments]) -> Moments:
 
 
 @np.errstate(over="ignore", invalid="ignore")  # callers check for overflow
-def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
+def image(moments: Moments, matrices: NDArray, center: NDArray | None = None) -> Moments:
     """Return the moments of a body's image under an affine map, or of each stacked body's image under its own map.
 
-    `matrices` are (..., 4, 4) or (..., 3, 4) and finite; `center`, (..., 3), is the point of the result.
-    ValueError if a map of areas or lengths is no similarity, MeasureError if an image is too small for its measure to
-    be a number.
+    `matrices` are (..., 4, 4) or (..., 3, 4) and finite; `center`, (..., 3), is the point of the result, by default the
+    image of `about`. ValueError if a map of areas or lengths is no similarity, MeasureError if an image is too small
+    for its measure to be a number.
     """
     order, about = moments.order, moments.about
     linear, offsets = matrices[..., :3, :3], matrices[..., :3, 3]
     origins = (
         linear[..., 0] * about[..., :1] + linear[..., 1] * about[..., 1:2] + linear[..., 2] * about[..., 2:] + offsets
     )
+    center = origins if center is None else center
     offset = origins - center
     lead = linear.shape[:-2]
     factors = measure_scale_factors(moments.measure, linear.reshape(-1, 3, 3).transpose(1, 2, 0).copy())

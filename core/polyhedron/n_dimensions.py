@@ -49,11 +49,16 @@ class SimplexMoments:
     rounding_error: NDArray[np.float64]
 
     def __getitem__(self, exponents: tuple[int, ...]) -> float:
-        return float(self.raw[multi_index_position(len(self.about), self.order, exponents)])
+        return float(self.raw[self._position(exponents)])
 
     def bound(self, exponents: tuple[int, ...]) -> float:
         """Return the error bound of one moment."""
-        return float(self.rounding_error[multi_index_position(len(self.about), self.order, exponents)])
+        return float(self.rounding_error[self._position(exponents)])
+
+    def _position(self, exponents: tuple[int, ...]) -> int:
+        """Return the index of the moment with these exponents. IndexError if they are negative or beyond the order."""
+        dimension = len(self.about)
+        return _positions(dimension, self.order)[check_exponents(exponents, dimension, self.order)]
 
 
 @lru_cache
@@ -63,11 +68,6 @@ def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
     table = np.array(exponents, np.int64).reshape(-1, dimension)
     table.flags.writeable = False
     return table
-
-
-def multi_index_position(dimension: int, order: int, exponents: tuple[int, ...]) -> int:
-    """Return the index of the moment with these exponents. IndexError if they are negative or beyond the order."""
-    return _positions(dimension, order)[check_exponents(exponents, dimension, order)]
 
 
 def enclosed_moments(

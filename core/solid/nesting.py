@@ -45,10 +45,9 @@ class ComponentRelations:
     mostly_in: NDArray[np.intp] = field(default_factory=NO_PAIRS.view)
     breakthrough: NDArray[np.float64] = field(default_factory=NO_LENGTHS.view)
 
-    def containers(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return the inner and the outer component of each pair that is decided as if one contained the other."""
-        inner, outer = np.concatenate([self.contained_in, self.mostly_in]).T
-        return inner, outer
+    def containers(self) -> NDArray[np.intp]:
+        """Return (2, k) inner and outer components of the pairs that are decided as if one contained the other."""
+        return np.concatenate([self.contained_in, self.mostly_in]).T
 
 
 def classify_pairs(

@@ -177,26 +177,20 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
     """Yield the findings about an assembly: first about the whole, then about its members, with their names."""
     yield from whole.findings
     members = list(whole.walk())
-    refused = [part.member.name for part in members if part.refusal is not None]
-    if refused:
-        yield finding(MEMBERS_NOT_MEASURED, count=len(refused), names=refused)
-    left_out: dict[str, list[str]] = {}
+    named = {MEMBERS_NOT_MEASURED: [part.member.name for part in members if part.refusal is not None]}
     for part in members:
         if part.member.left_out is not None:
-            left_out.setdefault(_LEFT_OUT.get(part.member.left_out.code, MEMBERS_EXCLUDED), []).append(part.member.name)
-    for code, names in left_out.items():
-        yield finding(code, count=len(names), names=names)
+            named.setdefault(_LEFT_OUT.get(part.member.left_out.code, MEMBERS_EXCLUDED), []).append(part.member.name)
     objects = [(part.member, part.measurement) for part in members if part.measurement is not None]
-    hidden = [
+    named[MEMBERS_HIDDEN] = [
         member.name
         for member, measured in objects
         if any(each.code == HIDDEN_OBJECT_MEASURED for each in measured.findings)
     ]
-    if hidden:
-        yield finding(MEMBERS_HIDDEN, count=len(hidden), names=hidden)
-    unset = [member.name for member, measured in objects if unset_density(member.data, measured, scene) is not None]
-    if unset:
-        yield finding(MEMBERS_DENSITY_UNSET, count=len(unset), names=unset)
+    named[MEMBERS_DENSITY_UNSET] = [
+        member.name for member, measured in objects if unset_density(member.data, measured, scene) is not None
+    ]
+    yield from (finding(code, count=len(names), names=names) for code, names in named.items() if names)
     yield from open_body_caveats((member.name, measured.method) for member, measured in objects)
     for part in members[1:]:
         yield from (each.of_sources([part.member.name]) for each in part.findings if each.code == ASSEMBLY_MASS_GIVEN)

@@ -159,11 +159,10 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
         if flipped:
             findings.append(finding(SECTION_FACES_REVERSED, count=flipped))
     defects = find_defects(flat, edges, error)
-    if reading.loops is not None and (defects.crossings or defects.overlapping):
+    are_crossed = defects.crossings or defects.overlapping
+    if defects.negative or (reading.loops is not None and are_crossed):
         raise ReadError(OUTLINES_CROSS)
-    if defects.negative:
-        raise ReadError(OUTLINES_CROSS)
-    if defects.crossings or defects.overlapping:
+    if are_crossed:
         findings.append(finding(SECTION_FACES_OVERLAP))
     if defects.too_many_pairs:
         findings.append(finding(SECTION_OVERLAP_UNCHECKED))

@@ -238,7 +238,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     if not members:
         return None
     matrices[:, :3] *= unit
-    volume = _placed(own.at(which), matrices)
+    volume = image(own.at(which), matrices)
     area = _areas(own_area.at(which), matrices, members)
     density, mass = np.array([(member.settings.density, member.settings.mass) for member in members], np.float64).T
     from_mass = ~np.isnan(mass)
@@ -305,21 +305,14 @@ def _chosen(members: list[StackMember], which: NDArray) -> list[StackMember]:
     return [members[i] for i in (np.flatnonzero(which) if which.dtype == bool else which).tolist()]
 
 
-def _placed(moments: Moments, matrices: NDArray) -> Moments:
-    """Return the moments mapped by the members' matrices, each about the image of its reference point."""
-    linear, about = matrices[:, :3, :3], moments.about
-    center = linear[..., 0] * about[:, :1] + linear[..., 1] * about[:, 1:2] + linear[..., 2] * about[:, 2:]
-    return image(moments, matrices, center + matrices[:, :3, 3])
-
-
 def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Moments:
     """Return the areas mapped by the members' matrices; surfaces are measured again if a matrix is no similarity."""
     even = are_similarities(matrices[:, :3, :3])
     if even.all():
-        return _placed(area, matrices)
+        return image(area, matrices)
     regular = matrices.copy()
     regular[~even, :3, :3] = np.eye(3)
-    placed = _placed(area, regular)
+    placed = image(area, regular)
     for i in np.flatnonzero(~even).tolist():
         shape = members[i].shape
         surface = shape.surface if shape.alone is None else shape.alone.given_surface
