@@ -116,7 +116,7 @@ def _flat_face(
 def _follow_sides(
     patch: Patch, domain: tuple[tuple[float, float], tuple[float, float]], boundaries: Sequence[Boundary]
 ) -> bool:
-    """Return whether boundaries follow that of a patch, in its parameters, or in space if these are unknown."""
+    """Return whether boundaries follow a patch's boundary, in its parameters, or in space if these are unknown."""
     tolerance = WELDING_RTOL * patches_size([patch])
     sides = [[patch.side(axis, end) for end in (0, 1)] for axis in (0, 1)]
     samples = [[curve.evaluate(np.linspace(*curve.space.domain, SAMPLES)) for curve in row] for row in sides]

@@ -59,7 +59,7 @@ class ZeroAreaLoops:
 
 @dataclass(frozen=True, eq=False)
 class FoldedLoops:
-    """Loops without area, `number` of them, that components with edges of three faces or more leave over.
+    """The `number` loops without area that remain in components with edges of three faces or more.
 
     `components`: (c,) mask of those components that close. `sides`, `caps`: (k,) and (k, 3) triangles that close them.
     """

@@ -74,7 +74,7 @@ class Support:
         return self.margin < NEAR * float(np.linalg.norm(np.ptp(self.polygon, axis=0)))
 
     def target(self, margin: float | None) -> NDArray[np.float64]:
-        """Return the point of the polygon nearest to the foot with a margin, (3,); None, or too much: the middle."""
+        """Return the (3,) polygon point nearest to the foot with a margin; the middle if it is None or too large."""
         axes = ground_axes(-self.up)[:, :2]
         corners = (self.polygon - self.foot) @ axes
         inside = corners[:0] if margin is None else nearest_inside(corners, margin)
