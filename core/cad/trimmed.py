@@ -240,7 +240,7 @@ def _runs(
 
 
 def _traversals(runs: Sequence[tuple[float, float]], closed: bool) -> tuple[NDArray, NDArray]:
-    """Return how often runs along a line pass each of its pieces: the difference of both directions, and the sum."""
+    """Return for each piece of a line the counts of runs along it: the difference of both directions, and the sum."""
     marks, changes = [0.0, 1.0], []
     for begin, end in runs:
         low, high, way = min(begin, end), max(begin, end), 1 if end > begin else -1
