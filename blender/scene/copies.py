@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Copies among meshes: equal points, faces and layers of data, however the elements are numbered; and their linking.
 
-A mesh is compared with the first mesh of each kind so far. Of the similarities that lay one onto the other, the first
-counts under which the layers agree, too: so UVs and materials of symmetric shapes stay in place.
+A mesh is compared with the first mesh of each kind so far. The first similarity counts that lays one onto the other and
+under which the layers agree, too. So UVs and materials of symmetric shapes stay in place.
 
 If M lays the shared mesh onto an object's own one, its matrix W becomes W · M. `reframe` makes that change and keeps it
 only if neither the object nor anything that refers to it looks different. It compares the present frame, without

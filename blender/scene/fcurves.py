@@ -50,7 +50,7 @@ def existing_curves(obj: Object) -> Iterable[FCurve]:
 
 
 def is_shared(obj: Object) -> bool:
-    """Return whether other objects are animated by the keys of an object's action, which is not linked, too."""
+    """Return whether the keys of an object's action, which is not linked, also animate other objects."""
     animation = obj.animation_data
     if animation.action.library is not None:
         return False

@@ -175,7 +175,7 @@ def import_bodies(
 
 
 def show_bodies(bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float) -> list[Object]:
-    """Add an object of each body, with any faces, to a collection; it shows them and is measured by them."""
+    """Add an object for each body to a collection; it shows the body's faces and is measured by them."""
     made, readings = [], {}
     for body in bodies:
         obj, _ = surface_object(body.name, list(map(_shown, body.patches)), factor)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sculpt Balance: chosen vertices of a mesh are moved least so that its center of mass comes over a point.
+"""Sculpt Balance: chosen vertices of a mesh are moved as little as brings its center of mass over a point.
 
 Without chosen vertices the body leans: each vertex moves in proportion to its height, so that no face turns over.
 The change is made on the mesh itself, and the object is measured again in the usual way. If faces that are not flat are

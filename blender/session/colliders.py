@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colliders of measured objects, and what they do to the physics of each object, stored on it."""
+"""Colliders of measured objects, and their effect on the physics of each object, stored on it."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
 
 
 def collider_record(obj: Object, measurement: Measurement, context: Context) -> dict[str, Any] | None:
-    """Return what the colliders of an object do, for its record, with the reason if that is out of date; else None."""
+    """Return the effect of an object's colliders for its record, with the reason if it is out of date; else None."""
     stamp = stamps.of_colliders(obj)
     if stamp is None:
         return None

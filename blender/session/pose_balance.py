@@ -69,7 +69,7 @@ class _Handle:
 class _Search:
     """The search for one character.
 
-    noise: float32 rounding of places in the world, which inverse kinematics see. failure: of the first bone of any use.
+    noise: float32 rounding of places in the world, which inverse kinematics see. failure: of the first suitable bone.
     """
 
     def __init__(self, context: Context, armature: Object, known: Character, weight: Weight, margin: float | None):

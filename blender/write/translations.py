@@ -52,7 +52,7 @@ def read_po(path: Path) -> Iterator[tuple[str | None, str, str]]:
 
 
 def read_translations(locale: str) -> dict[tuple[str, str], str]:
-    """Return translations by (context, English text), {} without a file; those without context stand under each."""
+    """Return translations by (context, English text), {} without a file; each context has those without context."""
     contexts = bpy.app.translations.contexts
     everywhere = (contexts.default, contexts.operator_default, CONTEXT)
     paths = [FOLDER / f"{name}.po" for name in (locale, locale.partition("_")[0])]

@@ -272,7 +272,7 @@ class IgesReader:
         return faces
 
     def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> float:
-        """Note and return how far the decimals of a surface's points and weights leave its points undecided."""
+        """Note and return the uncertainty of a surface's points by the decimals of its points and weights."""
         count = surface.points.size // 3
         start = 9 + sum(len(space.knots) for space in surface.spaces)
         moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(fields[start + count : start + 4 * count])

@@ -26,7 +26,7 @@ SUFFIXES = tuple(_READERS)
 def read_surfaces(path: str | Path, limits: Limits = DEFAULT_LIMITS, for_blender: bool = True) -> SurfaceFile:
     """Return the B-spline surfaces of an IGES or .obj file of up to `limits.text_bytes`. Raise FileError or OSError.
 
-    for_blender: only those that Blender's surfaces can be.
+    for_blender: only surfaces that Blender can represent.
     """
     path, suffix = _existing_file(path, SUFFIXES)
     limits.check(path, "text_bytes", path.stat().st_size)

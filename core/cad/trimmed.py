@@ -114,7 +114,7 @@ def _flat_face(
 def _follow_sides(
     patch: Patch, domain: tuple[tuple[float, float], tuple[float, float]], boundaries: Sequence[Boundary]
 ) -> bool:
-    """Return whether boundaries follow that of a patch, in its parameters, or in space if these are unknown."""
+    """Return whether boundaries follow a patch's boundary, in its parameters, or in space if these are unknown."""
     tolerance = WELDING_RTOL * patches_size([patch])
     sides = [[patch.side(axis, end) for end in (0, 1)] for axis in (0, 1)]
     samples = [[curve.evaluate(np.linspace(*curve.space.domain, SAMPLES)) for curve in row] for row in sides]
@@ -238,7 +238,7 @@ def _runs(
 
 
 def _traversals(runs: Sequence[tuple[float, float]], closed: bool) -> tuple[NDArray, NDArray]:
-    """Return how often runs along a line pass each of its pieces: the difference of both directions, and the sum."""
+    """Return for each piece of a line the counts of runs along it: the difference of both directions, and the sum."""
     marks, changes = [0.0, 1.0], []
     for begin, end in runs:
         low, high, way = min(begin, end), max(begin, end), 1 if end > begin else -1

@@ -114,7 +114,7 @@ def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
 def region(
     plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float
 ) -> tuple[NDArray[np.intp], int]:
-    """Return (m, 2) edges around the triangles, faces (k,) that look against the plane turned, and their number."""
+    """Return (m, 2) edges around the triangles, and the number of faces that look against the plane and are turned."""
     triangles = first_at_equal_position(points)[triangles]
     a, b, c = (project(plane, points)[triangles[:, i]] for i in range(3))
     areas = np.bincount(faces, ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2.0)

@@ -4,8 +4,8 @@
 
 Every place has a keyed 64-bit hash of its coordinates. Every side of a face has a hash of its two ends, with a sign for
 its direction. Sides that run along each other in opposite directions cancel: the sum over all sides, modulo 2^64, is
-zero if every edge is used as often one way as the other, and otherwise by a chance below 2^-50, whatever the faces: the
-keys are drawn anew by each process. (A sum of normals is zero for many surfaces that are open.)
+zero if every edge is used equally often both ways. Otherwise it is zero by a chance below 2^-50, whatever the faces,
+because each process draws new keys. (A sum of normals is zero for many surfaces that are open.)
 """
 
 from __future__ import annotations

@@ -43,7 +43,7 @@ def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float6
 
 
 def winding_number(points: NDArray[np.floating], triangles: NDArray[np.integer], point: NDArray) -> float:
-    """Return how often triangles (m, 3), closed or open, surround a point."""
+    """Return the number of times that triangles (m, 3), closed or open, surround a point."""
     blocks = range(0, len(triangles), TRIANGLES_PER_BLOCK)
     return sum(
         float(solid_angles(points, triangles[start : start + TRIANGLES_PER_BLOCK], point).sum()) for start in blocks

@@ -3,9 +3,9 @@
 """Vertices at the same position, and faces on the same vertices, as in triangle soup, text and NURBS meshes.
 
 Positions that differ by rounding are found on eight grids, each shifted by half a cell along some of the axes: points
-that are within half a cell along each axis share a cell of at least one of them. Within a cell points are compared with
-its first one alone. Only points with neighbors along a line enter grids: most meshes have none. Faces are copies if the
-sums of two hashes over their vertices agree.
+that are within half a cell along each axis share a cell of at least one of them. Within a cell, points are compared
+only with its first one. Only points with neighbors along a line enter grids: most meshes have none. Faces are copies if
+the sums of two hashes over their vertices agree.
 """
 
 from __future__ import annotations

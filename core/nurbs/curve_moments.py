@@ -166,7 +166,7 @@ def _about_first_control(net: NDArray, anchor: NDArray) -> tuple[NDArray[np.floa
 
 
 def _doubtful_lengths(net: NDArray, kinks: bool, largest: float) -> NDArray[np.float64]:
-    """Return (c,) bounds of what rules may miss: of pieces that may turn back, and with very unequal weights."""
+    """Return (c,) bounds of the length that rules may miss: if pieces may turn back, or have very unequal weights."""
     edges = np.diff(net[..., :3] / net[..., 3:] if net.shape[2] == 4 else net, axis=1)
     length, doubtful = np.sqrt((edges**2).sum(axis=2)).sum(axis=1), np.zeros(len(net))
     if kinks:

@@ -140,7 +140,7 @@ def _pair_sides(
     owner: NDArray[np.intp],
     forward: NDArray[np.bool_],
 ) -> tuple[list[tuple[float, int, int, bool]], NDArray[np.bool_]]:
-    """Return the joined pairs, and a (patches,) mask of the ones to turn. times: in how many pairs each side is.
+    """Return the joined pairs, and a (patches,) mask of the ones to turn. times: number of pairs with each side.
 
     If more than two sides meet, as for touching bodies, pairs of patches already joined by other sides come first, then
     single patches that fit without turning, then other patches that fit: so no patch is turned needlessly. Among equal

@@ -301,7 +301,7 @@ def _classify_parts(
 
 
 def _sampled(face: Face, each: int) -> tuple[NDArray, NDArray[np.intp], float]:
-    """Return points (n, 3) of a face, quads (f, 4) between them, and how far the face may be from the quads."""
+    """Return points (n, 3) of a face, quads (f, 4) between them, and a bound of the face's distance from the quads."""
     if isinstance(face, FlatFace):
         quads = face.quads(each)
         sagitta = max(_sagitta(curve.samples(each)[:, None], each) for curve in face.curves)

@@ -7,8 +7,8 @@ generating function 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)). Each factor is one level 
 
     C_α = (n! / α!) a^α,    D_α = C_α + Σ_i c_i D_{α-e_i},    S_α = D_α + Σ_i b_i S_{α-e_i},
 
-with only one degree kept at a time. Two triangles that share the edge a-c share C and D. Only sums over faces are
-wanted of the last degree, and those of S_α = C_α + Σ_i c_i D_{α-e_i} + Σ_i b_i S_{α-e_i} need no D and no S.
+with only one degree kept at a time. Two triangles that share the edge a-c share C and D. Of the last degree only sums
+over faces are wanted; the sums of S_α = C_α + Σ_i c_i D_{α-e_i} + Σ_i b_i S_{α-e_i} need no D and no S of that degree.
 
 Rows are the monomials of one degree in the order of `monomials`, columns are faces. The rows that a level's sum takes
 from the degree below stand in runs, so that nothing is fetched or copied: 14 operations a moment, in few and long calls

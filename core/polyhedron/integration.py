@@ -53,8 +53,8 @@ def polyhedron_moments(
     """Return the moments of the body that a closed surface bounds, and of the surface itself.
 
     All moments are about the center of the bounding box, unless `about` is given. The volume is positive for outward
-    faces, and signed otherwise. The moments of an open surface would depend on the reference point: it is refused
-    unless `allow_open`. `solid.measure_solid` repairs it, and its body has moments of any order. `rounding_error`
+    faces, and signed otherwise. An open surface's moments would depend on the reference point: it is refused unless
+    `allow_open`. `solid.measure_solid` repairs such a surface, and its body has moments of any order. `rounding_error`
     bounds the rounding of every moment, `input_error` the change that storing coordinates as float32 may have made (of
     a closed surface).
 

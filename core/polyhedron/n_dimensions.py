@@ -8,8 +8,8 @@ Sheynin and Tuzikov's formulae hold in any dimension. Over the simplex of the or
 
 and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, in place of det, and |α|+n-1 in place of
 |α|+n. Each factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), over blocks of simplices.
-det = v_1·N, with N, the generalized cross product of the facet's edges, from minors. As there are only products
-and sums, rounding is relative to the same expression in absolute values, which gives a rigorous bound.
+det = v_1·N; minors give N, the generalized cross product of the facet's edges. As there are only products and sums,
+rounding is relative to the same expression in absolute values, which gives a rigorous bound.
 """
 
 from __future__ import annotations

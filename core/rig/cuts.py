@@ -3,7 +3,7 @@
 """A closed surface cut into closed pieces, one for each bone.
 
 A face goes with the bone of the most weight at its corners. If weights tie, the nearer bone counts, so that the two
-sides of a symmetric character are cut alike; faces that no bone has any weight on go with the nearest bone.
+sides of a symmetric character are cut alike; faces without any weight go with the nearest bone.
 
 The faces of a bone are bounded by the edges that they share with other bones' faces. Cut edges that meet, whatever
 their bones, belong to one cut, which is closed to one apex, its centroid. Each bone gets the cone on its side of every

@@ -101,7 +101,7 @@ def wrong_field(format: str, name: str, wanted: str, *values: float) -> FileErro
 
 
 def check_length(path: Path, held: int, wanted: int) -> None:
-    """Raise FileError unless a file holds just the bytes of its samples: more mean that the sizes are wrong."""
+    """Raise FileError unless a file holds exactly the bytes of its samples; more bytes mean wrong sizes."""
     if held != wanted:
         raise damaged(path, DAMAGE_SIZE, bytes=held, total=wanted)
 

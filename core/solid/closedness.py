@@ -35,7 +35,7 @@ class CheckedSurface:
     """A surface that can be measured, without the vertices that no face uses; lengths in its unit.
 
     `vertices`: (n,) the input's number of each vertex; None if all are used. `size`: diagonal of the bounding box.
-    `error`: how far storing the points may have moved them. `tolerance`: distance below which points touch.
+    `error`: largest shift of the points by storing. `tolerance`: distance below which points touch.
     """
 
     surface: Surface
@@ -132,7 +132,7 @@ def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray
 
 
 def prove_closed(surface: Surface) -> RepairedMesh | None:
-    """Return the mesh, without triangles if one component, if its own edges prove it closed and oriented; else None."""
+    """Return the mesh if its own edges prove it closed and oriented, without triangles if one component; else None."""
     found = _components_of_closed(surface)
     if found is None:
         return None

@@ -22,7 +22,7 @@ UNKNOWN: Any = None  # a value that no step has found yet: the order of the step
 
 
 def copy_with(record: Record, **values: Any) -> Record:
-    """Return a copy of a dataclass with other values, as `dataclasses.replace` does in twenty times as long."""
+    """Return a copy of a dataclass with other values, twenty times faster than `dataclasses.replace`."""
     copy = object.__new__(type(record))
     copy.__dict__.update(record.__dict__, **values)
     return copy
@@ -59,7 +59,7 @@ class ZeroAreaLoops:
 
 @dataclass(frozen=True, eq=False)
 class FoldedLoops:
-    """Loops without area, `number` of them, that components with edges of three faces or more leave over.
+    """The `number` loops without area that remain in components with edges of three faces or more.
 
     `components`: (c,) mask of those components that close. `sides`, `caps`: (k,) and (k, 3) triangles that close them.
     """
@@ -94,17 +94,15 @@ class RepairState:
 class RepairedMesh:
     """A surface as triangles, repaired as far as the steps have come.
 
-    `points`: (n, 3) in the input's type and unit.
-    `triangles`: (t, 3) vertices; in the end all face as `flipped` says, caps last.
-    `face`: (t,) mesh face of each triangle, -1 for caps. `flipped`: (t,) triangles that are, or are to be, reversed.
-    `component`: (t,) 0 to `number` - 1. `open`: (number,) components that cannot be closed.
-    `caps`: (number, 3) number of flat caps, of curved caps, and their area (unit²).
-    `report`: the input as far as the steps have seen it; its edges are pairs of the surface's vertices.
-    `topology_changed`: True if the triangles, apart from their direction and from caps, differ from the input's.
-    `max_displacement`: how far welding has moved a vertex at most (unit).
-    `left_out`: (k,) mesh faces that are surplus copies of others, sorted.
-    `capped_edges`, `capped_component`: (k, 2) boundary edges of capped holes, and (k,) their components.
-    `findings`: decisions, except for welding and caps, which depend on the volume.
+    `points`: (n, 3) in the input's type and unit. `triangles`: (t, 3) vertices; in the end all face as `flipped` says,
+    caps last. `face`: (t,) mesh face of each triangle, -1 for caps. `flipped`: (t,) triangles that are, or are to be,
+    reversed. `component`: (t,) 0 to `number` - 1. `open`: (number,) components that cannot be closed. `caps`: (number,
+    3) number of flat caps, of curved caps, and their area (unit²). `report`: the input as far as the steps have seen
+    it; its edges are pairs of the surface's vertices. `topology_changed`: True if the triangles, apart from their
+    direction and from caps, differ from the input's. `max_displacement`: largest displacement of a vertex by welding
+    (unit). `left_out`: (k,) mesh faces that are surplus copies of others, sorted. `capped_edges`, `capped_component`:
+    (k, 2) boundary edges of capped holes, and (k,) their components. `findings`: decisions, except for welding and
+    caps, which depend on the volume.
     """
 
     points: NDArray[np.floating]

@@ -113,7 +113,7 @@ def surrounds_once(surface: Surface, point: NDArray[np.float64], size: float) ->
 
 @dataclass(frozen=True, eq=False)
 class Excess:
-    """Miscounted volumes of b bodies, (b,): of regions that count more than once or as negative, times the surplus.
+    """Miscounted volumes of b bodies, (b,): regions that count more than once or as negative, times the surplus.
 
     `second_moment`: of these regions, about the center of the body's box. `unsure`: share of the crossed lines that do
     not enter as often as they leave; 1 if no line is crossed.

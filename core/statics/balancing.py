@@ -3,16 +3,16 @@
 """The least change of shape that brings a body's center of mass to a given point.
 
 Some vertices may move. With the derivative G of the center at the start, the moves v that bring it there with the least
-Σ a |v|² / m are v = (m / a) G' λ, with one λ for each coordinate of the center. Here a is the area that a vertex stands
-for, an equal share of its faces', so that the shape found does not depend on how finely the mesh is cut, and m ≤ 1 how
-freely it moves. Moves longer than a limit are cut to it, which is the solution of the same problem with that limit. For
-G and a, every face is taken as the fan around its middle, so that the diagonals it is cut by show in the shape as
-little as they can: the center itself is computed from the faces as they are cut.
+Σ a |v|² / m are v = (m / a) G' λ, with one λ for each coordinate of the center. Here a is a vertex's equal share of the
+areas of its faces, so that the resulting shape does not depend on how finely the mesh is cut, and m ≤ 1 is the vertex's
+freedom to move. Moves longer than a limit are cut to it, which is the solution of the same problem with that limit. For
+G and a, every face is taken as the fan around its middle, so that its diagonals show in the shape as little as
+possible; the center itself is computed from the faces as they are cut.
 
 The center is not a linear function of the moves, so λ is found by Newton's method, with the exact derivative at every
 step, until the center is there to rounding. The moves are then least to first order: moves of the least sum differ by
-terms of their square. They are not looked for, because on fine meshes they wrinkle: a shell gains area by nothing as
-cheaply as by folds.
+terms of their square. Those are not sought, because on fine meshes they wrinkle: folds are the cheapest way for a shell
+to gain area.
 """
 
 from __future__ import annotations

@@ -74,7 +74,7 @@ class Support:
         return self.margin < NEAR * float(np.linalg.norm(np.ptp(self.polygon, axis=0)))
 
     def target(self, margin: float | None) -> NDArray[np.float64]:
-        """Return the point of the polygon nearest to the foot with a margin, (3,); None, or too much: the middle."""
+        """Return the (3,) polygon point nearest to the foot with a margin; the middle if it is None or too large."""
         axes = ground_axes(-self.up)[:, :2]
         corners = (self.polygon - self.foot) @ axes
         inside = corners[:0] if margin is None else nearest_inside(corners, margin)
@@ -146,7 +146,7 @@ def _support(contacts: NDArray, height: float, center: NDArray, axes: NDArray, t
 
 
 def polygon_margin(corners: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
-    """Return how far the origin is inside a convex polygon, and the unit vector over the nearest edge.
+    """Return the distance of the origin inside a convex polygon, and the unit vector over the nearest edge.
 
     corners: (k, 2) counter-clockwise. Returns the distance from the nearest edge; outside, minus the distance from the
     polygon; and the direction, (2,), from inside straight over that edge, from outside away from the polygon.
@@ -277,8 +277,8 @@ def _faces(
 ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
     """Return (m,) faces of a hull's triangles, (f, 3) unit normals, (f,) heights of the center, margins and neighbors.
 
-    points: from the center. The neighbor is the face beyond the edge that the foot is nearest to or farthest outside
-    of. least: distances below it count as none.
+    points: from the center. The neighbor is the face beyond the edge that the foot is nearest to, or has passed
+    farthest. least: smaller distances count as 0.
     """
     triangles, neighbors = hull.triangles, hull.neighbors
     double = normals(points, triangles)

@@ -32,8 +32,8 @@ KINDS = {".stl": StlFile, ".ply": PlyFile}
 class StreamIntegrals:
     """Integrals of a mesh that was read in blocks, without repair, about the center of a bounding box.
 
-    closed: True if every edge is used as often one way as the other, by their hashes (`BoundarySum`); the volume of an
-    open mesh depends on the center. face_count: triangles and quads that were measured.
+    closed: True if every edge is used equally often both ways, by their hashes (`BoundarySum`); the volume of an open
+    mesh depends on the center. face_count: triangles and quads that were measured.
     """
 
     volume: Moments

@@ -156,7 +156,7 @@ def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:
 
 
 def system_reason(error: OSError) -> str:
-    """Return why the system refused something, as a part of a sentence."""
+    """Return the system's reason for a refusal, as a part of a sentence."""
     return (error.strerror or str(error)).rstrip(".")
 
 

@@ -43,7 +43,7 @@ def _item(item: Any, translate: Callable[[str], str]) -> str:
 
 
 def truncate_list(items: Elements, count: int | None = None, translate: Callable[[str], str] = str) -> str:
-    """Write the first names, numbers or pairs of a list, and how many more there are: “A”, “B”, and 3 more."""
+    """Write the first names, numbers or pairs of a list, and the number of the others: “A”, “B”, and 3 more."""
     shown, more = truncate(items, MAX_LISTED, count)
     texts = [_item(item, translate) for item in shown]
     if more:

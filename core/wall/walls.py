@@ -53,11 +53,10 @@ class OffsetSolid:
     moments. coefficients, rounding_error, input_error: (20, 6) of s^0 to s^5 for each moment to third order, and bounds
     for either sign of s of the changes by rounding and by storing the points as float32. swept_bound, swept_rounding:
     (4,) of s^0 to s^3, bounds of the volume that a side, and the strip along the boundary, sweep if storing the points,
-    or rounding, moves them. reach: (2, 3) of the points from `about` and of the vectors, by axis. outward, inward: how
-    far the surface can move before a prism folds over, infinite if none does; outward_at, inward_at: the triangles that
-    fold first, or -1. inexact_vertices: vertices without a direction that moves all their faces alike; min_ratio,
-    max_ratio: the thickness there, divided by the thickness asked for. degenerate_triangles: swept, but without a known
-    normal.
+    or rounding, moves them. reach: (2, 3) of the points from `about` and of the vectors, by axis. outward, inward: the
+    move at which the first prism folds over, infinite if none does; outward_at, inward_at: the triangles that fold
+    first, or -1. inexact_vertices: vertices without a direction that moves all their faces alike; min_ratio, max_ratio:
+    the thickness there, divided by the thickness asked for. degenerate_triangles: swept, but without a known normal.
     """
 
     points: NDArray[np.float64]

@@ -99,7 +99,7 @@ class FlatShape:
         return replace(found, size=found.size * scale)
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield one wall along the outline, one `size` high on either side: as far from points as the outline."""
+        """Yield a wall along the outline, one `size` high on both sides, as far from points as the outline."""
         ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
         count, height = len(ends), self.size
         low, high = (np.insert(ends.reshape(-1, 2), 2, side * height, axis=1) for side in (-1.0, 1.0))

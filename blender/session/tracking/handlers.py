@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's reports while a file is open, heard once, and passed on to the functions in the lists below.
 
-A subscriber never writes data while Blender evaluates, which would be the next change; before a file is saved it may.
+A subscriber never writes data while Blender evaluates: that would be another change. Before a file is saved it may.
 """
 
 from __future__ import annotations

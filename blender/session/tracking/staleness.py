@@ -110,7 +110,7 @@ def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str
 
 
 def was_current(root: Object | Collection, scene: Scene) -> bool:
-    """Return whether a total was up to date before the settings of members changed, of which Blender tells later."""
+    """Return whether a total was up to date before the settings of members changed, which Blender reports later."""
     stamp, parts = stamps.of_results(root), _digest_parts(root, scene, (None, Stale.SETTINGS))
     if stamp is None or stamp.version != measurement.settings.VERSION or not _has_matrix(root, stamp, scene):
         return False
