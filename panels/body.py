@@ -98,7 +98,7 @@ def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
     material_row(layout, context, context.object)
     _buttons(layout, context)
     if is_rest:
-        rows.remark(layout, "The mass is that of the rest pose. In Object Mode, Measure takes that of the posed skin")
+        rows.remark(layout, "The mass is that of the rest pose")
     unmeasured = shown.missing if shown.count else ()  # of none the verdict says it
     for names, text in ((unmeasured, "Not measured: {objects}"), (shown.stale, "Out of date: {objects}")):
         if names and not is_rest:
