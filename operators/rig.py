@@ -11,7 +11,7 @@ from ..blender.read.tracking import tracking_paused
 from ..blender.session import live, stored
 from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.write import reports
-from ..core.verdict.finding import Severity, finding
+from ..core.verdict.finding import Severity
 from ..core.verdict.sentences import of_severity
 from . import selection
 from .assembly import report_cleared
@@ -90,10 +90,9 @@ class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
         rig = bodies.measure_rig(context, read.rig.require_armature(context.object))
         with tracking_paused():
             count, joints = scene.create_physics_rig(context, rig)
-        missing = [part.name for part in rig.parts if part.measurement is None]
-        more = [finding(BONE_PARTS_IMPOSSIBLE, count=len(missing), names=missing)] if missing else []
+        missing = [found for found in rig.measurement.findings if found.code == BONE_PARTS_IMPOSSIBLE]
         done = reports.phrase("Rigid bodies created: {count}, joints: {joints}", count=count, joints=joints)
-        return selection.report(self, done, *more)
+        return selection.report(self, done, *missing)
 
 
 class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):

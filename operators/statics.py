@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Object, Operator, Scene
 
-from ..blender import read, session
+from ..blender import session
 from ..blender.session import stored
 from ..blender.session.tracking import staleness
 from ..blender.write import reports
@@ -116,8 +116,6 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
         "Follow the common center of mass of the selected objects, of a collection, or of the meshes that the selected "
         "armatures deform, over the frame range. Adds an empty with keys, and draws the path"
     )
-    PROGRESS = "Following the center of mass: {share:percent}. Esc to cancel"
-    CANCELED = "Balance Group canceled; nothing was changed"
 
     collection: StringProperty(
         name="Collection",
@@ -172,19 +170,14 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
         layout.prop(self, "frame_step")
 
     def _begin(self, context: Context) -> int:
-        scene = context.scene
-        start, end = self.frame_start, self.frame_end
-        if self.use_scene_range:
-            start, end = scene.frame_start, scene.frame_end
-        frames = range(start, max(start, end) + 1, self.frame_step)
+        frames = range(self.frame_start, max(self.frame_start, self.frame_end) + 1)
+        frames = (_scene_frames(context.scene) if self.use_scene_range else frames)[:: self.frame_step]
         self._group = session.BalanceGroup(context, self.collection, self.contacts, self.ground, self.reach)
-        self._steps = self._group.follow(scene, frames)
+        self._steps = self._group.follow(context.scene, frames)
         return len(frames)
 
     def _finish(self, context: Context) -> set[str]:
         group = self._group
-        if group.failure is not None:
-            return selection.refuse(self, group.failure)
         empty = group.store(context)
         texts = [
             reports.phrase(
@@ -212,8 +205,6 @@ def _scene_frames(scene: Scene) -> range:
 class KeyedFlight(ModalDialog, OnArmature):
     """Base of operators that key a character between take-off and landing."""
 
-    PROGRESS = "Following the character: {share:percent}. Esc to cancel"
-    CANCELED = "Following canceled; nothing was changed"
     TURNS = False
     DONE = ""
     lead, blend, keep = 0, 0, "TIMES"  # properties of subclasses
@@ -245,7 +236,7 @@ class KeyedFlight(ModalDialog, OnArmature):
             if self.landing < self.take_off + 2:
                 raise reports.Refused(EMPTY_FLIGHT)
             frames = range(self.take_off - self.lead, self.landing + self.blend + 1)
-        followed = session.CharacterMotion(context, read.rig.require_armature(context.object), frames)
+        followed = session.CharacterMotion(context, frames)
         followed.find_carrier(context, self.bone, self.TURNS, self.use_layer)
         self._steps = followed.follow_flight(context.scene, flight, self.keep == "HEIGHT", self.lead, self.blend)
         self._followed = followed
@@ -253,11 +244,8 @@ class KeyedFlight(ModalDialog, OnArmature):
 
     def _finish(self, context: Context) -> set[str]:
         followed = self._followed
-        if followed.failure is not None:
-            return selection.refuse(self, followed.failure)
         off = followed.key(context, self.TURNS)
-        values = {"name": followed.armature.name, "start": followed.first, "end": followed.last}
-        texts = [reports.phrase(self.DONE, **values)]
+        texts = [reports.phrase(self.DONE, name=followed.armature.name, start=followed.first, end=followed.last)]
         if followed.landing != followed.last:
             text = "The landing moves from frame {old} to {new}, as the fall takes {count} frames"
             values = {"old": followed.last, "new": followed.landing, "count": followed.landing - followed.first}
@@ -314,19 +302,16 @@ class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
 class KeyedPath(ModalSteps, OnArmature):
     """Base of operators that key the path of a character's center on an empty."""
 
-    PROGRESS, CANCELED = KeyedFlight.PROGRESS, KeyedFlight.CANCELED
     CURVES = False
 
     def _begin(self, context: Context) -> int:
         frames = _scene_frames(context.scene)
-        self._followed = session.CharacterMotion(context, read.rig.require_armature(context.object), frames)
+        self._followed = session.CharacterMotion(context, frames)
         self._steps = self._followed.follow(context.scene, frames)
         return len(frames)
 
     def _finish(self, context: Context) -> set[str]:
         followed = self._followed
-        if followed.failure is not None:
-            return selection.refuse(self, followed.failure)
         empty, spans = followed.bake(context, self.CURVES)
         text = "Keys of the center of mass on “{empty}”: {count}. Spans with momentum from nothing: {spans}"
         return selection.report(self, reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans))

@@ -92,17 +92,18 @@ def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
         text = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes").format(context.object.name, count)
     else:
         text = localized("1 Object" if count == 1 else "{:d} Objects").format(count)
-    _verdict(layout, text, "GROUP", shown.trust)
     posed = displayed(context.object, context.scene) if armatures.stands_for_meshes(context.object) else None
+    is_rest = posed is not None and properties.optional(context.object, "body_mass") is not None
+    _verdict(layout, text, "GROUP", posed.trust if is_rest else shown.trust)
     numbers = shown.numbers if posed is None else posed.world
-    _answer(layout, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume if shown.count else None)
+    _answer(layout, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume if shown.count and not is_rest else None)
     material_row(layout, context, context.object)
     _buttons(layout, context)
-    if posed is not None and properties.optional(context.object, "body_mass") is not None:
-        rows.remark(layout, "The mass is that of the rest pose. Clear Bones to take that of the posed skin")
+    if is_rest:
+        rows.remark(layout, "The mass is that of the rest pose")
     unmeasured = shown.missing if shown.count else ()  # of none the verdict says it
     for names, text in ((unmeasured, "Not measured: {objects}"), (shown.stale, "Out of date: {objects}")):
-        if names:
+        if names and not is_rest:
             rows.remark(layout, text, icon="FILE_REFRESH", objects=names)
     remedies.lines(layout, context, [*(Group(found) for found in shown.findings), *shown.groups])
 

@@ -43,8 +43,7 @@ class BonesPanel:
             return
         rows.stale_row(layout, stale_reason(armature, context.scene))
         units = rows.scene_units()
-        stored = [(bone, properties.stored(bone)) for bone in armature.pose.bones]
-        measured = [(bone, numbers.mass) for bone, numbers in stored if numbers is not None]
+        measured = [(bone, own.mass) for bone in armature.pose.bones if (own := properties.stored(bone)) is not None]
         total = sum(mass for _, mass in measured)
         column = layout.column(align=True)
         for bone, mass in measured[:LISTED]:

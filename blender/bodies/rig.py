@@ -17,7 +17,6 @@ from ...core.measurement.findings import DENSITY_FROM_MEMBERS, NO_VOLUME, ZERO_Q
 from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ...core.measurement.settings import digest, fingerprint
 from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import are_similarities
 from ...core.moments.exponents import KNOWN_ORDER
 from ...core.moments.moments import Measure, Moments, sum_moments
 from ...core.numerics.float32 import shortest_decimal
@@ -287,34 +286,27 @@ class _Measuring:
         return BonePart(name, mass, measurement, refusal, tuple(found.surfaces), tuple(found.sources))
 
     def _total(self, parts: tuple[BonePart, ...]) -> Measurement:
+        armature, depsgraph = self.armature, self.depsgraph
         if not parts:
-            raise ReadError(RIG_WITHOUT_PARTS, subject=self.armature.name)
-        at = locate(self.armature, self.depsgraph)
+            raise ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
+        at, objects = locate(armature, depsgraph), rig_objects(armature, depsgraph.view_layer.objects)
+        settings = rig_hash(armature, objects, depsgraph.scene)
         sums = [self.sums[part.name] for part in parts]
         mass = sum_moments([part.mass for part in parts])
         return measure_total(
             mass,
-            name=self.armature.name,
+            name=armature.name,
             type="ARMATURE",
             kind="rig",
             volume=add_extents([add_extents(found.extents) for found in sums]),
             area=add_extents([add_extents(found.areas) for found in sums]),
             rotation=at.rotation,
             location=at.location * self.unit,
-            fingerprint=fingerprint(
-                mass.raw.tobytes(),
-                matrix_hash(self.armature),
-                rig_hash(
-                    self.armature, rig_objects(self.armature, self.depsgraph.view_layer.objects), self.depsgraph.scene
-                ),
-            ),
+            fingerprint=fingerprint(mass.raw.tobytes(), matrix_hash(armature), settings),
             findings=tuple(self.findings),
         )
 
 
 def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
     """Return the area moments of a sheet mapped to its place in the world."""
-    if are_similarities(metric[None, :3, :3])[0]:
-        area = polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1]
-        return area.transform(metric)
     return polyhedron_moments(sheet.transform(metric[:3, :3], metric[:3, 3]), 0, area_order=order, allow_open=True)[1]

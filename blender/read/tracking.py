@@ -4,9 +4,11 @@
 
 from __future__ import annotations
 
+from contextlib import ContextDecorator
 
-class tracking_paused:
-    """Note no change while the block runs: for changes that leave every object's shape as it was."""
+
+class tracking_paused(ContextDecorator):
+    """Note no change while the block or function runs: for changes that leave every object's shape as it was."""
 
     depth = 0
 

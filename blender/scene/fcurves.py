@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 import bpy
 import numpy as np
@@ -36,17 +36,25 @@ def _bag(action: bpy.types.Action, slot: bpy.types.ActionSlot):
     return strip.channelbag(slot, ensure=True).fcurves
 
 
-def existing_curves(obj: Object) -> Iterable[FCurve]:
+def existing_curves(obj: Object) -> list[FCurve]:
     """Return the F-curves of an object's action, none without one."""
+    return [] if obj.animation_data is None else [*_curves_of(obj.animation_data)]
+
+
+def all_curves(obj: Object) -> Iterator[FCurve]:
+    """Yield the F-curves of an object's action and of the strips of its NLA."""
     animation = obj.animation_data
-    if animation is None or animation.action_slot is None:
-        return ()
-    for layer in animation.action.layers:
-        for strip in layer.strips:
-            bag = strip.channelbag(animation.action_slot)
-            if bag is not None:
-                return bag.fcurves
-    return ()
+    if animation is not None:
+        for keyed in (animation, *(strip for track in animation.nla_tracks for strip in track.strips)):
+            yield from _curves_of(keyed)
+
+
+def _curves_of(keyed: bpy.types.AnimData | bpy.types.NlaStrip) -> Iterator[FCurve]:
+    """Yield the F-curves of the action and the slot that an object or a strip has."""
+    if keyed.action is not None and keyed.action_slot is not None:
+        for strip in (strip for layer in keyed.action.layers for strip in layer.strips):
+            bag = strip.channelbag(keyed.action_slot)
+            yield from () if bag is None else bag.fcurves
 
 
 def is_shared(obj: Object) -> bool:
@@ -68,12 +76,7 @@ def has_strips(obj: Object) -> bool:
 
 def is_keyed(obj: Object, path: str, count: int) -> bool:
     """Return whether all components of a property have keys, in the action or in strips of the NLA."""
-    known = {curve.array_index for curve in existing_curves(obj) if curve.data_path == path}
-    tracks = obj.animation_data.nla_tracks if obj.animation_data is not None else ()
-    for strip in (strip for track in tracks for strip in track.strips if strip.action is not None):
-        bags = (bag for layer in strip.action.layers for below in layer.strips for bag in below.channelbags)
-        known.update(curve.array_index for bag in bags for curve in bag.fcurves if curve.data_path == path)
-    return len(known) == count
+    return len({curve.array_index for curve in all_curves(obj) if curve.data_path == path}) == count
 
 
 def find(curves: Iterable[FCurve], channel: Channel) -> FCurve | None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from bpy.types import Bone, Context, Object, PoseBone
+from bpy.types import Context, Object, PoseBone
 from mathutils import Matrix, Vector
 
 from ...core.mesh.surface import join_surfaces
@@ -79,9 +79,10 @@ def create_physics_rig(context: Context, rig: Rig) -> tuple[int, int]:
         physics.mass, physics.collision_shape = part.mass.total, "CONVEX_HULL"
     joints = 0
     for name, body in bodies.items():
-        above = _parent_with_part(rig.armature.data.bones[name], bodies)
+        bone = rig.armature.pose.bones[name]
+        above = next((bodies[parent.name] for parent in bone.parent_recursive if parent.name in bodies), None)
         if above is not None:
-            _joint(context, made, rig.armature.pose.bones[name], bodies[above], body)
+            _joint(context, made, bone, above, body)
             joints += 1
     context.view_layer.update()
     return len(bodies), joints
@@ -107,11 +108,6 @@ def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -
     return obj
 
 
-def _parent_with_part(bone: Bone, bodies: dict[str, Object]) -> str | None:
-    """Return the name of the nearest ancestor of a bone that has a body, or None."""
-    return next((parent.name for parent in bone.parent_recursive if parent.name in bodies), None)
-
-
 def _joint(context: Context, made: MadeCollection, bone: PoseBone, above: Object, below: Object) -> None:
     """Add a joint at a bone's head, along its axes, with the limits of its inverse kinematics."""
     armature = bone.id_data
@@ -124,11 +120,10 @@ def _joint(context: Context, made: MadeCollection, bone: PoseBone, above: Object
     constraint = add_joint(context, joint, "GENERIC")
     constraint.object1, constraint.object2, constraint.disable_collisions = above, below, True
     for axis in "xyz":
-        setattr(constraint, "use_limit_lin_" + axis, True)
-        setattr(constraint, "limit_lin_{:s}_lower".format(axis), 0.0)
-        setattr(constraint, "limit_lin_{:s}_upper".format(axis), 0.0)
         locked, limited = getattr(bone, "lock_ik_" + axis), getattr(bone, "use_ik_limit_" + axis)
+        setattr(constraint, "use_limit_lin_" + axis, True)
         setattr(constraint, "use_limit_ang_" + axis, locked or limited)
-        low, high = (getattr(bone, "ik_{:s}_{:s}".format(end, axis)) for end in ("min", "max"))
-        setattr(constraint, "limit_ang_{:s}_lower".format(axis), 0.0 if locked else low)
-        setattr(constraint, "limit_ang_{:s}_upper".format(axis), 0.0 if locked else high)
+        for end, of_bone in (("lower", "min"), ("upper", "max")):
+            angle = 0.0 if locked else getattr(bone, "ik_{:s}_{:s}".format(of_bone, axis))
+            setattr(constraint, "limit_lin_{:s}_{:s}".format(axis, end), 0.0)
+            setattr(constraint, "limit_ang_{:s}_{:s}".format(axis, end), angle)

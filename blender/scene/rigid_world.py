@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rigid bodies and joints of a scene.
+"""Gravity, rigid bodies and joints of a scene.
 
 Blender adds joints to the view layer's active object alone.
 """
@@ -11,12 +11,21 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 import bpy
+import numpy as np
 from bpy.types import Context, Object, RigidBodyConstraint, Scene
+from numpy.typing import NDArray
 
 from ...core.verdict.finding import EditRefusedError
 from .findings import RIGID_WORLD_LINKED
 
 MIN_MASS = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min  # kg
+
+
+def down(scene: Scene) -> NDArray[np.float64]:
+    """Return the direction of gravity, (3,); -Z if the scene has none."""
+    gravity = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
+    length = np.linalg.norm(gravity)
+    return gravity / length if length > 0.0 else np.array((0.0, 0.0, -1.0))
 
 
 def require_rigid_world(scene: Scene, joints: bool = False) -> None:

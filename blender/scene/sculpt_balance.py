@@ -9,12 +9,10 @@ then cut into other triangles, the change is solved again for these. A change th
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import bmesh
-import bpy
 import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
@@ -30,6 +28,7 @@ from ...core.verdict.findings import LINKED_OBJECT
 from ...core.verdict.method import Method, Verdict
 from ..bodies.measure_object import measure_object
 from ..read.findings import SCALE_ZERO_AXIS
+from ..read.mesh import vertex_points
 from ..read.objects import read_object
 from ..read.tracking import tracking_paused
 from .findings import (
@@ -40,6 +39,7 @@ from .findings import (
     SHAPE_NOT_OF_MESH,
     SHAPE_OF_MODIFIERS,
 )
+from .rigid_world import down
 from .transforms import FLOAT32
 
 MAX_ATTEMPTS = 6  # at a change that keeps the triangles that it was solved for
@@ -57,60 +57,55 @@ class Balanced:
     end: list[float]
 
 
-def _up(scene: bpy.types.Scene) -> NDArray[np.float64]:
-    """Return the (3,) vector against gravity, or Z without gravity."""
-    up = -np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
-    return up if up.any() else np.eye(3)[2]
+class _Vertices:
+    """The vertices of a mesh that may move.
 
+    start: (n, 3) points of the mesh. movable: (k,) indices. weights: (k,), how freely each moves. leans: whether the
+    whole body leans.
+    """
 
-class _EditedMesh:
-    """The mesh of an object in Edit Mode; a BMesh gives and takes its vertices one by one only."""
+    start: NDArray[np.float32]
+    is_changed = leans = False
 
-    def __init__(self, obj: Object):
-        self.obj, self.is_changed = obj, False
-        vertices = self._vertices()
-        self.start = np.array([vertex.co[:] for vertex in vertices], np.float32).reshape(-1, 3)
-        selected = np.fromiter((vertex.select for vertex in vertices), bool, len(vertices))
-        self.movable = np.flatnonzero(selected)
-        self.weights = np.ones(len(self.movable))
-        if not len(self.movable):
-            raise EditRefusedError(BALANCE_NO_VERTICES)
-
-    def _vertices(self) -> bmesh.types.BMVertSeq:
-        return bmesh.from_edit_mesh(self.obj.data).verts
-
-    def set_points(self, points: NDArray[np.float32]) -> None:
-        """Move the movable vertices to their rows of (n, 3) points."""
-        self.is_changed = True
-        vertices = self._vertices()
-        vertices.ensure_lookup_table()
-        for index in self.movable.tolist():
-            vertices[index].co = points[index].tolist()
-        mesh = bmesh.from_edit_mesh(self.obj.data)
-        mesh.normal_update()
-        bmesh.update_edit_mesh(self.obj.data)
-
-
-class _GroupedMesh:
-    """The mesh of an object in Object Mode, with the vertices and weights of one of its vertex groups."""
-
-    def __init__(self, obj: Object, name: str):
-        group = obj.vertex_groups.get(name) if name else obj.vertex_groups.active
-        if group is None:
-            raise EditRefusedError(BALANCE_NO_VERTICES)
-        self.mesh, self.is_changed = obj.data, False
-        weights = np.zeros(len(self.mesh.vertices))
-        for vertex in self.mesh.vertices:  # Blender gives weights one by one only
-            for entry in vertex.groups:
-                if entry.group == group.index:
-                    weights[vertex.index] = entry.weight
+    def choose(self, weights: NDArray[np.float64]) -> None:
+        """Let the vertices with (n,) weights above 0 move; EditRefusedError if there are none."""
         self.movable = np.flatnonzero(weights > 0.0)
         self.weights = weights[self.movable]
         if not len(self.movable):
             raise EditRefusedError(BALANCE_NO_VERTICES)
-        self.start = np.empty(3 * len(weights), np.float32)
-        self.mesh.attributes["position"].data.foreach_get("vector", self.start)
-        self.start = self.start.reshape(-1, 3)
+
+
+class _EditedMesh(_Vertices):
+    """The selected vertices in Edit Mode; a BMesh gives and takes its vertices one by one only."""
+
+    def __init__(self, obj: Object):
+        self.mesh, vertices = obj.data, bmesh.from_edit_mesh(obj.data).verts
+        self.start = np.array([vertex.co[:] for vertex in vertices], np.float32).reshape(-1, 3)
+        self.choose(np.array([vertex.select for vertex in vertices], np.float64))
+
+    def set_points(self, points: NDArray[np.float32]) -> None:
+        """Move the movable vertices to their rows of (n, 3) points."""
+        self.is_changed = True
+        mesh = bmesh.from_edit_mesh(self.mesh)
+        mesh.verts.ensure_lookup_table()
+        for index in self.movable.tolist():
+            mesh.verts[index].co = points[index].tolist()
+        mesh.normal_update()
+        bmesh.update_edit_mesh(self.mesh)
+
+
+class _StoredMesh(_Vertices):
+    """The vertices of one of the vertex groups of an object in Object Mode; without groups, all of them, which lean."""
+
+    def __init__(self, obj: Object, name: str):
+        self.mesh, self.start, self.leans = obj.data, vertex_points(obj.data), not (name or obj.vertex_groups)
+        group = obj.vertex_groups.get(name) if name else obj.vertex_groups.active
+        weights = np.full(len(self.start), float(self.leans))
+        for vertex in () if group is None else self.mesh.vertices:  # Blender gives weights one by one only
+            for entry in vertex.groups:
+                if entry.group == group.index:
+                    weights[vertex.index] = entry.weight
+        self.choose(weights)
 
     def set_points(self, points: NDArray[np.float32]) -> None:
         """Move all vertices to (n, 3) points."""
@@ -119,47 +114,15 @@ class _GroupedMesh:
         self.mesh.vertices[0].co = self.mesh.vertices[0].co  # makes Blender update normals and bounding box
 
 
-class _WholeMesh(_GroupedMesh):
-    """The mesh of an object without vertex groups, in Object Mode; the whole mesh leans."""
-
-    def __init__(self, obj: Object):
-        self.mesh, self.is_changed = obj.data, False
-        if not self.mesh.vertices:
-            raise EditRefusedError(BALANCE_NO_VERTICES)
-        self.start = np.empty((len(self.mesh.vertices), 3), np.float32)
-        self.mesh.attributes["position"].data.foreach_get("vector", self.start.ravel())
-        self.movable = np.arange(len(self.start))
-
-
+@tracking_paused()  # a trial that is undone is not an edit
 def balance_mesh(
-    context: Context, obj: Object, group: str, target: Sequence[float], across: str, limit: float
+    context: Context, obj: Object, group: str, point: Sequence[float], align: str, longest: float
 ) -> Balanced:
     """Move vertices so that the center of mass comes over a point, or raise MeasureError and leave them in place."""
-    mesh: _EditedMesh | _GroupedMesh
-    if obj.mode == "EDIT":
-        mesh = _EditedMesh(obj)
-    else:
-        mesh = _GroupedMesh(obj, group) if group or obj.vertex_groups else _WholeMesh(obj)
-    up = _up(context.scene)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
-    directions = np.eye(3) if across == "ALL" else np.linalg.svd(up[None])[2][1:]
-    with tracking_paused():  # a trial that is undone is not an edit
-        balanced = _balance(context, obj, mesh, np.array(target, np.float64) * unit, directions, limit * unit, unit, up)
-    obj.data.update_tag()  # for other objects with the mesh it is an edit
-    return balanced
-
-
-def _balance(
-    context: Context,
-    obj: Object,
-    mesh: _EditedMesh | _GroupedMesh,
-    target: NDArray,
-    across: NDArray,
-    limit: float,
-    unit: float,
-    up: NDArray,
-) -> Balanced:
-    """Carry out the change, or undo all of it; lengths in m."""
+    mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _StoredMesh(obj, group)
+    up, unit = -down(context.scene), shortest_decimal(context.scene.unit_settings.scale_length)
+    across = np.eye(3) if align == "ALL" else np.linalg.svd(up[None])[2][1:]
+    target = np.array(point, np.float64) * unit
     _require_balanceable(obj)
     part = _read_surface(context, obj, mesh)
     before = _measure(context, obj)
@@ -167,29 +130,21 @@ def _balance(
     start = part.surface.transform(linear, offset)
     size = float(np.linalg.norm(np.ptp(start.points, axis=0)))
     tolerance = REACHED_RTOL * size + 4.0 * FLOAT32 * np.abs(start.points).max()
-    with _restored_on_error(context, mesh):
+    limit, shell, movable, weights = longest * unit or size, before.kind == "shell", mesh.movable, mesh.weights
+    try:
         surface, moves, center = start, np.zeros_like(start.points), before.mass_properties.center
         for _ in range(MAX_ATTEMPTS):
-            if isinstance(mesh, _WholeMesh):
+            if mesh.leans:
                 moves += _lean(start.points, before.mass_properties.center, across.T @ (across @ (target - center)), up)
-                most, far = limit or size, float(np.linalg.norm(moves, axis=1).max())
-                if far > most:
-                    short = float(np.linalg.norm(across @ (target - center))) * (1.0 - most / far)
-                    raise MeasureError(BALANCE_SHORT, distance=short, limit=most)
+                far = float(np.linalg.norm(moves, axis=1).max())
+                if far > limit:
+                    short = float(np.linalg.norm(across @ (target - center))) * (1.0 - limit / far)
+                    raise MeasureError(BALANCE_SHORT, distance=short, limit=limit)
             else:
-                moves = (
-                    balance(
-                        surface,
-                        mesh.movable,
-                        target,
-                        across=across,
-                        weights=mesh.weights,
-                        limit=limit or size,
-                        shell=before.kind == "shell",
-                    ).points
-                    - start.points
-                )
-            points = _mesh_coordinates(mesh, moves, linear)
+                found = balance(surface, movable, target, across=across, weights=weights, limit=limit, shell=shell)
+                moves = found.points - start.points
+            points = mesh.start.copy()  # vertices that are not movable stay to the bit
+            points[movable] = mesh.start[movable].astype(np.float64) + np.linalg.solve(linear, moves[movable].T).T
             mesh.set_points(points)
             after = _measure(context, obj)
             center = after.mass_properties.center
@@ -198,7 +153,13 @@ def _balance(
             surface = replace(_read_surface(context, obj, None).surface.transform(linear, offset), points=start.points)
         else:
             raise EditRefusedError(BALANCE_TRIANGULATION_VARIES)
-    moved = (points[mesh.movable].astype(np.float64) - mesh.start[mesh.movable]) @ linear.T
+    except BaseException:
+        if mesh.is_changed:
+            mesh.set_points(mesh.start)
+            context.view_layer.update()
+        raise
+    obj.data.update_tag()  # for other objects with the mesh it is an edit
+    moved = (points[movable].astype(np.float64) - mesh.start[movable]) @ linear.T
     number, largest = int(np.count_nonzero(moved.any(axis=1))), float(np.linalg.norm(moved, axis=1).max())
     centers = [
         np.where(np.abs(center) < ROUNDING * size, 0.0, center).tolist()
@@ -214,21 +175,9 @@ def _lean(points: NDArray, center: NDArray, shift: NDArray, up: NDArray) -> NDAr
     """
     heights = points @ up - (points @ up).min()
     rise = center @ up - (points @ up).min()
-    if min(rise, rise + shift @ up) <= REACHED_RTOL * np.linalg.norm(np.ptp(points, axis=0)) * np.linalg.norm(up):
+    if min(rise, rise + shift @ up) <= REACHED_RTOL * np.linalg.norm(np.ptp(points, axis=0)):
         raise MeasureError(BALANCE_NO_EFFECT)
     return np.multiply.outer(heights / rise, shift)
-
-
-@contextmanager
-def _restored_on_error(context: Context, mesh: _EditedMesh | _GroupedMesh) -> Iterator[None]:
-    """Put the vertices back if the block fails."""
-    try:
-        yield
-    except BaseException:
-        if mesh.is_changed:
-            mesh.set_points(mesh.start)
-            context.view_layer.update()
-        raise
 
 
 def _require_balanceable(obj: Object) -> None:
@@ -251,7 +200,7 @@ def _measure(context: Context, obj: Object) -> Measurement:
     return measurement
 
 
-def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh | None) -> Part:
+def _read_surface(context: Context, obj: Object, mesh: _Vertices | None) -> Part:
     """Return the measured surface; raise EditRefusedError if its vertices are not those of `mesh`."""
     reading = read_object(obj, context.evaluated_depsgraph_get(), edges=False)
     part = reading.parts[0]
@@ -263,11 +212,3 @@ def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMes
         shown = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
         raise (EditRefusedError(SHAPE_OF_MODIFIERS, modifiers=shown) if shown else EditRefusedError(SHAPE_NOT_OF_MESH))
     return part
-
-
-def _mesh_coordinates(mesh: _EditedMesh | _GroupedMesh, moves: NDArray, linear: NDArray) -> NDArray[np.float32]:
-    """Return the (n, 3) new coordinates of the mesh; vertices that are not movable stay to the bit."""
-    points = mesh.start.copy()
-    local = mesh.start[mesh.movable].astype(np.float64) + np.linalg.solve(linear, moves[mesh.movable].T).T
-    points[mesh.movable] = local.astype(np.float32)
-    return points

@@ -16,12 +16,13 @@ from collections.abc import Sequence
 from math import atan2, cos, pi, sin
 
 import numpy as np
-from bpy.types import Object
+from bpy.types import Object, PoseBone
 from numpy.typing import NDArray
 
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError
 from ..read.findings import SCALE_ZERO_AXIS
+from .fcurves import all_curves
 from .findings import CHANNEL_LOCKED, PARENT_SHEARS
 
 FLOAT32 = float(np.finfo(np.float32).eps)
@@ -165,29 +166,16 @@ def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], to
 
 def driven_channels(obj: Object) -> set[str]:
     """Return the data paths of the object that an action, the NLA or a driver sets."""
-    animation = obj.animation_data
-    if animation is None:
-        return set()
-    paths = {curve.data_path for curve in animation.drivers}
-    actions = [(animation.action, animation.action_slot)]
-    actions += [(strip.action, strip.action_slot) for track in animation.nla_tracks for strip in track.strips]
-    for action, slot in actions:
-        if action is None or slot is None:
-            continue
-        for layer in action.layers:
-            for strip in layer.strips:
-                bag = strip.channelbag(slot)
-                if bag is not None:
-                    paths |= {curve.data_path for curve in bag.fcurves}
-    return paths
+    drivers = obj.animation_data.drivers if obj.animation_data is not None else ()
+    return {curve.data_path for curve in (*drivers, *all_curves(obj))}
 
 
 class TransformChannels:
-    """A copy of an object's transform channels, to restore them."""
+    """A copy of the transform channels of an object or a pose bone, to restore them."""
 
     NAMES = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
 
-    def __init__(self, obj: Object) -> None:
+    def __init__(self, obj: Object | PoseBone) -> None:
         self.obj = obj
         self.values = {name: tuple(getattr(obj, name)) for name in self.NAMES}
 

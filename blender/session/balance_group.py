@@ -13,20 +13,23 @@ from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ...core.numerics.float32 import shortest_decimal
-from ...core.statics.support import Support, support_of_contacts
+from ...core.statics.support import Support, find_contacts, support_of_contacts
 from ...core.verdict import internal_error
-from ...core.verdict.finding import EditRefusedError, Finding
+from ...core.verdict.finding import EditRefusedError, MeasureError
 from ..bodies.assembly.assembly import measure_assembly
 from ..read.assembly import Member, MemberKind, members_of, settings_of
 from ..read.rig import is_skin_of
 from ..read.visibility import measurable
+from ..scene.rigid_world import down
 from ..write.properties import BALANCE_GROUP
 from ..write.reports import Refused
 from .findings import BALANCE_GROUP_EMPTY_GROUP, BALANCE_GROUP_WITHOUT_CONTACTS, NO_SUCH_NAME
 from .live.motion import Motion
-from .stored import balance_groups, stability
+from .stored import balance_groups
 
 REACH = 0.01  # contact with the ground within this distance, relative to the contact objects' extent
+
+SUMS = (MemberKind.COLLECTION, MemberKind.EMPTY)
 
 
 class BalanceGroup:
@@ -34,7 +37,6 @@ class BalanceGroup:
 
     objects: the followed objects, sorted by name. feet: objects that may touch the ground. centers: a (3,) center in
     Blender units for each frame so far. supports: a support for each frame, None if nothing touches the ground.
-    failure: the reason if following ended early.
     """
 
     def __init__(self, context: Context, collection: str, contacts: str, ground: float, reach: float):
@@ -46,7 +48,6 @@ class BalanceGroup:
             raise EditRefusedError(BALANCE_GROUP_WITHOUT_CONTACTS, collection=contacts)
         self.centers: list[NDArray] = []
         self.supports: list[Support | None] = []
-        self.failure: Finding | None = None
 
     def _members(self, collection: str) -> list[Object]:
         """Return the followed objects, sorted by name; keep the collection in `_assembly` if its mass is given."""
@@ -55,19 +56,23 @@ class BalanceGroup:
             depsgraph = context.evaluated_depsgraph_get()
             root = members_of(_collection(collection), depsgraph)
             objects: Iterable[Object] = counted(root)
-            self._assembly = root.data if has_given_mass(root) else None
+            given = [settings_of(member.data).mass_from == "MASS" for member in root.walk() if member.kind in SUMS]
+            self._assembly = root.data if any(given) else None  # it need not weigh as much as its objects
         else:
             objects = context.view_layer.objects.selected
             if context.mode == "POSE":
                 objects = [context.object]
         layer = set(context.view_layer.objects)
-        members: dict[Object, None] = {}
+        members: set[Object] = set()
         for obj in objects:
-            several = deformed_by(obj, layer) if obj.type == "ARMATURE" else [obj]
-            members.update(dict.fromkeys(one for one in several if one in layer and measurable(one)))
-        if not members:
+            members.add(obj)
+            if obj.type == "ARMATURE":
+                members |= {one for one in layer if is_skin_of(one, obj)}
+                members |= {one for one in layer if one.parent == obj and one.parent_type == "BONE"}
+        followed = [obj for obj in members & layer if measurable(obj)]
+        if not followed:
             raise EditRefusedError(BALANCE_GROUP_EMPTY_GROUP)
-        return sorted(members, key=lambda obj: obj.name_full)
+        return sorted(followed, key=lambda obj: obj.name_full)
 
     def follow(self, scene: Scene, frames: Sequence[float]) -> Generator[int, None, None]:
         """Measure frame after frame, yield the number of finished frames, and restore the scene's frame at the end."""
@@ -77,21 +82,23 @@ class BalanceGroup:
         try:
             for done, frame in enumerate(frames, 1):
                 scene.frame_set(floor(frame), subframe=frame % 1.0)
-                try:
-                    self._add_frame(motion, self._context.evaluated_depsgraph_get())
-                except Refused:
-                    raise
-                except Exception as error:
-                    self.failure = internal_error.finding_of(error)
-                    return
+                self._add_frame(motion, self._context.evaluated_depsgraph_get())
                 yield done
+        except (MeasureError, Refused):
+            raise
+        except Exception as error:
+            raise MeasureError(internal_error.finding_of(error)) from error
         finally:
             scene.frame_set(before, subframe=subframe)
 
     def _add_frame(self, motion: Motion, depsgraph: Depsgraph) -> None:
-        center = self._center(motion, depsgraph)
-        self.centers.append(center)
-        self.supports.append(self._support(motion, depsgraph, center) if self.feet else None)
+        self.centers.append(self._center(motion, depsgraph))
+        gravity, touching = down(depsgraph.scene), np.zeros((0, 3))
+        if self.feet:
+            points = np.concatenate([motion.hull_points(obj, depsgraph) for obj in self.feet])
+            reach = self._reach or REACH * float(np.ptp(points, axis=0).max())
+            _, touching, _ = find_contacts(points, np.eye(4), gravity, self._ground, reach)
+        self.supports.append(support_of_contacts(touching, self.centers[-1], gravity) if len(touching) else None)
 
     def _center(self, motion: Motion, depsgraph: Depsgraph) -> NDArray[np.float64]:
         """Return the common center at this frame, in Blender's units."""
@@ -100,14 +107,6 @@ class BalanceGroup:
             return body.center / shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         masses, centers = zip(*[motion.mass_and_center(obj, depsgraph) for obj in self.objects])
         return centers[0] + np.einsum("i,ij->j", np.array(masses) / np.sum(masses), np.array(centers) - centers[0])
-
-    def _support(self, motion: Motion, depsgraph: Depsgraph, center: NDArray) -> Support | None:
-        """Return the support of the contact objects at this frame, or None if they are all in the air."""
-        down = stability.down(depsgraph.scene)
-        points = np.concatenate([motion.hull_points(obj, depsgraph) for obj in self.feet])
-        reach = self._reach or REACH * float(np.ptp(points, axis=0).max())
-        touching = points[-points @ down <= self._ground + reach]
-        return support_of_contacts(touching, center, down) if len(touching) else None
 
     def store(
         self,
@@ -146,14 +145,3 @@ def counted(member: Member) -> Iterator[Object]:
     if member.kind != MemberKind.INSTANCE:
         for below in member.members:
             yield from counted(below)
-
-
-def has_given_mass(root: Member) -> bool:
-    """Return whether an assembly, or one inside it, has a given mass, which need not be the sum of its objects."""
-    kinds = (MemberKind.COLLECTION, MemberKind.EMPTY)
-    return any(member.kind in kinds and settings_of(member.data).mass_from == "MASS" for member in root.walk())
-
-
-def deformed_by(armature: Object, objects: Iterable[Object]) -> list[Object]:
-    """Return the objects that an armature deforms, and the objects that are parented to its bones."""
-    return [obj for obj in objects if is_skin_of(obj, armature) or obj.parent == armature and obj.parent_type == "BONE"]

@@ -21,17 +21,18 @@ from ...core.bodies.reading import float64_matrix
 from ...core.numerics.float32 import shortest_decimal
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.rig import motion
-from ...core.statics.support import support_of_contacts
 from ...core.verdict.finding import EditRefusedError
+from ..read.rig import require_armature
 from ..read.tracking import tracking_paused
 from ..scene import fcurves
 from ..scene.changes import require_editable
+from ..scene.transforms import TransformChannels
 from ..write.reports import Refused
 from .balance_group import BalanceGroup
 from .findings import NO_SUCH_NAME
 from .live import character
-from .live.character import OUTLINE, Parts
-from .stored import balance_groups, stability
+from .live.character import Parts
+from .stored import balance_groups
 
 TRIAL, FOLLOWS = 1e-2, 1e-4  # of the character's size: a trial move, and the tolerance of the parts that follow
 LAYER = "Body Moments"  # the name of the track and the strip
@@ -57,8 +58,8 @@ NO_FLIGHT = (
 class CharacterMotion(BalanceGroup):
     """A character that is followed over frames, on the ground that Show Weight shows or finds at the first of them."""
 
-    def __init__(self, context: Context, armature: Object, frames: range):
-        scene = context.scene
+    def __init__(self, context: Context, frames: range):
+        scene, armature = context.scene, require_armature(context.object)
         character.require_gravity(scene)
         self.gravity = np.array(scene.gravity, np.float64)
         before, subframe = scene.frame_current, scene.frame_subframe
@@ -71,7 +72,7 @@ class CharacterMotion(BalanceGroup):
         self.armature, self.frames = armature, frames
         self.step = scene.render.fps_base / scene.render.fps
         self.objects, self.feet = [armature], [armature]
-        self.centers, self.supports, self.failure = [], [], None
+        self.centers, self.supports = [], []
         self.carrier: Carrier | None = None
         self._parts: list[Parts] = []
 
@@ -82,14 +83,13 @@ class CharacterMotion(BalanceGroup):
             kept[:] = [kept[row] for row in rows if kept]
 
     def _add_frame(self, motion: object, depsgraph: Depsgraph) -> None:
-        parts, down = self.known.pose(self.armature, depsgraph), stability.down(depsgraph.scene)
+        parts, _contacts, support = self.known.stand(self.armature, depsgraph, self.ground)
         if self._parts and parts.names != self._parts[0].names:
             several = set(parts.names).symmetric_difference(self._parts[0].names)
             raise Refused(HELD_IN_PART, names=", ".join(sorted(several)))
-        points = self.known.contacts(self.armature, depsgraph, self.ground, down).points
         self._parts.append(parts)
         self.centers.append(parts.center)
-        self.supports.append(support_of_contacts(points, parts.center, down, OUTLINE) if len(points) else None)
+        self.supports.append(support)
         if self.carrier is not None:
             self.carrier.read(depsgraph)
 
@@ -132,8 +132,6 @@ class CharacterMotion(BalanceGroup):
             raise Refused(LAYERED_TIMES)
         frames = self.frames
         yield from self.follow(scene, frames)
-        if self.failure is not None:
-            return
         self.first, self.last = flight or self._find_flight(scene.frame_current)
         count, rows = self.last - self.first, slice(self.first - frames[0], self.last - frames[0] + 1)
         if keep_height:
@@ -290,14 +288,13 @@ class Carrier:
         if turns:
             move[:3, :3] = rotation_matrix([1.0, TRIAL, TRIAL, TRIAL])
             move[:3, 3] += before.center - move[:3, :3] @ before.center
-        stored = {name: tuple(getattr(self.owner, name)) for name in ("location", self.rotation)}
+        stored = TransformChannels(self.owner)
         with tracking_paused():
             for name, values in trial.moved([move]).items():
                 setattr(self.owner, name, values[0])
             context.view_layer.update()
             after = known.pose(self.armature, context.evaluated_depsgraph_get())
-            for name, values in stored.items():
-                setattr(self.owner, name, values)
+            stored.restore()
             context.view_layer.update()
         expected = move @ before.matrices
         units = [np.abs(expected[:, :3, :3]).max()] * 3 + [known.size]

@@ -97,7 +97,12 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
     if weighed is not None:
         return weighed
     if obj.type == "ARMATURE" and armatures.stands_for_meshes(obj):
-        total = _as_one(obj, scene, [displayed(mesh, scene) for mesh in armatures.deformed_meshes(obj)])
+        meshes = armatures.deformed_meshes(obj)
+        if "body_mass" in obj and not any(mesh in following.followed for mesh in meshes):
+            parts = [drawn_bone(bone, scene) for bone in obj.pose.bones]
+        else:
+            parts = [displayed(mesh, scene) for mesh in meshes]
+        total = _as_one(obj, scene, parts)
         if total is not None:
             return total
     current = following.followed.get(obj)

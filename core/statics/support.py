@@ -116,11 +116,23 @@ def find_support(
     """
     points, center = float_array("points", points, "n", 3), float_array("center", center, 3)
     check_filled("points", points)
-    axes = ground_axes(down)
-    local = (points - center) @ axes
-    low = float(local[:, 2].min())
-    contacts = local[local[:, 2] <= low + tolerance * float(np.ptp(points, axis=0).max())]
-    return _support(contacts[:, :2], -low, center, axes)
+    heights = (points - center) @ ground_axes(down)[:, 2]
+    reach = tolerance * float(np.ptp(points, axis=0).max())
+    return support_of_contacts(points[heights <= heights.min() + reach], center, down)
+
+
+def find_contacts(
+    points: NDArray, matrix: NDArray, down: NDArray, ground: float, reach: float, may_touch: ArrayLike = True
+) -> tuple[NDArray[np.intp], NDArray[np.float64], float]:
+    """Return the rows of the points that touch level ground, their (k, 3) places in the world, and the least height.
+
+    points: (n, 3) of a body. matrix: (4, 4) from these to the world. ground: its height against gravity from the
+    world's origin. reach: points up to this height above it touch it. may_touch: (n,) mask of points that count.
+    """
+    heights = points @ (-down @ matrix[:3, :3]).astype(points.dtype) - (down @ matrix[:3, 3] + ground)
+    heights = np.where(may_touch, heights, np.inf)
+    rows = np.flatnonzero(heights <= reach)
+    return rows, points[rows] @ matrix[:3, :3].T + matrix[:3, 3], float(heights.min(initial=np.inf))
 
 
 def support_of_contacts(
@@ -134,12 +146,7 @@ def support_of_contacts(
     center = np.asarray(center, np.float64)
     axes = ground_axes(down)
     local = (np.asarray(contacts, np.float64) - center) @ axes
-    return _support(local[:, :2], -float(local[:, 2].min()), center, axes, tolerance)
-
-
-def _support(contacts: NDArray, height: float, center: NDArray, axes: NDArray, tolerance: float = 0.0) -> Support:
-    """Return the support of (n, 2) contacts on the ground, in coordinates from the foot."""
-    corners = contacts[convex_polygon(contacts, tolerance)]
+    height, corners = -float(local[:, 2].min()), local[convex_polygon(local[:, :2], tolerance), :2]
     margin, direction = polygon_margin(corners)
     polygon = np.concatenate([corners, np.full((len(corners), 1), -height)], axis=1) @ axes.T + center
     return Support(polygon, center - height * axes[:, 2], height, margin, axes[:, :2] @ direction, axes[:, 2])

@@ -110,6 +110,8 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Store the results of all objects at the end, so that a canceled run leaves none behind."""
         failed = session.store_measured(context, self._results)
+        for armature in filter(armatures.stands_for_meshes, context.selected_objects):
+            live.character.store_rest(context, armature)
         refusals = {**self._refusals, **failed}
         self._failures = [reports.failure(obj.name_full, refusals[obj]) for obj in self._objects if obj in refusals]
         count = len(self._results) - len(failed)

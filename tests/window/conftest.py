@@ -20,6 +20,17 @@ cube = bpy.data.objects["Cube"]
 cube.location = (1.0, 2.0, 3.0)
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
+# The armature `rig` of a human figure, active and selected, and its mesh `body`, alone in the scene.
+FIGURE = f"""
+import sys
+sys.path.insert(0, {str(ROOT)!r})
+from tests.blender.figure import figure
+for obj in list(bpy.data.objects):
+    bpy.data.objects.remove(obj)
+rig, body = figure()
+rig.data.display_type = "STICK"
+view = area.spaces.active.region_3d
+"""
 # A person opens them with a click on their headers; here they are registered anew, as panels that start open.
 OPEN = """
 import bpy

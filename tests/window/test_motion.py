@@ -3,20 +3,12 @@
 """A floaty jump in the real window: its momentum from nothing is listed, and Put on Parabola takes it away."""
 
 import os
-from pathlib import Path
 
 import pytest
 
-from tests.window.conftest import open_window
+from tests.window.conftest import FIGURE, open_window
 
-ROOT = Path(__file__).resolve().parents[2]
-BUILD = """
-import sys
-sys.path.insert(0, {!r})
-from tests.blender.figure import figure
-for obj in list(bpy.data.objects):
-    bpy.data.objects.remove(obj)
-rig, body = figure()
+JUMP = """
 root, hips, scene = rig.pose.bones["root"], rig.pose.bones["hips"], bpy.context.scene
 scene.frame_start, scene.frame_end = 1, 32
 for frame, place in ((1, (0, 0, 0)), (8, (0, 0, 0)), (16, (0, -0.9, 0.9)), (24, (0, -1.8, 0)), (32, (0, -1.8, 0))):
@@ -30,8 +22,6 @@ for frame, low, swing in zip((1, 5, 8, 16, 24, 27, 32), lows, swings):
         rig.pose.bones[name].rotation_euler.x = swing
         rig.pose.bones[name].keyframe_insert("rotation_euler", frame=frame)
 scene.frame_set(1)
-rig.data.display_type = "STICK"
-view = area.spaces.active.region_3d
 view.view_rotation = (0.50, 0.46, 0.50, 0.53)
 view.view_location, view.view_distance = (0.0, -0.6, 1.0), 5.0
 """
@@ -41,7 +31,7 @@ EMPTY = "next(obj for obj in bpy.data.objects if 'body_balance_group' in obj)"
 
 @pytest.fixture(scope="module")
 def jump(window):
-    window.ask(BUILD.format(str(ROOT)))
+    window.ask(FIGURE + JUMP)
     window.open_tab("Moments")
     window.point_at_view()
     window.key("ctrl+Tab")
@@ -88,7 +78,7 @@ def test_jump_is_filmed_floaty_and_falling(run_blender, cube_file, tmp_path):
     """Ten seconds for docs/weight.md, left among the artefacts as jump.webp."""
     image = pytest.importorskip("PIL.Image")
     with open_window(run_blender, cube_file, tmp_path) as window:
-        window.ask(BUILD.format(str(ROOT)))
+        window.ask(FIGURE + JUMP)
         window.ask("view = area.spaces.active.region_3d\nview.view_location.y, view.view_distance = -0.65, 4.6")
         window.ask("bpy.context.preferences.system.viewport_aa = '8'")
         window.open_tab("Moments")

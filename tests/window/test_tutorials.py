@@ -4,7 +4,7 @@
 
 import pytest
 
-from tests.window.conftest import ROOT, open_window
+from tests.window.conftest import FIGURE, ROOT, open_window
 
 # Show one sub-panel open and the others closed: Blender keeps that by name, so they get new names.
 ONLY = """
@@ -86,16 +86,6 @@ for shard in [obj for obj in bpy.data.objects if obj.name.startswith("Shard")]:
     shard.location.z += 0.4
 for frame in range(1, 32):
     bpy.context.scene.frame_set(frame)
-"""
-FIGURE = """
-import sys
-sys.path.insert(0, {!r})
-from tests.blender.figure import figure
-rig, body = figure()
-body.body_moments.density = 985.0
-rig.data.display_type = "STICK"
-bpy.context.view_layer.objects.active = rig
-rig.select_set(True)
 """
 PARTS = """
 from mathutils import Euler
@@ -208,7 +198,7 @@ def test_shards_of_a_wall_become_rigid_bodies_and_fall(window):
 
 
 def test_bones_of_a_figure_are_weighed(window):
-    begin(window, FIGURE.format(str(ROOT)), "Bones", closer=1.1)
+    begin(window, FIGURE, "Bones", closer=1.1)
     window.press("object.body_moments_measure_bones")
     window.wait("'body_mass' in bpy.context.object")
     take_picture(window, "rig-bones")

@@ -2,22 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A human figure in the real window: from its pose to a balanced one with a key and two clicks."""
 
-from pathlib import Path
-
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-BUILD = """
-import sys
-sys.path.insert(0, {!r})
-from tests.blender.figure import figure
-for obj in list(bpy.data.objects):
-    bpy.data.objects.remove(obj)
-rig, body = figure()
+from tests.window.conftest import FIGURE
+
+POSE = """
 rig.pose.bones["spine"].rotation_euler = 0.55, 0.0, 0.15
 rig.pose.bones["arm.L"].rotation_euler = 0.0, 0.0, 0.9
-rig.data.display_type = "STICK"
-view = area.spaces.active.region_3d
 view.view_rotation = (0.80, 0.46, 0.17, 0.33)
 view.view_location, view.view_distance = (0.35, 0.0, 0.75), 3.0
 """
@@ -26,7 +17,7 @@ RIG = "bpy.data.objects['Figure']"
 
 @pytest.fixture(scope="module")
 def figure(window):
-    window.ask(BUILD.format(str(ROOT)))
+    window.ask(FIGURE + POSE)
     window.open_tab("Moments")
     return window
 

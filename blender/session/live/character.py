@@ -19,13 +19,14 @@ from numpy.typing import NDArray
 from ....core.bodies.reading import float64_matrix
 from ....core.inertia.plain_body import COLUMNS, ROWS, PlainBody, principal_axes, tensor_rows
 from ....core.numerics.float32 import shortest_decimal
-from ....core.statics.support import Support, support_of_contacts
+from ....core.statics.support import Support, find_contacts, support_of_contacts
 from ....core.verdict.finding import EditRefusedError, MeasureError, ReadError
 from ...bodies.findings import RIG_WITHOUT_PARTS, UNWEIGHTED_VERTICES
 from ...bodies.rig import Rig, measure_rig
 from ...read.bones import RestBones
 from ...read.mesh import vertex_points
 from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
+from ...scene.rigid_world import down
 from ...write import properties
 from ...write.reports import Refused
 from .. import stored
@@ -184,27 +185,32 @@ class Character:
             spread = moments.about_center().second() / unit**2
         return Parts((obj.name,), mass, center[None], spread[None], matrix[None])
 
-    def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float, down: NDArray) -> Contacts:
-        """Return the lowest points as evaluated; ground: its height against gravity from the world's origin."""
+    def stand(self, armature: Object, depsgraph: Depsgraph, ground: float) -> tuple[Parts, Contacts, Support | None]:
+        """Return the parts as evaluated, their contacts with the ground, and the support, None if nothing touches."""
+        parts, contacts = self.pose(armature, depsgraph), self.contacts(armature, depsgraph, ground)
+        if not len(contacts.points):
+            return parts, contacts, None
+        return parts, contacts, support_of_contacts(contacts.points, parts.center, down(depsgraph.scene), OUTLINE)
+
+    def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float) -> Contacts:
+        """Return the points that touch the ground, at this height against gravity from the world's origin."""
         names = [bone.name for bone in armature.pose.bones]
         named = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
         may_touch = np.array([not named or name in named for name in names] + [not named])  # last: no weight
+        gravity = down(depsgraph.scene)
         reach, lowest, places, bones = REACH * self.size, np.inf, [np.zeros((0, 3))], [np.zeros(0, np.intp)]
         for obj, bone in contact_objects(armature, depsgraph):
             evaluated = obj.evaluated_get(depsgraph)
             points, matrix = vertex_points(evaluated.data), float64_matrix(evaluated.matrix_world)
-            heights = points @ (-down @ matrix[:3, :3]).astype(np.float32) - (down @ matrix[:3, 3] + ground)
-            if named:
-                heights = np.where(may_touch[self._bones_of(obj, bone, names, depsgraph)], heights, np.inf)
-            lowest = min(lowest, float(heights.min(initial=np.inf)))
-            near = np.flatnonzero(heights <= reach)
-            if len(near):
-                places.append(points[near] @ matrix[:3, :3].T + matrix[:3, 3])
-                bones.append(self._bones_of(obj, bone, names, depsgraph, near))
-        touching = np.concatenate(bones)
-        carrying = sorted(names[bone] for bone in np.unique(touching).tolist() if bone != NO_BONE)
-        height, lifted = (lowest if np.isfinite(lowest) else None), sorted(named.difference(carrying))
-        return Contacts(np.concatenate(places), touching, tuple(carrying), tuple(lifted), height)
+            counts = may_touch[self._bones_of(obj, bone, names, depsgraph)] if named else True
+            near, touching, height = find_contacts(points, matrix, gravity, ground, reach, counts)
+            lowest = min(lowest, height)
+            places.append(touching)
+            bones.append(self._bones_of(obj, bone, names, depsgraph, near))
+        carriers = np.concatenate(bones)
+        carrying = sorted(names[bone] for bone in np.unique(carriers).tolist() if bone != NO_BONE)
+        least, lifted = (lowest if np.isfinite(lowest) else None), sorted(named.difference(carrying))
+        return Contacts(np.concatenate(places), carriers, tuple(carrying), tuple(lifted), least)
 
     def _bones_of(
         self, obj: Object, bone: str | None, names: Sequence[str], depsgraph: Depsgraph, rows: NDArray | None = None
@@ -258,12 +264,9 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
         known = character(armature, unit)
         if known is None or any(name not in armature.pose.bones for name in known.names):  # removed in Edit Mode
             return None
-        down, ground = stored.stability.down(depsgraph.scene), armature.body_moments_weight.ground
-        parts = known.pose(armature, depsgraph)
-        contacts = known.contacts(armature, depsgraph, ground, down)
-        points = contacts.points
-        support = support_of_contacts(points, parts.center, down, OUTLINE) if len(points) else None
-        foot = parts.center - (parts.center @ down + ground) * down if support is None else support.foot
+        gravity, ground = down(depsgraph.scene), armature.body_moments_weight.ground
+        parts, contacts, support = known.stand(armature, depsgraph, ground)
+        foot = parts.center - (parts.center @ gravity + ground) * gravity if support is None else support.foot
         inertia = tuple((parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
         moments, axes, _ = principal_axes(inertia)
         rest = properties.stored(armature) or PlainBody(0.0, 0.0, 0.0, 0.0, (), (), (), (), {})
@@ -285,12 +288,25 @@ def find(context: Context, armature: Object) -> tuple[Character, float, Rig | No
     settings, unit = armature.body_moments_weight, shortest_decimal(context.scene.unit_settings.scale_length)
     if not settings.show:
         require_gravity(context.scene)
-    is_known = weight(armature, context.evaluated_depsgraph_get()) is not None
-    rig = None if is_known and stale_reason(armature, context.scene) is None else measure(context, armature)
+    rig = _measure_outdated(context, armature)
     known = character(armature, unit) if rig is None else Character.from_rig(rig, unit)
     if known is None:
         raise ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
     return known, settings.ground if settings.show else _find_ground(context, armature, known), rig
+
+
+def _measure_outdated(context: Context, armature: Object) -> Rig | None:
+    """Measure the bones unless their results are up to date."""
+    is_known = weight(armature, context.evaluated_depsgraph_get()) is not None
+    return None if is_known and stale_reason(armature, context.scene) is None else measure(context, armature)
+
+
+def store_rest(context: Context, armature: Object) -> None:
+    """Measure the bones if necessary and possible, and store them: a posed character has its mass at rest."""
+    with suppress(MeasureError):
+        rig = _measure_outdated(context, armature)
+        if rig is not None:
+            stored.results.store_rig(rig)
 
 
 def keep(armature: Object, known: Character, ground: float, rig: Rig | None) -> None:
@@ -317,10 +333,9 @@ def _find_ground(context: Context, armature: Object, known: Character) -> float:
 
     The higher of the first two that is not above the posed character counts, else the posed lowest point.
     """
-    down = stored.stability.down(context.scene)
     with rest_pose(context, armature) as depsgraph:
-        rest = known.contacts(armature, depsgraph, 0.0, down).height
-    posed = known.contacts(armature, context.evaluated_depsgraph_get(), 0.0, down).height
+        rest = known.contacts(armature, depsgraph, 0.0).height
+    posed = known.contacts(armature, context.evaluated_depsgraph_get(), 0.0).height
     if rest is None or posed is None:
         return armature.body_moments_weight.ground
     return max((height for height in (0.0, rest) if height <= posed + REACH * known.size), default=posed)

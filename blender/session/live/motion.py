@@ -15,7 +15,7 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
-from ....core.bodies.reading import float64_matrix
+from ....core.bodies.reading import float64_matrix, to_si
 from ....core.mesh.hulls import ConvexHull
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Measure, Moments
@@ -83,7 +83,7 @@ class Motion:
         if followed.moments is None or followed.change != change or not _can_map(followed.moments, matrix):
             followed.change = change
             return _measured(obj, followed, depsgraph, matrix, unit)
-        moments = followed.moments.transform(_in_si(matrix, unit))
+        moments = followed.moments.transform(to_si(matrix[None], unit)[0])
         return moments if followed.given_mass is None else moments * (followed.given_mass / moments.total)
 
     def _entry(self, obj: Object) -> _Followed:
@@ -163,7 +163,8 @@ def _measured(obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: ND
     moments, factor = measurement.mass_moments
     followed.given_mass = object_settings(obj, depsgraph.scene).mass
     mass = moments.truncate(2) * factor
-    followed.moments = mass.transform(np.linalg.inv(_in_si(matrix, unit))) if _can_map(moments, matrix) else None
+    to_world = to_si(matrix[None], unit)[0]
+    followed.moments = mass.transform(np.linalg.inv(to_world)) if _can_map(moments, matrix) else None
     return mass
 
 
@@ -172,9 +173,3 @@ def _can_map(moments: Moments, matrix: NDArray) -> bool:
     if are_singular(matrix[None, :3, :3])[0]:
         return False
     return moments.measure in (Measure.VOLUME, Measure.MASS) or bool(are_similarities(matrix[None, :3, :3])[0])
-
-
-def _in_si(matrix: NDArray, unit: float) -> NDArray[np.float64]:
-    scaled = matrix.copy()
-    scaled[:3] *= unit
-    return scaled

@@ -26,6 +26,7 @@ from ...bodies.measure_object import measure_body
 from ...bodies.mesh import MAX_CORNERS, object_hull
 from ...scene import reframe
 from ...scene.findings import OPEN_OBJECT
+from ...scene.rigid_world import down
 from ...scene.transforms import world
 from ...write import properties, reports
 from ..displayed import drawn
@@ -53,13 +54,6 @@ class _Remembered:
 
 
 _remembered: SessionCache[_Remembered] = SessionCache()
-
-
-def down(scene: Scene) -> NDArray[np.float64]:
-    """Return the direction of gravity, (3,); -Z if the scene has none."""
-    gravity = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
-    length = np.linalg.norm(gravity)
-    return gravity / length if length > 0.0 else np.array((0.0, 0.0, -1.0))
 
 
 def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:

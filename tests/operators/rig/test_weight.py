@@ -78,6 +78,19 @@ def test_balance_measures_by_itself_and_is_one_undo_step(scene):
     assert "UNDO" in bpy.types.POSE_OT_body_moments_balance_pose.bl_options
 
 
+def test_measured_poses_have_the_mass_at_rest(scene):
+    from body_moments.blender.session.displayed import displayed
+
+    rig, body = posed(held=False, show=False)
+    masses = []
+    for angle in (1.2, 0.0):
+        rig.pose.bones["thigh.L"].rotation_euler = -angle, 0, 0
+        assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+        masses.append((displayed(rig, scene).world.mass, body["body_mass"]))
+    assert masses[0][0] == masses[1][0] == pytest.approx(sum(bone.get("body_mass", 0.0) for bone in rig.pose.bones))
+    assert masses[0][1] < 0.995 * masses[1][1] < masses[0][0]
+
+
 def test_balance_keys_the_bone_with_auto_keying(scene):
     rig, _body = posed()
     scene.tool_settings.use_keyframe_insert_auto = True
