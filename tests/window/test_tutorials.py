@@ -177,7 +177,6 @@ def begin(window, source: str, *panels: str, closer: float = 1.3) -> None:
 def take_picture(window, name: str) -> None:
     window.point_at_view()
     window.redraw()
-    window.redraw()
     window.picture(name)
 
 
@@ -241,7 +240,6 @@ def test_menu_names_the_formats_of_robots(window):
     x, y, width, height = window.region("WINDOW")
     window.move(x + 0.1 * width, y + 0.8 * height)
     window.ask("bpy.ops.wm.call_menu(name='TOPBAR_MT_body_moments_export')")
-    window.redraw()
     window.picture("page-robots")
     window.key("Escape")
 
