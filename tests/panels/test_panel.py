@@ -127,6 +127,22 @@ def test_total_counts_measured_objects_and_names_others():
     assert "Out of date: “1”" in " ".join(labels(shown()))
 
 
+def test_objects_without_a_shape_are_passed_over():
+    from body_moments.blender.session.stored import outcome
+
+    obj, light = add(mesh_body()), bpy.data.lights.new("Light", "POINT")
+    others = [bpy.data.objects.new("Empty", None), bpy.data.objects.new("Light", light)]
+    for other in others:
+        bpy.context.scene.collection.objects.link(other)
+    only(*others, obj)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"} and outcome.last() is None
+    assert {"1 Object", "Exact"} <= {*labels(shown())}
+    only(*others)
+    bpy.ops.object.body_moments_measure()
+    codes = {group.finding.code for group in outcome.last().groups}
+    assert codes == {"empty_without_instances", "object_without_geometry"}
+
+
 def test_damaged_results_are_not_shown():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()

@@ -264,7 +264,8 @@ class Window:
     # eyes
 
     def picture(self, name: str, form: str = "webp") -> Path:
-        """A picture of the screen, kept in the folder of artefacts; a .png has every pixel as it is."""
+        """A picture of the screen, drawn anew, kept in the folder of artefacts; a .png has every pixel as it is."""
+        self.redraw()
         path = self.artefacts / f"{name}.{form}"
         subprocess.run(["scrot", "-o", "-q", "85", str(path)], env=self.environment, check=True, timeout=240)
         return path

@@ -151,7 +151,6 @@ def test_a_refusal_is_read_in_the_panel_and_dismissed(window):
     window.wait(f"{refused} is not None")
     assert "“Cast”" in window.get(f"str({refused}.groups[0].finding)")
     assert window.get(f"list({PART}.location)") == place
-    window.redraw()
     window.picture("operators-refusal")
     window.press("wm.body_moments_dismiss")
     window.wait(f"{refused} is None")

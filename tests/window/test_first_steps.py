@@ -36,7 +36,6 @@ def window(run_blender, cube_file, tmp_path_factory):
 def take_picture(window, name: str) -> None:
     x, y, width, height = window.region("WINDOW")
     window.move(x + 0.6 * width, y + 0.1 * height)  # beside Blender's panel Add Cube
-    window.redraw()
     window.picture(name)
 
 

@@ -34,7 +34,6 @@ def start(window, folder):
     window.choose("VIEW3D_MT_body_moments_advanced", "object.body_moments_measure_library")
     window.wait("area.type == 'FILE_BROWSER' and area.spaces.active.params is not None")
     window.ask(f"area.spaces.active.params.directory = {str(folder).encode()!r}")
-    window.redraw()
     window.picture("library browser")
     window.move(500, 400)
     window.key("Return")
@@ -47,7 +46,6 @@ def test_esc_keeps_measured_library_files_for_resuming(window, tmp_path):
     journal = tmp_path / "body_moments.jsonl.journal"
     assert commands.wait_until(lambda: journal.exists() and journal.read_bytes().count(b"\n") == SCANS, 240.0)
     assert window.get(RUNNING)
-    window.redraw()
     window.picture("library running")
     window.point_at_view()
     window.key("Escape")
@@ -62,7 +60,6 @@ def test_library_left_alone_leaves_results_and_a_report(window, tmp_path):
     window.wait("not " + RUNNING)
     lines = (tmp_path / "body_moments.jsonl").read_text(encoding="utf-8").splitlines()
     assert [json.loads(line)["objects"][0]["mass"] for line in lines] == [60.0 * (1 + one) for one in range(SCANS)]
-    window.redraw()
     window.picture("library done")
 
 
@@ -108,7 +105,6 @@ def test_esc_during_measure_leaves_nothing(parts):
     window.ask("bpy.ops.object.body_moments_measure('INVOKE_DEFAULT', True)")
     window.wait("not " + RUNNING, limit=200.0)
     assert window.get(MEASURED) == PART_COUNT
-    window.redraw()
     window.picture("many-measured")
     mass = window.get(MASS)
     window.ask("for obj in bpy.context.selected_objects:\n    obj.body_moments.density = 2000.0", limit=200.0)
@@ -154,7 +150,6 @@ def test_transform_writes_a_file_and_shows_slices(window, tmp_path):
     assert window.get(IMAGES) == [[3 * 16 + 4, 16]]
     shown = "[a for a in window.screen.areas if a.type == 'IMAGE_EDITOR'][0].spaces.active.image.name"
     assert window.get(shown) == "Fourier Transform of Ring"
-    window.redraw()
     window.picture("fourier")
     with np.load(path) as found:
         assert found["q"].shape == (16**3, 3) and found["F"].shape == (16**3,)

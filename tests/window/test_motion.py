@@ -44,7 +44,6 @@ def test_floaty_jump_is_listed_and_a_click_goes_there(jump):
     window = jump
     window.press("pose.body_moments_bake_curves")
     window.wait("any('body_balance_group' in obj for obj in bpy.data.objects)")
-    window.redraw()
     window.picture("motion")
     assert window.get(f"len({EMPTY}['body_balance_spans'])") == 4
     window.press("wm.context_set_int")
@@ -58,7 +57,6 @@ def test_parabola_explains_the_momentum(jump):
     window.wait(f"len({CURVES}[2].keyframe_points) > 10")
     window.press("pose.body_moments_bake_curves")
     window.wait(f"'body_balance_spans' not in {EMPTY}")
-    window.redraw()
     window.picture("motion-parabola")
     assert "Traceback" not in window.output()
 
@@ -100,7 +98,6 @@ def test_jump_is_filmed_floaty_and_falling(run_blender, cube_file, tmp_path):
             window.point_at_view()
             for frame in range(1, 33):
                 window.ask(f"bpy.context.scene.frame_set({frame})")
-                window.redraw()
                 files.append(window.picture(f"film-{part}-{frame:02d}", "png"))
     several = [image.open(file).convert("RGB").crop((60, 130, 820, 690)).resize((570, 420)) for file in files]
     film, milliseconds = files[0].with_name("jump.webp"), [*[150] * 31, 350] * 2

@@ -18,7 +18,6 @@ FROM_SRGB = 0.06  # Rounding and the display change colors by as much.
 def center_color(window, name="overlay"):
     """(3,) the color on the screen where the cube's center is."""
     window.point_at_view()
-    window.redraw()
     window.get("True")
     path = window.picture(name, "png")
     return window.ask(
@@ -36,7 +35,6 @@ def center_color(window, name="overlay"):
 def white_pixels_of_disc(window, name):
     """Count the white pixels around the cube's center."""
     window.point_at_view()
-    window.redraw()
     window.get("True")
     screen = window.pixels(name)
     x, y = window.ask(

@@ -54,7 +54,6 @@ def test_moving_the_object_keeps_its_numbers_up_to_date(window):
     window.point_at_view()
     window.type("g", "x", "1", "Return")
     window.wait(f"{PLACE} == [2.0, 2.0, 3.0]")
-    window.redraw()
     window.picture("4-moved")
     assert window.ask(f"import sys\nresult = {STALE}") is None
 

@@ -47,7 +47,6 @@ def test_the_bracket_is_measured_in_aluminium(window):
     assert window.get(f"{BRACKET}['body_volume']") == pytest.approx(demo.volume_by_hand(), rel=1e-6)
     assert window.get(f"{BRACKET}['body_density']") == 2700.0
     window.point_at_view()
-    window.redraw()
     window.picture("measured")
 
 
@@ -55,7 +54,6 @@ def test_an_empty_shows_the_principal_frame(window):
     window.choose("VIEW3D_MT_body_moments_shape", "object.body_moments_add_empty")
     window.wait("any(obj.type == 'EMPTY' for obj in bpy.data.objects)")
     window.point_at_view()
-    window.redraw()
     window.picture("principal-frame")
     assert window.get(f"{BRACKET}['body_method']") == "exact"
 
@@ -70,7 +68,6 @@ def test_a_nurbs_sphere_is_the_ball_that_it_is(window):
     sphere = "bpy.context.object"
     window.wait(f"'body_volume' in {sphere}")
     window.point_at_view()
-    window.redraw()
     window.picture("nurbs")
     assert window.get(f"{sphere}['body_method']") == "NURBS exact"
     assert window.get(f"{sphere}['body_volume']") == pytest.approx(4.0 * math.pi / 3.0 * (1.0 - 1.95e-7), rel=1e-8)
@@ -88,7 +85,6 @@ def test_a_scan_is_imported_and_measured(window, tmp_path):
     window.press("object.body_moments_measure")
     window.wait("'body_mass' in bpy.context.object")
     window.point_at_view()
-    window.redraw()
     window.picture("volume")
     assert window.get("bpy.context.object['body_mass']") == pytest.approx(16 * 12 * 8 * 900.0, rel=1e-12)
 

@@ -77,12 +77,10 @@ def test_bones_are_measured_and_drawn_in_their_pose(rig):
     window.wait(f"'body_mass' in {BONES}['bone 0']")
     masses = window.get(f"[bone['body_mass'] for bone in {BONES}]")
     assert [round(mass, 6) for mass in masses] == [1000.0, 1000.0, 1000.0, 1125.0]
-    window.redraw()
     window.picture("rig-bones")
     window.ask("bpy.context.scene.body_moments.overlay.show = True")
     window.ask("bpy.ops.object.mode_set(mode='POSE')\nbpy.ops.pose.select_all(action='SELECT')")
     window.ask("with bpy.context.temp_override(area=area, region=regions['WINDOW']):\n    bpy.ops.view3d.view_all()")
-    window.redraw()
     window.picture("rig-overlay")
     assert "Traceback" not in window.output()
 
@@ -93,7 +91,6 @@ def test_the_bone_has_its_numbers_in_its_properties(rig):
         "bpy.data.objects['Rig'].data.bones.active = bpy.data.objects['Rig'].data.bones['bone 3']\n"
         + first_in_properties("BONE")
     )
-    window.redraw()
     window.picture("rig-bone-properties")
     assert "Traceback" not in window.output()
 
@@ -108,6 +105,5 @@ def test_the_assembly_is_a_tree(rig):
     assert 4000.0 < window.get("bpy.data.collections['Character']['body_mass']") < 4125.0  # bent, so a little less
     window.ask("bpy.context.view_layer.objects.active = bpy.data.objects['Skin']\n" + first_in_properties("COLLECTION"))
     assert len(window.get("[row.name for row in bpy.data.collections['Character'].body_moments.rows]")) == 3
-    window.redraw()
     window.picture("rig-assembly")
     assert "Traceback" not in window.output()

@@ -148,7 +148,6 @@ def test_columns_sort_and_warnings_come_first_on_request(three):
     click_filter(window, "warnings first", button)
     assert lines(window, button) == "CAB"
     window.ask("bpy.ops.object.select_all(action='SELECT')")
-    window.redraw()
     window.picture("list-warnings-first")
     results = "bl_ext.user_default.body_moments.blender.session.displayed"
     total = f"__import__('sys').modules['{results}'].total(bpy.context)"

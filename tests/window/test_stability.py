@@ -34,7 +34,6 @@ def test_button_computes_stability_of_a_leaning_box(window):
     stands, margin, height = window.ask(SUPPORT)
     assert not stands and margin < 0.0 and height > 2.0
     window.point_at_view()
-    window.redraw()
     window.picture("stability-tips")
 
 
@@ -45,7 +44,6 @@ def test_button_lays_body_on_the_ground_and_undo_restores_it(window):
     stands, margin, height = window.ask(SUPPORT)
     assert stands and margin == pytest.approx(1.0, rel=1e-6) and height == pytest.approx(1.0, rel=1e-6)
     window.point_at_view()
-    window.redraw()
     window.picture("stability-rests")
     window.key("ctrl+z")
     window.wait(f"{CUBE}.location.z > 1.5")
@@ -68,7 +66,6 @@ def test_a_balance_group_is_followed_after_its_dialog(window):
     path = window.get("[tuple(round(c, 5) for c in point) for point in [bpy.data.objects['Balance'].location]]")
     assert path[0][0] == pytest.approx(0.4, rel=1e-5)
     window.point_at_view()
-    window.redraw()
     window.picture("balance-path")
     window.key("ctrl+z")
     window.wait(f"not {EMPTIES}")
@@ -91,7 +88,6 @@ def test_its_redo_panel_changes_the_steps_of_the_path(window):
     window.redraw()
     window.click(500 + STEP_ARROW[0], 500 - STEP_ARROW[1])
     window.wait(f"{EMPTIES} and {KEYS} == 15")
-    window.redraw()
     window.picture("balance-redo")
     window.key("Escape")
     assert "Traceback" not in window.output()

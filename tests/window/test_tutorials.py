@@ -120,6 +120,13 @@ LETTER = """
 bpy.ops.object.text_add()
 bpy.context.object.data.body = "E"
 """
+WHEEL = """
+bpy.ops.mesh.primitive_torus_add()
+bpy.context.object.name = "Wheel"
+next(area for area in window.screen.areas if area.type == "PROPERTIES").type = "IMAGE_EDITOR"
+path = __import__("tempfile").mkdtemp() + "/wheel.npz"
+bpy.ops.object.body_moments_fourier("EXEC_DEFAULT", filepath=path, count=64)
+"""
 # picture: the scene, the panels that are open, and the operator of the button that is pressed
 PAGES = {
     "assembly": (PARTS, ("Assembly",), "object.body_moments_measure_assembly"),
@@ -138,6 +145,7 @@ PAGES = {
     "arm": ("\n".join(KEPT) + SELECT_ARM, (), "object.body_moments_measure"),
     "section": (LETTER, ("Section",), "object.body_moments_measure_section"),
     "moments": ("bpy.ops.mesh.primitive_cone_add()\n", ("Advanced", "Moments"), "object.body_moments_compute_moments"),
+    "fourier": (WHEEL, ("Advanced",), "object.body_moments_measure"),
 }
 
 
@@ -158,7 +166,6 @@ def begin(window, source: str, *panels: str, closer: float = 1.3) -> None:
 
 def take_picture(window, name: str) -> None:
     window.point_at_view()
-    window.redraw()
     window.redraw()
     window.picture(name)
 
@@ -216,6 +223,15 @@ def test_copies_are_found_and_laid_onto_the_part(window):
     window.press("object.body_moments_match_pose")
     take_picture(window, "library-matched")
     assert window.get("(bpy.data.objects['Suzanne'].location - bpy.context.object.location).length") < 1e-5
+
+
+def test_menu_names_the_formats_of_robots(window):
+    begin(window, PAGES["arm"][0])
+    x, y, width, height = window.region("WINDOW")
+    window.move(x + 0.1 * width, y + 0.8 * height)
+    window.ask("bpy.ops.wm.call_menu(name='TOPBAR_MT_body_moments_export')")
+    window.picture("page-robots")
+    window.key("Escape")
 
 
 @pytest.mark.parametrize("name", PAGES)

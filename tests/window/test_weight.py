@@ -29,12 +29,10 @@ def test_figure_is_balanced_with_one_key_and_two_clicks(figure):
     window.wait("bpy.context.mode == 'POSE'")
     window.press("pose.body_moments_show_weight")
     window.wait(f"{RIG}.body_moments_weight.show")
-    window.redraw()
     window.picture("weight-shown")
     assert window.get(f"tuple({RIG}.pose.bones['hips'].location)") == [0.0, 0.0, 0.0]
     window.press("pose.body_moments_balance_pose")
     window.wait(f"any({RIG}.pose.bones['hips'].location)")
-    window.redraw()
     window.picture("weight")
     assert "Traceback" not in window.output()
 
@@ -45,7 +43,6 @@ def test_one_undo_takes_the_balance_back(figure):
     window.key("ctrl+z")
     window.wait(f"not any({RIG}.pose.bones['hips'].location)")
     assert window.get(f"{RIG}.body_moments_weight.show")
-    window.redraw()
     window.picture("weight-undone")
 
 
@@ -56,7 +53,6 @@ def test_weight_follows_a_bone_that_is_dragged(figure):
     window.key("r")
     x, y, width, height = window.region("WINDOW")
     window.move(x + width * 0.6, y + height * 0.6)
-    window.redraw()
     window.picture("weight-dragged")
     window.key("Escape")
     window.wait(f"abs({RIG}.pose.bones['spine'].rotation_euler.x - 0.55) < 1e-6")
