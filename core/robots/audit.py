@@ -196,13 +196,11 @@ class Auditor:
         shape = stated.shape
         if shape.kind != "mesh":
             return _primitive(shape)
-        if stated.points is not None and stated.triangles is not None:
-            return _measured(Surface.from_triangles(stated.points, stated.triangles))
-        # Meshes of an included SDF model are beside it, those of MJCF beside the file that includes.
-        roots = self.roots.at(Path(stated.place.file).parent) if stated.place.file else self.roots
-        key = shape.file, shape.size, roots.base
+        # Meshes of an included SDF model or an attached one of MJCF are beside its file.
+        roots = self.roots.at(Path(stated.beside).parent) if stated.beside else self.roots
+        key = shape.surface, shape.file, shape.size, roots.base
         if key not in self._meshes:
-            surface, upright = read_mesh(roots.find(shape.file))
+            surface, upright = (shape.surface, None) if shape.surface else read_mesh(roots.find(shape.file))
             self._meshes[key] = _measured(surface.transform(np.diag(shape.size)), upright)
         return self._meshes[key]
 
@@ -211,8 +209,8 @@ def _read_entries(link: StatedLink) -> list[Entry]:
     """Return the entries about content that the reader could not use."""
     entries = []
     for found in link.findings:
-        line, column = found.values.get("line", link.place.line), found.values.get("column", 1)
-        entries.append(Entry(found, Place(int(line), int(column), link.place.file)))
+        values = {**link.place._asdict(), "column": 1, **found.values}
+        entries.append(Entry(found, Place(values["line"], values["column"], values.get("source", link.place.file))))
     return entries
 
 

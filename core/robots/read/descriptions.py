@@ -199,21 +199,24 @@ def _narrow(data: bytes) -> bytes:
 
 
 def _include(root: Node, roots: Roots, own: Path) -> None:
-    """Replace each `include` of MJCF or SDF by the file's elements, which have no place in the model's own file."""
+    """Replace each `include` of MJCF or SDF by the file's elements, which have no place in the model's own file.
+
+    Models that MJCF attaches become children of their elements.
+    """
     is_mjcf = root.tag == "mujoco"
-    waiting: list[tuple[Node, int, Roots, tuple[Path, ...]]] = [(root, 1, roots, (own,))]
-    included = [own]
-    total, count = 0, 0
+    waiting: list[tuple[Node, int, Roots, tuple[Path, ...], list[Path]]] = [(root, 1, roots, (own,), [own])]
+    total, count, files = 0, 0, 0
     while waiting:
-        node, depth, beside, within = waiting.pop()
+        node, depth, beside, within, model = waiting.pop()
         count += 1
         check_size(depth, count)
         children, pending = [], [(child, beside, within) for child in reversed(node.children)]
         while pending:
             child, here, above = pending.pop()
-            if child.tag != "include":
+            is_attached = is_mjcf and node.tag == "asset" and child.tag == "model"
+            if child.tag != "include" and not is_attached:
                 children.append(child)
-                waiting.append((child, depth + 1, here, above))
+                waiting.append((child, depth + 1, here, above, model))
                 continue
             uri = child.find("uri")
             name = child.get("file") if is_mjcf else uri.text.strip() if uri is not None else ""
@@ -221,17 +224,24 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
             try:
                 path = here.find(name) if is_mjcf else _model_file(name, here)
                 data = _bytes(path)
-                total += len(data)
+                total, files = total + len(data), files + 1
                 _check_bytes(total)
                 found = parse(_narrow(data), str(path))
+                if is_attached and found.tag != root.tag:
+                    raise FileError(DESCRIPTION_UNKNOWN, tag=found.tag)
             except FileError as error:
                 raise FileError(INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **place) from error
-            # MuJoCo refuses a second time; models of SDF may repeat, but not include themselves.
-            if path in (included if is_mjcf else above) or len(included) > MAX_INCLUDES:
+            # A model of MuJoCo includes a file once; all models may repeat, but not include themselves.
+            if path in (model if is_mjcf and not is_attached else above) or files > MAX_INCLUDES:
                 raise FileError(INCLUDE_TWICE, name=name, **place)
-            included.append(path)
-            there = here if is_mjcf else here.at(path.parent)
-            pending += [(below, there, (*above, path)) for below in reversed(found.children)]
+            there, inside = here if is_mjcf and not is_attached else here.at(path.parent), (*above, path)
+            if is_attached:
+                child.children = [found]
+                children.append(child)
+                waiting.append((found, depth + 1, there, inside, [path]))
+            else:
+                model.append(path)
+                pending += [(below, there, inside) for below in reversed(found.children)]
         node.children = children
 
 

@@ -15,13 +15,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ...mesh.surface import Surface
 from ...numerics.rotations import polar_rotation, rotation_matrix
 from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_number
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
 from ..stated import LEAST, MOST, Description, Place, StatedInertial, StatedLink, StatedShape, rotation_about
-from .meshes import fan
+from .meshes import checked_surface
 from .xml import check_size
 
 _TOKEN = re.compile(
@@ -348,21 +349,15 @@ def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
 
 
 def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | None:
-    points, counts, corners = (prim.numbers(name) for name in ("points", "faceVertexCounts", "faceVertexIndices"))
+    names = "points", "faceVertexCounts", "faceVertexIndices"
+    points, counts, corners = map(prim.numbers, names)
     if points is None or counts is None or corners is None:
         return None  # another layer may have them
-    for name, values in (("points", points), ("faceVertexCounts", counts), ("faceVertexIndices", corners)):
-        if not (np.abs(values) <= MOST).all() or name == "points" and len(points) % 3:
-            raise ValueError(prim.values[name][:80])
-    points = points.reshape(-1, 3)
-    sizes, corners = counts.astype(np.int64), corners.astype(np.int64)
-    if sizes.min(initial=0) < 0 or sizes.sum() != len(corners):
-        raise ValueError(prim.values["faceVertexCounts"][:80])
-    if not len(corners) or corners.min() < 0 or corners.max() >= len(points):
-        raise ValueError(prim.values["faceVertexIndices"][:80])
-    placed = (points @ matrix[:3, :3].T + matrix[:3, 3]) * unit
-    triangles = fan(sizes, corners)
-    is_left_handed = prim.values.get("orientation", "").strip("\"'") == "leftHanded"
+    surface = checked_surface([prim.values[name] for name in names], points, counts, corners)
+    placed = (surface.points @ matrix[:3, :3].T + matrix[:3, 3]) * unit
+    if not (np.abs(placed) <= MOST).all():
+        raise ValueError(prim.values["points"][:80])
+    triangles, is_left_handed = surface.triangles, prim.values.get("orientation", "").strip("\"'") == "leftHanded"
     if is_left_handed != (np.linalg.det(matrix[:3, :3]) < 0.0):
         triangles = triangles[:, ::-1]
-    return StatedShape(Shape("mesh"), role, None, placed, triangles)
+    return StatedShape(Shape("mesh", surface=Surface.from_triangles(placed, triangles)), role)

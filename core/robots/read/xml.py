@@ -179,7 +179,7 @@ def read_shapes(
             else:
                 names = ("radius",) if kind == "sphere" else ("radius", "length")
                 size = [number(get(element, name), length) for name in names]
-            return StatedShape(Shape(kind, tuple(size), pose, file), role, angles, place=node.place)
+            return StatedShape(Shape(kind, tuple(size), pose, file), role, angles, node.place, node.place.file)
         return None
 
     elements = [(element, role) for role in ("visual", "collision") for element in link.all(role)]
@@ -196,6 +196,6 @@ def _unreadable(node: Node, error: Exception) -> Finding:
         if any(text in (words, *words.split()) for words in (one.text, *one.attributes.values()))
     ]
     holder = holders[0] if len(holders) == 1 else node
-    return finding(
-        DESCRIPTION_NUMBER, text=text, element=holder.tag, line=holder.place.line, column=holder.place.column
-    )
+    line, column, file = holder.place
+    source = {"source": file} if file else {}
+    return finding(DESCRIPTION_NUMBER, text=text, element=holder.tag, line=line, column=column, **source)
