@@ -16,6 +16,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from importlib import import_module
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +42,7 @@ _WIDE = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16", b"<\0": "
 _ENCODING = re.compile(r"""^(<\?xml\b[^>]*?)\s+encoding\s*=\s*["'][\w.-]*["']""")
 _USD = "#usda"
 _LAYERED = re.compile(rb"\b(?:references|payload|subLayers)\s*=\s*(?:\[[^\]@]*)?@")
+_MARK = "body_moments_place"
 _QUEUE = ThreadPoolExecutor(1)  # One file at a time: xacro keeps what it reads in global variables.
 MAX_DESCRIPTION = 64 << 20  # bytes
 MAX_LINKS = 100_000
@@ -140,13 +142,8 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
     is_binary = data.startswith((b"PXR-USDC", b"PK"))
     is_composed = is_binary or is_text and _LAYERED.search(data) is not None
     if is_text or is_binary:
-        if is_composed:
-            data = _compose_usd(path, roots)
-        description = AUDITED[_USD].reader_module.read(data)
+        description = AUDITED[_USD].reader_module.read(_compose_usd(path, roots) if is_composed else data)
     else:
-        if path.suffix.lower() == ".xacro":
-            parse(data)  # It refuses entities.
-            data, is_composed = _expand_xacro(path, roots), True
         description = _xml(data, roots, path)
     if is_composed:  # The file itself does not hold the inertials.
         nowhere = {"span": None, "place": Place(), "inertial_place": Place()}
@@ -179,7 +176,7 @@ def _check_bytes(count: int) -> None:
 
 def _xml(data: bytes, roots: Roots, path: Path) -> Description:
     data = _narrow(data)
-    root = parse(data)
+    root = _expand_xacro(path, data, roots) if path.suffix.lower() == ".xacro" else parse(data)
     if root.tag not in AUDITED:
         raise FileError(DESCRIPTION_UNKNOWN, tag=root.tag)
     if root.tag in ("mujoco", "sdf"):
@@ -241,8 +238,20 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
                 waiting.append((found, depth + 1, there, inside, [path]))
             else:
                 model.append(path)
+                _override(child, found)
                 pending += [(below, there, inside) for below in reversed(found.children)]
         node.children = children
+
+
+def _override(include: Node, found: Node) -> None:
+    """Give the models that SDF includes the name, the pose and the placement frame that the including file states."""
+    stated = {child.tag: child for child in include.children}
+    for node in found.all("model") if "uri" in stated else ():
+        for name in ("name", "placement_frame"):
+            if name in stated:
+                node.attributes[name] = stated[name].text.strip()
+        if "pose" in stated:
+            node.children = [stated["pose"], *(child for child in node.children if child.tag != "pose")]
 
 
 def _model_file(name: str, roots: Roots) -> Path:
@@ -317,21 +326,50 @@ class _Included(list):
         super().append(name)
 
 
-def _expand_xacro(path: Path, roots: Roots) -> bytes:
-    """Return the XML that xacro makes of a file. It evaluates the file's expressions as Python."""
+def _marked(data: bytes, file: str, places: dict[str, Place]) -> bytes:
+    """Return XML whose elements have the key of their place as an attribute, which macros of xacro pass on."""
+    parts, end = [], 0
+    for node in parse(data).walk():
+        if ":" not in node.tag:  # Elements of xacro itself take no other attributes.
+            start, end = end, node.start + 1 + len(node.tag.encode())
+            parts += [data[start:end], b' %s="%d"' % (_MARK.encode(), len(places))]
+            places[str(len(places))] = node.place._replace(file=file)
+    return b"".join([*parts, data[end:]])
+
+
+def _expand_xacro(path: Path, data: bytes, roots: Roots) -> Node:
+    """Return the element that xacro makes of a file. It evaluates the file's expressions as Python."""
+    places: dict[str, Place] = {}
+    marked = _marked(data, "", places)
     try:
         xacro: Any = import_module("xacro")
     except ImportError as error:
         raise FileError(XACRO_NOT_EXPANDED, name=path.name, error=str(error)) from error
 
     def expand() -> bytes:
-        xacro.all_includes = _Included(roots)
-        return xacro.process_file(str(path), verbosity=0).toxml("utf-8")
+        xacro.all_includes, parse_file = _Included(roots), xacro.parse
+        files = iter([marked])
+
+        def parse_marked(_: None, name: str) -> Any:
+            source = next(files, None) or _marked(_narrow(_bytes(Path(name))), os.path.abspath(name), places)
+            return parse_file(BytesIO(source))
+
+        xacro.parse = parse_marked
+        try:
+            return xacro.process_file(str(path), verbosity=0).toxml("utf-8")
+        finally:
+            xacro.parse = parse_file
 
     try:
-        return _QUEUE.submit(expand).result()
+        root = parse(_QUEUE.submit(expand).result(), str(path))
     except FileError as error:
         raise FileError(INCLUDE_UNREADABLE, name=path.name, cause=error.finding.as_record()) from error
     except (Exception, SystemExit) as error:  # whatever an expression of the file raises
         reason = " ".join(str(error).split())[:200]
         raise FileError(XACRO_NOT_EXPANDED, name=path.name, error=reason) from error
+    waiting = [(root, Place())]
+    while waiting:
+        node, above = waiting.pop()
+        node.place = places.get(node.attributes.pop(_MARK, ""), above)
+        waiting += [(child, node.place) for child in node.children]
+    return root

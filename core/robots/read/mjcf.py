@@ -34,7 +34,7 @@ from ..stated import (
     rotation_about,
 )
 from .meshes import checked_surface
-from .xml import FLAT_KINDS, NOWHERE, Node, attempt, check_size, number, numbers
+from .xml import FLAT_KINDS, Node, attempt, check_size, number, numbers, stated_link
 
 SQUARE_ATOL = 1e-9  # of the entries of a rotation between axes, which are 0 or 1
 LEAST_LENGTH = 1e-14  # of a direction; shorter ones are rounding errors, also for MuJoCo
@@ -210,12 +210,10 @@ def _link(
     inertial = attempt(findings, node, _inertial, frame)
     read = (attempt(findings, geom, _shape, inner, findings) for geom, inner in parts if geom.tag == "geom")
     shapes = tuple(shape for shape in read if shape is not None)
-    # Numbers in a frame are not those of the body, so that repairs do not fit them.
-    span = None if node is None or node.start == NOWHERE or not frame.is_plain else (node.start, node.end)
     name = outer.prefix + body.get("name") if body.get("name") else "body {}".format(count + 1)
-    places = body.place, (node or body).place
-    # Without an inertial MuJoCo takes it from geoms.
-    return StatedLink(name, inertial, shapes, span, False, tuple(findings), None, *places)
+    # Without an inertial MuJoCo takes it from geoms. Numbers in a frame are not those of the body; no repair fits them.
+    link = stated_link(body, name, node, inertial, shapes, False, findings)
+    return link if frame.is_plain else replace(link, span=None)
 
 
 def _inertial(node: Node, frame: _Frame) -> StatedInertial:
