@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from math import inf, radians
 from typing import NamedTuple
 
@@ -41,27 +41,45 @@ LEAST_LENGTH = 1e-14  # of a direction; shorter ones are rounding errors, also f
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 
 
-@dataclass(eq=False)
 class _Model:
     """The settings and assets of a whole file. count: counts the elements of all models together."""
 
-    root: Node
-    count: Iterator[int]
-    degrees: bool = True
-    euler: str = "xyz"
-    mesh_folder: str = ""
-    meshes: dict[str, Node] = field(default_factory=dict)
-    shapes: dict[Node, Shape] = field(default_factory=dict)  # those of the meshes that were read
-    models: dict[str, _Model] = field(default_factory=dict)
-    classes: dict[str, dict[str, dict[str, str]]] = field(default_factory=dict)
+    def __init__(self, root: Node, count: Iterator[int]) -> None:
+        self.root, self.count = root, count
+        self.degrees, self.euler, self.mesh_folder = True, "xyz", ""
+        self.meshes: dict[str, Node] = {}
+        self.models: dict[str, _Model] = {}
+        self._shapes: dict[Node, Shape] = {}  # those of the meshes that were read
+        self._classes: dict[str, dict[str, dict[str, str]]] = {}
+        for compiler in root.all("compiler"):
+            self.degrees = compiler.get("angle", "degree" if self.degrees else "radian") != "radian"
+            self.euler = compiler.get("eulerseq", self.euler)
+            self.mesh_folder = compiler.get("meshdir", compiler.get("assetdir", self.mesh_folder))
+        for defaults in root.all("default"):
+            self._add_defaults(defaults, "main", {})
+        for asset in (asset for assets in root.all("asset") for asset in assets.children):
+            if asset.tag == "mesh":
+                file = asset.get("file").replace("\\", "/")
+                self.meshes[asset.get("name") or file.rpartition("/")[2].rpartition(".")[0]] = asset
+            elif asset.tag == "model" and asset.children:
+                (inner,) = asset.children
+                self.models[asset.get("name") or inner.get("model")] = _Model(inner, count)
+
+    def _add_defaults(self, node: Node, name: str, above: dict[str, dict[str, str]]) -> None:
+        own = self._classes[name] = {tag: dict(values) for tag, values in above.items()}
+        for child in node.children:
+            if child.tag != "default":
+                own.setdefault(child.tag, {}).update(child.attributes)
+        for child in node.all("default"):
+            self._add_defaults(child, child.get("class"), own)
 
     def attributes(self, node: Node, current: str = "main") -> dict[str, str]:
         """Return the attributes of an element and its defaults. current: the class of those that name none."""
-        return self.classes.get(node.get("class") or current, {}).get(node.tag, {}) | node.attributes
+        return self._classes.get(node.get("class") or current, {}).get(node.tag, {}) | node.attributes
 
     def mesh(self, node: Node) -> Shape:
         """Return the mesh of an asset, which MuJoCo moves and turns before it scales it."""
-        if node not in self.shapes:
+        if node not in self._shapes:
             values = self.attributes(node)
             scaled = _Frame(self, scale=numbers(values.get("scale", ""), 3, (1.0, 1.0, 1.0)))
             turn = _rotation({"quat": values["refquat"]} if "refquat" in values else {}, self)[0].T
@@ -69,20 +87,8 @@ class _Model:
             pose = scaled.place(-turn @ numbers(values.get("refpos", ""), 3, (0.0, 0.0, 0.0)), turn)
             file, surface = values.get("file", ""), _surface(values) if "vertex" in values else None
             path = file if file.startswith("/") or not self.mesh_folder else self.mesh_folder + "/" + file
-            self.shapes[node] = Shape("mesh", tuple(size.tolist()), pose, path, surface=surface)
-        return self.shapes[node]
-
-    def find(self, tag: str, name: str) -> tuple[list[Node], str] | None:
-        """Return the body or frame with a name and the class of its defaults, None if there is none."""
-        waiting = [(node, "main") for node in self.root.all("worldbody")]
-        while waiting:
-            node, current = waiting.pop()
-            check_size(1, next(self.count))
-            if node.tag == tag and node.get("name") == name:
-                return [node], current
-            current = node.get("childclass") or current
-            waiting += [(child, current) for child in node.children]
-        return None
+            self._shapes[node] = Shape("mesh", tuple(size.tolist()), pose, path, surface=surface)
+        return self._shapes[node]
 
 
 class _Frame(NamedTuple):
@@ -122,12 +128,19 @@ class _Frame(NamedTuple):
         model = self.model.models.get(node.get("model"))
         if model is None:
             raise ValueError(node.get("model"))
-        name = node.get("body") or node.get("frame")
-        worlds = [child for world in model.root.all("worldbody") for child in world.children]
-        named = model.find("body" if "body" in node.attributes else "frame", name) if name else (worlds, "main")
-        if named is None:
-            raise ValueError(name)
-        return named[0], self._replace(model=model, defaults=named[1], prefix=self.prefix + node.get("prefix"))
+        worlds, names = model.root.all("worldbody"), {tag: node.get(tag) for tag in ("body", "frame") if node.get(tag)}
+        inner = self._replace(model=model, defaults="main", prefix=self.prefix + node.get("prefix"))
+        if not names:
+            return [child for world in worlds for child in world.children], inner
+        waiting = [(world, "main") for world in worlds]
+        while waiting:
+            part, current = waiting.pop()
+            check_size(1, next(model.count))
+            if part.get("name") == names.get(part.tag, part):
+                return [part], inner._replace(defaults=current)
+            current = part.get("childclass") or current
+            waiting += [(child, current) for child in part.children]
+        raise ValueError(*names.values())
 
     def place(self, position: NDArray, turn: NDArray) -> Pose:
         """Return the pose in the body of a pose in this frame."""
@@ -143,7 +156,7 @@ class _Frame(NamedTuple):
 
 def read(root: Node, data: bytes) -> Description:
     """Return a description from the element `mujoco`."""
-    outside = _Frame(_settings(root, itertools.count(1)))
+    outside = _Frame(_Model(root, itertools.count(1)))
     links: list[StatedLink] = []
     for world in root.all("worldbody"):
         refused: list[Finding] = []  # of frames of the world, which the bodies in them report
@@ -172,34 +185,6 @@ def _parts(nodes: Sequence[Node], frame: _Frame, refused: list[Finding]) -> Iter
             yield node, frame
         if inside is not None:
             yield from _parts(*inside, refused)
-
-
-def _settings(root: Node, count: Iterator[int]) -> _Model:
-    model = _Model(root, count)
-    for compiler in root.all("compiler"):
-        model.degrees = compiler.get("angle", "degree" if model.degrees else "radian") != "radian"
-        model.euler = compiler.get("eulerseq", model.euler)
-        model.mesh_folder = compiler.get("meshdir", compiler.get("assetdir", model.mesh_folder))
-    for defaults in root.all("default"):
-        _defaults(defaults, "main", {}, model)
-    for asset in (asset for assets in root.all("asset") for asset in assets.children):
-        if asset.tag == "mesh":
-            file = asset.get("file").replace("\\", "/")
-            model.meshes[asset.get("name") or file.rpartition("/")[2].rpartition(".")[0]] = asset
-        elif asset.tag == "model" and asset.children:
-            (inner,) = asset.children
-            model.models[asset.get("name") or inner.get("model")] = _settings(inner, count)
-    return model
-
-
-def _defaults(node: Node, name: str, above: dict[str, dict[str, str]], model: _Model) -> None:
-    own = {tag: dict(values) for tag, values in above.items()}
-    for child in node.children:
-        if child.tag != "default":
-            own.setdefault(child.tag, {}).update(child.attributes)
-    model.classes[name] = own
-    for child in node.all("default"):
-        _defaults(child, child.get("class"), own, model)
 
 
 def _link(
@@ -254,22 +239,25 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
         for axis, angle in zip(model.euler, (first, second, third)):
             step = rotation_about(np.eye(3)["xyz".index(axis.lower())], angle)
             turn = turn @ step if axis.islower() else step @ turn
-        fixed_axes = model.euler == "XYZ"
-        return turn, (first, second, third) if fixed_axes else None, None
+        return turn, (first, second, third) if model.euler == "XYZ" else None, None
+    turn = np.eye(3)
     if "axisangle" in attributes:
-        values = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0))
-        return rotation_about(_direction(values[:3], attributes["axisangle"]), values[3] * unit), None, None
-    if "xyaxes" in attributes:
-        values = numbers(attributes["xyaxes"], 6, ())
-        x = _direction(values[:3], attributes["xyaxes"])
-        y = _direction(values[3:], attributes["xyaxes"])
-        y = _direction(y - (y @ x) * x, attributes["xyaxes"])
-        return np.column_stack([x, y, np.cross(x, y)]), None, None
-    if "zaxis" in attributes:
-        z = _direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"])
-        half = np.array([1.0 + z[2], -z[1], z[0], 0.0])
-        return rotation_matrix(half if half.any() else [0.0, 1.0, 0.0, 0.0]), None, None
-    return np.eye(3), None, None
+        values, text = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0)), attributes["axisangle"]
+        turn = rotation_about(_direction(values[:3], text), values[3] * unit)
+    elif "xyaxes" in attributes:
+        values, text = numbers(attributes["xyaxes"], 6, ()), attributes["xyaxes"]
+        x, y = _direction(values[:3], text), _direction(values[3:], text)
+        y = _direction(y - (y @ x) * x, text)
+        turn = np.column_stack([x, y, np.cross(x, y)])
+    elif "zaxis" in attributes:
+        turn = _upright(_direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"]))
+    return turn, None, None
+
+
+def _upright(z: NDArray) -> NDArray[np.float64]:
+    """Return the (3, 3) least rotation from the z axis to a unit vector."""
+    half = np.array([1.0 + z[2], -z[1], z[0], 0.0])
+    return rotation_matrix(half if half.any() else [0.0, 1.0, 0.0, 0.0])
 
 
 def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
@@ -281,37 +269,35 @@ def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
 
 def _shape(geom: Node, frame: _Frame, findings: list[Finding]) -> StatedShape | None:
     """Return the shape of a geom in its body. findings: gets those about its mesh."""
-    stated = _own_shape(geom, frame, findings)
-    if stated is None:
+    model = frame.model
+    attributes, text = model.attributes(geom, frame.defaults), geom.get("name")
+    rotation, angles, _ = _rotation(attributes, model)
+    pose = Pose(numbers(attributes.get("pos", ""), 3, (0.0, 0.0, 0.0)), rotation)
+    kind = attributes.get("type", "mesh" if "mesh" in attributes else "sphere")
+    if kind == "mesh":
+        asset = model.meshes.get(attributes.get("mesh", ""))
+        shape = Shape("mesh") if asset is None else attempt(findings, asset, model.mesh)
+        shape = shape and replace(shape, pose=pose @ shape.pose)
+    else:
+        shape = _primitive(kind, attributes, pose)
+    if shape is None:
         return None
-    shape, text = stated.shape, geom.get("name")
-    scale = frame.scale_along(shape.pose.rotation, text)
+    turn, is_turned = shape.pose.rotation, bool((shape.pose.rotation != rotation).any())
+    scale = frame.scale_along(turn, text)
     round_axes = {"sphere": 3, "capsule": 2, "cylinder": 2}.get(shape.kind, 0)
     if round_axes and np.ptp(scale[:round_axes]):
         raise ValueError(text)  # It is no longer round.
     factors = scale[[0, 2]] if round_axes == 2 else scale[: len(shape.size)]
     size = tuple((np.array(shape.size) * factors).tolist())
-    pose = frame.place(shape.pose.position, shape.pose.rotation)
-    angles, beside = stated.angles if frame.is_plain else None, frame.model.root.place.file
-    return StatedShape(replace(shape, size=size, pose=pose), stated.role, angles, geom.place, beside)
-
-
-def _own_shape(geom: Node, frame: _Frame, findings: list[Finding]) -> StatedShape | None:
-    model = frame.model
-    attributes = model.attributes(geom, frame.defaults)
-    kind = attributes.get("type", "mesh" if "mesh" in attributes else "sphere")
-    rotation, angles, _ = _rotation(attributes, model)
-    position = numbers(attributes.get("pos", ""), 3, (0.0, 0.0, 0.0))
+    shape = replace(shape, size=size, pose=frame.place(shape.pose.position, turn))
     collides = attributes.get("contype", "1") != "0" or attributes.get("conaffinity", "1") != "0"
-    role = "collision" if collides else "visual"
+    angles = angles if frame.is_plain and not is_turned else None
+    return StatedShape(shape, "collision" if collides else "visual", angles, geom.place, model.root.place.file)
+
+
+def _primitive(kind: str, attributes: dict[str, str], pose: Pose) -> Shape | None:
+    """Return the shape of a geom in its frame, None if it bounds no volume. pose: unless it states both of its ends."""
     size = parse_numbers(attributes.get("size", ""))
-    if kind == "mesh":
-        asset = model.meshes.get(attributes.get("mesh", ""))
-        mesh = Shape("mesh") if asset is None else attempt(findings, asset, model.mesh)
-        if mesh is None:
-            return None
-        angles = angles if _Frame(model, mesh.pose).is_plain else None
-        return StatedShape(replace(mesh, pose=Pose(position, rotation) @ mesh.pose), role, angles)
     if kind in FLAT_KINDS:
         return None
     if kind not in SIZES:
@@ -323,14 +309,12 @@ def _own_shape(geom: Node, frame: _Frame, findings: list[Finding]) -> StatedShap
         ends = numbers(attributes["fromto"], 6, ())
         along = ends[:3] - ends[3:]
         length = float(np.linalg.norm(along))
-        along = _direction(along, attributes["fromto"])
-        rotation, _, _ = _rotation({"zaxis": " ".join(map(repr, along.tolist()))}, model)
-        pose = Pose((ends[:3] + ends[3:]) / 2.0, rotation)
+        turn = _upright(_direction(along, attributes["fromto"]))
         sizes = {"box": (2.0 * size[0], 2.0 * size[0], length), "ellipsoid": (size[0], size[0], length / 2.0)}
-        return StatedShape(Shape(kind, sizes.get(kind, (size[0], length)), pose), role)
+        return Shape(kind, sizes.get(kind, (size[0], length)), Pose((ends[:3] + ends[3:]) / 2.0, turn))
     halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(kind, 3)  # index of the first half of a length
     values = tuple(2.0 * value if place >= halves else value for place, value in enumerate(size[: SIZES[kind]]))
-    return StatedShape(Shape(kind, values, Pose(position, rotation)), role, angles)
+    return Shape(kind, values, pose)
 
 
 def _surface(values: dict[str, str]) -> Surface:
