@@ -226,7 +226,7 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
     references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
     is_outside = any(one.code == INERTIAL_CENTER_OUTSIDE for one in wrong)
     diagnoses = diagnose(stated, references, [] if incomplete else _turned(pieces), is_outside)
-    changes = [one for one in diagnoses if one.repaired is not None or one.is_of_geometry]
+    changes = [one for one in diagnoses if one.is_change]
     repaired = changes[-1].repaired if changes else None
     left = wrong
     if repaired is not None:
@@ -255,16 +255,16 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
 
 def _entries(place: Place, diagnoses: Sequence[Diagnosis], explained: Sequence[Finding]) -> list[Entry]:
     """Return one entry for each diagnosis, with the reasons that it explains: the center's, or all other ones."""
-    entries = []
-    are_changes = [one.repaired is not None or one.is_of_geometry for one in diagnoses]
-    for index, (one, is_change) in enumerate(zip(diagnoses, are_changes)):
-        of_center = None if sum(are_changes) == 1 else index == 0
+    entries, is_single = [], sum(one.is_change for one in diagnoses) == 1
+    for index, one in enumerate(diagnoses):
+        if not one.is_change:
+            entries.append(Entry(one.finding, place, compares=True))
+            continue
         reasons = [
-            reason for reason in explained if is_change and of_center in (None, reason.code == INERTIAL_CENTER_OUTSIDE)
+            reason for reason in explained if is_single or (index == 0) == (reason.code == INERTIAL_CENTER_OUTSIDE)
         ]
-        certainty = ("certain" if one.is_certain else "likely") if is_change else ""
-        change = one.finding if is_change else None
-        entries.append(Entry(one.finding, place, tuple(reasons), change, certainty, True))
+        certainty = "certain" if one.is_certain else "likely"
+        entries.append(Entry(one.finding, place, tuple(reasons), one.finding, certainty, True))
     return entries
 
 
@@ -300,17 +300,15 @@ def _turned(pieces: Pieces) -> list[tuple[Finding, Reference]]:
     """Return, for each role with angles, the finding and the geometry if those angles were meant in degrees."""
     result = []
     for found in pieces.values():
-        if any(stated.angles is not None and any(stated.angles) for stated, _ in found):
-            turned = []
-            for stated, piece in found:
-                pose = stated.shape.pose
-                if stated.angles is not None:
-                    pose = Pose(pose.position, rotation_of_angles(*map(radians, stated.angles)))
-                turned.append((replace(stated, shape=replace(stated.shape, pose=pose)), piece))
-            reference = _reference(turned)
-            if reference is not None:
-                change = finding(AUDIT_ANGLES, part="geometry", unit="degrees", wanted="radians")
-                result.append((change, reference))
+        turned = []
+        for stated, piece in found:
+            shape = stated.shape
+            if stated.angles is not None:
+                turn = rotation_of_angles(*map(radians, stated.angles))
+                shape = replace(shape, pose=Pose(shape.pose.position, turn))
+            turned.append((replace(stated, shape=shape), piece))
+        if any(any(stated.angles or ()) for stated, _ in found) and (reference := _reference(turned)) is not None:
+            result.append((finding(AUDIT_ANGLES, part="geometry", unit="degrees", wanted="radians"), reference))
     return result
 
 
