@@ -9,8 +9,9 @@ refers to another of the layer has its attributes.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +28,7 @@ from .xml import check_size
 
 _TOKEN = re.compile(
     r'\s+|#[^\n]*|"""(?:.|\n)*?"""|\'\'\'(?:.|\n)*?\'\'\'|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\''
-    r"|@@@(?:.|\n)*?@@@|@[^@\n]*@|<[^>\n]*>|[(){}\[\]=,;]|[^\s(){}\[\]=,;\"'@<#]+"
+    r"|@@@(?:.|\n)*?@@@|@[^@\n]*@|<[^>\n]*>|[(){}\[\]=,;]|[^\s(){}\[\]=,;\"'@<#]+|."
 )
 _FIELD = re.compile(r"[^\s()\[\],]+")
 _REFERENCE = re.compile(r"\breferences\s*=\s*\[?\s*<([^>]*)>")
@@ -71,22 +72,13 @@ class Prim:
         return float(self.vector(name, (default,))[0])
 
 
-def _tokens(text: str) -> Iterator[tuple[str, int]]:
-    position = 0
-    while position < len(text):
-        match = _TOKEN.match(text, position)
-        if match is None:
-            raise _invalid(text, position)
-        token = match.group()
-        if not token[0].isspace() and token[0] != "#":
-            yield token, position
-        position = match.end()
-
-
 class _Parser:
     def __init__(self, text: str) -> None:
         self.text = text
-        self.tokens = list(_tokens(text))
+        self.tokens = [(match[0], match.start()) for match in _TOKEN.finditer(text) if match[0].strip()[:1] not in "#"]
+        wrong = next((place for token, place in self.tokens if token in ('"', "'", "@", "<")), None)
+        if wrong is not None:
+            raise _invalid(text, wrong)
         self.index = 0
         self.count = 0
         self.line, self.counted = 1, 0
@@ -100,7 +92,7 @@ class _Parser:
         return self.tokens[self.index - 1]
 
     def balanced(self) -> tuple[int, int]:
-        """Skip one pair of brackets with its content; return its range in the text."""
+        """Skip a word, or a pair of brackets with its content; return its range in the text."""
         depth, start = 0, self.tokens[self.index][1]
         while True:
             token, position = self.take()
@@ -108,7 +100,7 @@ class _Parser:
                 depth += 1
             elif token in ")]}":
                 depth -= 1
-            if depth == 0:
+            if depth <= 0:
                 return start, position + len(token)
 
     def prim(self, depth: int) -> Prim:
@@ -129,10 +121,6 @@ class _Parser:
         while self.peek() != "}":
             if self.peek() in _SPECIFIERS:
                 prim.children.append(self.prim(depth + 1))
-            elif self.peek() == "variantSet":
-                while self.peek() != "{":
-                    self.take()
-                self.balanced()
             elif self.peek() in "([{":
                 self.balanced()
             else:
@@ -150,14 +138,8 @@ class _Parser:
                 self.take()
             return
         self.take()
-        value_start = self.tokens[self.index][1]
-        if self.peek() in ("(", "[", "{"):
-            _, end = self.balanced()
-        else:
-            token, position = self.take()
-            end = position + len(token)
-        name = words[-1] if words else ""
-        prim.values[name] = self.text[value_start:end]
+        start, end = self.balanced()
+        prim.values[words[-1] if words else ""] = self.text[start:end]
 
 
 def read(data: bytes) -> Description:
@@ -267,14 +249,18 @@ def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], t
     turn = _turn(matrix)
     to_link = np.eye(4)
     to_link[:3, :3], to_link[:3, 3] = turn.T, -turn.T @ matrix[:3, 3]
-    inertial = None
-    try:
-        inertial = _inertial(prim, to_link @ matrix, scales)
-    except ValueError as error:
-        findings.append(_unreadable(prim, error, text))
-    shapes: list[StatedShape] = []
-    for part, error in _collect(prim, matrix, to_link, scales["length"], shapes):
-        findings.append(_unreadable(part, error, text))
+
+    def attempt(part: Prim, read_part: Callable, *more: Any) -> Any:
+        try:
+            return read_part(part, *more)
+        except ValueError as error:
+            line = text.count("\n", 0, max(text.find(str(error), part.start, part.end), part.start)) + 1
+            findings.append(finding(DESCRIPTION_NUMBER, text=str(error), element=part.name, line=line))
+            return None
+
+    inertial = attempt(prim, _inertial, to_link @ matrix, scales)
+    read_shapes = [attempt(part, _shape, to_link @ place, scales["length"]) for part, place in _parts(prim, matrix)]
+    shapes = [shape for shape in read_shapes if shape is not None]
     span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
     place = Place(prim.line)
     return StatedLink(path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix, place, place)
@@ -284,11 +270,6 @@ def _turn(matrix: NDArray) -> NDArray[np.float64]:
     """Return the (3, 3) rotation of a (4, 4) matrix, without its scale and its mirroring."""
     turn = polar_rotation(matrix[None])[0][0]
     return -turn if np.linalg.det(turn) < 0.0 else turn
-
-
-def _unreadable(prim: Prim, error: Exception, text: str) -> Finding:
-    line = text.count("\n", 0, max(text.find(str(error), prim.start, prim.end), prim.start)) + 1
-    return finding(DESCRIPTION_NUMBER, text=str(error), element=prim.name, line=line)
 
 
 def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> StatedInertial | None:
@@ -305,22 +286,12 @@ def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Stated
     return StatedInertial(float(mass[0]) * kilograms, placed, tensor, rotation_matrix(axes), None, tuple(axes.tolist()))
 
 
-def _collect(
-    prim: Prim, matrix: NDArray, to_link: NDArray, unit: float, shapes: list[StatedShape]
-) -> Iterator[tuple[Prim, ValueError]]:
-    """Collect the geometry of a body: the prims below it, up to the next body. matrix: from the prim to the world.
-
-    Yield the prims with wrong numbers, which are left out.
-    """
-    try:
-        shape = _shape(prim, to_link @ matrix, unit)
-        if shape is not None:
-            shapes.append(shape)
-    except ValueError as error:
-        yield prim, error
+def _parts(prim: Prim, matrix: NDArray) -> Iterator[tuple[Prim, NDArray]]:
+    """Yield a body and the prims below it, up to the next body, with their matrices to the world."""
+    yield prim, matrix
     for child in prim.children:
         if "PhysicsRigidBodyAPI" not in child.metadata:
-            yield from _collect(child, _placed(child, matrix), to_link, unit, shapes)
+            yield from _parts(child, _placed(child, matrix))
 
 
 def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
