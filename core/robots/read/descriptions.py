@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 from importlib import import_module
 from io import BytesIO
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from ...scans.findings import FILE_MISSING, FILE_NOT_REGULAR
@@ -313,19 +314,6 @@ def _check_layers(sdf: Any, path: Path, roots: Roots) -> None:
             waiting.append(sdf.Layer.FindOrOpen(target))
 
 
-class _Included(list):
-    """xacro's list of included files, each of which must be within the roots."""
-
-    def __init__(self, roots: Roots) -> None:
-        super().__init__()
-        self._roots = roots
-
-    def append(self, name: str) -> None:
-        """Add a file that is about to be read. FileError if it is outside of the roots."""
-        self._roots.find(os.path.abspath(name))
-        super().append(name)
-
-
 def _marked(data: bytes, file: str, places: dict[str, Place]) -> bytes:
     """Return XML whose elements have the key of their place as an attribute, which macros of xacro pass on."""
     parts, end = [], 0
@@ -347,8 +335,9 @@ def _expand_xacro(path: Path, data: bytes, roots: Roots) -> Node:
         raise FileError(XACRO_NOT_EXPANDED, name=path.name, error=str(error)) from error
 
     def expand() -> bytes:
-        xacro.all_includes, parse_file = _Included(roots), xacro.parse
-        files = iter([marked])
+        # xacro appends the name of each file that it reads to a list. This one refuses files outside of the roots.
+        xacro.all_includes = SimpleNamespace(append=lambda name: roots.find(os.path.abspath(name)))
+        parse_file, files = xacro.parse, iter([marked])
 
         def parse_marked(_: None, name: str) -> Any:
             source = next(files, None) or _marked(_narrow(_bytes(Path(name))), os.path.abspath(name), places)
