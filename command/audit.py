@@ -159,18 +159,14 @@ def _audit_file(task: tuple[Path, Path, argparse.Namespace]) -> dict[str, Any]:
     """Return the report document of one file; of its failure if it cannot be audited."""
     path, name, options = task
     try:
-        document = _document(path, name, options)
+        roots = Roots.for_file(path, options.root, options.allow_outside)
+        audit = Auditor(roots).audit(read_description(path, roots))
+        document = audit_report.document(str(path), audit, _write_copy(name, audit, options))
     except MeasureError as error:
         return audit_report.failed_document(str(path), error.finding)
     except Exception as error:
         return audit_report.failed_document(str(path), internal_error.finding_of(error))
     return audit_gate.apply(document, options)
-
-
-def _document(path: Path, name: Path, options: argparse.Namespace) -> dict[str, Any]:
-    roots = Roots.for_file(path, options.root, options.allow_outside)
-    audit = Auditor(roots).audit(read_description(path, roots))
-    return audit_report.document(str(path), audit, _write_copy(name, audit, options))
 
 
 def _write_copy(name: Path, audit: Audit, options: argparse.Namespace) -> str | None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import json
 import os
 from argparse import Namespace
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -69,17 +69,12 @@ def read_baseline(path: Path) -> set[Key]:
 
 def write_baseline(path: Path, documents: Sequence[dict[str, Any]]) -> None:
     """Write all findings but notes, with files relative to the baseline's folder. Raises OSError."""
-    keys = sorted({*_keys(documents, path)})
-    findings = [dict(zip(("file", "link", "code"), key)) for key in keys]
+    links = [link for one in documents for link in one["links"]]
+    told = [(found, link) for link in links for found in link["findings"] if found["severity"] != Severity.NOTE]
+    findings = [dict(zip(("file", "link", "code"), key)) for key in sorted({_key(*one, path) for one in told})]
     text = json.dumps({"schema": SCHEMA, "findings": findings}, ensure_ascii=False, indent=1)
     with whole_file(path) as file:
         file.write((text + "\n").encode("utf-8", "backslashreplace"))
-
-
-def _keys(documents: Sequence[dict[str, Any]], baseline: Path) -> Iterator[Key]:
-    for one in documents:
-        for link in one["links"]:
-            yield from (_key(found, link, baseline) for found in link["findings"] if found["severity"] != Severity.NOTE)
 
 
 def _key(found: dict[str, Any], link: dict[str, Any], baseline: Path) -> Key:

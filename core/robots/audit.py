@@ -196,13 +196,11 @@ class Auditor:
         shape = stated.shape
         if shape.kind != "mesh":
             return _primitive(shape)
-        if stated.points is not None and stated.triangles is not None:
-            return _measured(Surface.from_triangles(stated.points, stated.triangles))
-        # Meshes of an included SDF model are beside it, those of MJCF beside the file that includes.
-        roots = self.roots.at(Path(stated.place.file).parent) if stated.place.file else self.roots
-        key = shape.file, shape.size, roots.base
+        # Meshes of an included SDF model or an attached one of MJCF are beside its file.
+        roots = self.roots.at(Path(stated.beside).parent) if stated.beside else self.roots
+        key = shape.surface, shape.file, shape.size, roots.base
         if key not in self._meshes:
-            surface, upright = read_mesh(roots.find(shape.file))
+            surface, upright = (shape.surface, None) if shape.surface else read_mesh(roots.find(shape.file))
             self._meshes[key] = _measured(surface.transform(np.diag(shape.size)), upright)
         return self._meshes[key]
 
@@ -211,8 +209,8 @@ def _read_entries(link: StatedLink) -> list[Entry]:
     """Return the entries about content that the reader could not use."""
     entries = []
     for found in link.findings:
-        line, column = found.values.get("line", link.place.line), found.values.get("column", 1)
-        entries.append(Entry(found, Place(int(line), int(column), link.place.file)))
+        values = {**link.place._asdict(), "column": 1, **found.values}
+        entries.append(Entry(found, Place(values["line"], values["column"], values.get("source", link.place.file))))
     return entries
 
 
@@ -228,7 +226,7 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
     references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
     is_outside = any(one.code == INERTIAL_CENTER_OUTSIDE for one in wrong)
     diagnoses = diagnose(stated, references, [] if incomplete else _turned(pieces), is_outside)
-    changes = [one for one in diagnoses if one.repaired is not None or one.is_of_geometry]
+    changes = [one for one in diagnoses if one.is_change]
     repaired = changes[-1].repaired if changes else None
     left = wrong
     if repaired is not None:
@@ -257,16 +255,16 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
 
 def _entries(place: Place, diagnoses: Sequence[Diagnosis], explained: Sequence[Finding]) -> list[Entry]:
     """Return one entry for each diagnosis, with the reasons that it explains: the center's, or all other ones."""
-    entries = []
-    are_changes = [one.repaired is not None or one.is_of_geometry for one in diagnoses]
-    for index, (one, is_change) in enumerate(zip(diagnoses, are_changes)):
-        of_center = None if sum(are_changes) == 1 else index == 0
+    entries, is_single = [], sum(one.is_change for one in diagnoses) == 1
+    for index, one in enumerate(diagnoses):
+        if not one.is_change:
+            entries.append(Entry(one.finding, place, compares=True))
+            continue
         reasons = [
-            reason for reason in explained if is_change and of_center in (None, reason.code == INERTIAL_CENTER_OUTSIDE)
+            reason for reason in explained if is_single or (index == 0) == (reason.code == INERTIAL_CENTER_OUTSIDE)
         ]
-        certainty = ("certain" if one.is_certain else "likely") if is_change else ""
-        change = one.finding if is_change else None
-        entries.append(Entry(one.finding, place, tuple(reasons), change, certainty, True))
+        certainty = "certain" if one.is_certain else "likely"
+        entries.append(Entry(one.finding, place, tuple(reasons), one.finding, certainty, True))
     return entries
 
 
@@ -302,17 +300,15 @@ def _turned(pieces: Pieces) -> list[tuple[Finding, Reference]]:
     """Return, for each role with angles, the finding and the geometry if those angles were meant in degrees."""
     result = []
     for found in pieces.values():
-        if any(stated.angles is not None and any(stated.angles) for stated, _ in found):
-            turned = []
-            for stated, piece in found:
-                pose = stated.shape.pose
-                if stated.angles is not None:
-                    pose = Pose(pose.position, rotation_of_angles(*map(radians, stated.angles)))
-                turned.append((replace(stated, shape=replace(stated.shape, pose=pose)), piece))
-            reference = _reference(turned)
-            if reference is not None:
-                change = finding(AUDIT_ANGLES, part="geometry", unit="degrees", wanted="radians")
-                result.append((change, reference))
+        turned = []
+        for stated, piece in found:
+            shape = stated.shape
+            if stated.angles is not None:
+                turn = rotation_of_angles(*map(radians, stated.angles))
+                shape = replace(shape, pose=Pose(shape.pose.position, turn))
+            turned.append((replace(stated, shape=shape), piece))
+        if any(any(stated.angles or ()) for stated, _ in found) and (reference := _reference(turned)) is not None:
+            result.append((finding(AUDIT_ANGLES, part="geometry", unit="degrees", wanted="radians"), reference))
     return result
 
 

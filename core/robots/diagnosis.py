@@ -115,6 +115,11 @@ class Diagnosis:
     is_of_geometry: bool = False
     is_certain: bool = True
 
+    @property
+    def is_change(self) -> bool:
+        """True if something has to change; False for a mere note."""
+        return self.repaired is not None or self.is_of_geometry
+
 
 def diagnose(
     stated: StatedInertial,
@@ -304,43 +309,39 @@ def _signs(stated: StatedInertial) -> Iterator[Change]:
             names = [name for name, sign in zip(PRODUCT_NAMES, signs) if sign == -1.0]
             yield AUDIT_SIGN, {"part": PRODUCTS, "axes": names}, changed
     for signs in (*some, all_of_them):
-        flipped = np.array(signs)
         names = [axis for axis, sign in zip("xyz", signs) if sign == -1.0]
-        yield AUDIT_SIGN, {"part": CENTER, "axes": names}, replace(stated, center=stated.center * flipped)
+        yield AUDIT_SIGN, {"part": CENTER, "axes": names}, _mapped(stated, np.diag(signs))[1]
     for axis in range(3):
-        mirror = np.ones(3)
-        mirror[axis] = -1.0
-        changed = stated.along_link(stated.inertia * np.outer(mirror, mirror), center=stated.center * mirror)
-        yield AUDIT_MIRRORED, {"axis": "xyz"[axis]}, changed
+        yield AUDIT_MIRRORED, {"axis": "xyz"[axis]}, _mapped(stated, np.diag(1.0 - 2.0 * np.eye(3)[axis]))[2]
+
+
+def _mapped(stated: StatedInertial, linear: NDArray) -> tuple[StatedInertial, StatedInertial, StatedInertial]:
+    """Return an inertial with the inertia, the center, and both mapped by a (3, 3) orthogonal matrix."""
+    inertia, center = linear @ stated.inertia @ linear.T, linear @ stated.center
+    return stated.along_link(inertia), replace(stated, center=center), stated.along_link(inertia, center=center)
 
 
 def _orders(stated: StatedInertial) -> Iterator[Change]:
     """Yield changes that reorder the axes of the tensor, the center or both, or turn them by 90 degrees."""
+    diagonal = np.diag(np.diag(stated.inertia))
     for order in AXES:
         swapped = stated.inertia[np.ix_(order, order)]
-        center, diagonal = stated.center[order], np.diag(np.diag(stated.inertia))
         other_diagonal = np.diag(np.diag(swapped))
         axes = "".join("xyz"[axis] for axis in order)
         # Products alone, such as ixz before ixy, have the order of the pairs of axes.
         pairs = " ".join("".join(sorted(axes[i] + axes[j])) for i, j in ((0, 1), (0, 2), (1, 2)))
-        for part, text, changed in (
-            ("axes of the inertia", axes, stated.along_link(swapped)),
-            (CENTER_AXES, axes, replace(stated, center=center)),
-            ("axes of the inertial", axes, stated.along_link(swapped, center=center)),
-            ("diagonal of the inertia", axes, stated.along_link(stated.inertia - diagonal + other_diagonal)),
-            (PRODUCTS, pairs, stated.along_link(diagonal + (swapped - other_diagonal))),
-        ):
-            yield AUDIT_ORDER, {"part": part, "order": text}, changed
-    for axis in range(3):  # A quarter turn, such as y up instead of z up.
-        for way in (1.0, -1.0):
-            turn = np.eye(3)
-            first, second = (axis + 1) % 3, (axis + 2) % 3
-            turn[first, first] = turn[second, second] = 0.0
-            turn[first, second], turn[second, first] = -way, way
-            inertia, center = turn @ stated.inertia @ turn.T, turn @ stated.center
-            name = "xyz"[axis]
-            yield AUDIT_TURNED, {"part": "inertial", "axis": name}, stated.along_link(inertia, center=center)
-            yield AUDIT_TURNED, {"part": "inertia", "axis": name}, stated.along_link(inertia)
+        parts = "axes of the inertia", CENTER_AXES, "axes of the inertial"
+        for part, changed in zip(parts, _mapped(stated, np.eye(3)[order])):
+            yield AUDIT_ORDER, {"part": part, "order": axes}, changed
+        changed = stated.along_link(stated.inertia - diagonal + other_diagonal)
+        yield AUDIT_ORDER, {"part": "diagonal of the inertia", "order": axes}, changed
+        changed = stated.along_link(diagonal + (swapped - other_diagonal))
+        yield AUDIT_ORDER, {"part": PRODUCTS, "order": pairs}, changed
+    for axis, way in product(range(3), (1.0, -1.0)):  # A quarter turn, such as y up instead of z up.
+        along = np.eye(3)[axis]
+        tensor, _, both = _mapped(stated, np.outer(along, along) + way * np.cross(along, np.eye(3)).T)
+        yield AUDIT_TURNED, {"part": "inertial", "axis": "xyz"[axis]}, both
+        yield AUDIT_TURNED, {"part": "inertia", "axis": "xyz"[axis]}, tensor
 
 
 def _transposed(stated: StatedInertial) -> Iterator[Change]:

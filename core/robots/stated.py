@@ -73,7 +73,7 @@ class StatedShape:
 
     `shape`: for a mesh, its `file` is the name in the description.
     `angles`: roll, pitch and yaw, if the pose was stated so.
-    `points`, `triangles`: of a mesh in the description itself, else None.
+    `beside`: the file that the names of its meshes are relative to, "" for the description itself.
     ValueError, with the numbers as text, if a size is not positive, a factor of a mesh is zero, or a size or the place
     is not finite, or too large or small to compute with.
     """
@@ -81,17 +81,16 @@ class StatedShape:
     shape: Shape
     role: str
     angles: Angles | None = None
-    points: NDArray[np.float64] | None = None
-    triangles: NDArray[np.integer] | None = None
     place: Place = Place()
+    beside: str = ""
 
     def __post_init__(self) -> None:
         shape = self.shape
         sizes = np.abs(shape.size) if shape.kind == "mesh" else np.array(shape.size)
         if not ((sizes >= LEAST) & (sizes <= MOST)).all():
             raise ValueError(" ".join(map("{:.16g}".format, shape.size)))
-        for values in (shape.pose.position, shape.pose.rotation, self.points):
-            if values is not None and not (np.abs(values) <= MOST).all():
+        for values in (shape.pose.position, shape.pose.rotation):
+            if not (np.abs(values) <= MOST).all():
                 raise ValueError(" ".join(map("{:.16g}".format, values.ravel()[:9])))
 
 

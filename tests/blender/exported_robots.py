@@ -74,10 +74,7 @@ def _stated(link, roots):
 
 
 def _corners(stated, roots):
-    if stated.points is not None:
-        return stated.points[stated.triangles]
-    surface, _ = read_mesh(roots.find(stated.shape.file))
-    pose = stated.shape.pose
+    surface, pose = stated.shape.surface or read_mesh(roots.find(stated.shape.file))[0], stated.shape.pose
     return surface.points[surface.all_triangles()[0]] @ pose.rotation.T + pose.position
 
 

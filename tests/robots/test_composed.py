@@ -115,6 +115,34 @@ def test_xacro_is_expanded_within_the_roots(tmp_path, monkeypatch):
     assert "nope" in refusal(path).values["error"]
 
 
+def test_faults_of_xacro_have_the_places_of_their_elements(tmp_path):
+    """In the file that was named, and in the macro of another one; each at the element that was expanded."""
+    pytest.importorskip("xacro")
+    (tmp_path / "urdf").mkdir()
+    inner = MACRO.replace("<inertial>", "\n <inertial>").replace("<collision>", "\n\n  <collision>\n")
+    inner = inner.replace("<box", '<mesh filename="${name}.stl"/></geometry></collision><visual><geometry><box')
+    inner = inner.replace("</collision></link>", "</visual></link>")
+    (tmp_path / "urdf" / "m.xacro").write_text(inner)
+    (tmp_path / "b.stl").write_text("")  # It is beside the file that is named.
+    path = tmp_path / "r.urdf.xacro"
+    own = '\n<link name="own">\n <inertial><mass value="nope"/></inertial></link>\n<xacro:if value="1">'
+    own += '<link name="mass"><inertial>\n<mass value="-1"/></inertial></link></xacro:if></robot>'
+    path.write_text(ROBOT.replace("FILE", "urdf/m.xacro").replace("</robot>", own))
+    links = {one.link.name: one for one in Auditor(Roots.for_file(path)).audit(read_description(path)).links}
+    macro = str(tmp_path / "urdf" / "m.xacro")
+    places = {name: [(str(entry.finding.code), *entry.place) for entry in one.entries] for name, one in links.items()}
+    assert places == {
+        "a": [("mesh_missing", 6, 3, macro)],
+        "b": [("mesh_unreadable", 6, 3, macro)],
+        "own": [("description_number", 4, 12, "")],
+        "mass": [("inertial_not_positive", 5, 39, "")] * 2,
+    }
+    assert {name: one.link.place for name, one in links.items()} == {
+        **{"a": (2, 1, macro), "b": (2, 1, macro)},
+        **{"own": (3, 1, ""), "mass": (5, 21, "")},
+    }
+
+
 def test_xacro_without_its_module_names_the_command(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "xacro", None)
     path = tmp_path / "r.xacro"

@@ -1,12 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies in nested and scaled frames of MJCF, as our reader and as MuJoCo place and scale them."""
+"""Nested and scaled frames of MJCF, attached models and inline meshes, as our reader and as MuJoCo have them."""
 
 import mujoco
 import numpy as np
 import pytest
-from body_moments.core.robots.read.descriptions import read_description
+from body_moments.core.robots.audit import Auditor
+from body_moments.core.robots.read.descriptions import Roots, read_description
+from body_moments.core.verdict.finding import FileError
 
+MODEL = '<mujoco><compiler inertiafromgeom="false"/>{}<worldbody>{}</worldbody></mujoco>'
 EVEN, UNEVEN = "scale=", 'scaling="geometry" scale='
 
 
@@ -60,27 +63,160 @@ def matrix(quaternion):
     return flat.reshape(3, 3)
 
 
-@pytest.mark.parametrize("seed", range(20))
-def test_frames_are_those_of_mujoco(tmp_path, seed):
-    compiler = '<compiler inertiafromgeom="false"/>'
-    path = tmp_path / "model.xml"
-    path.write_text("<mujoco>{}<worldbody>{}</worldbody></mujoco>".format(compiler, Writer(seed).body(4)))
+def check_links(path):
+    """Compare names, inertials and shapes with those of MuJoCo, and return our links."""
     model = mujoco.MjModel.from_xml_path(str(path))
     links = read_description(path).links
-    assert len(links) == model.nbody - 1
-    for link in links:
+    assert [link.name for link in links] == [model.body(index).name for index in range(1, model.nbody)]
+    for index, link in enumerate(links, start=1):
         assert not link.findings
-        index, stated = model.body(link.name).id, link.inertial
-        turn = matrix(model.body_iquat[index])
-        np.testing.assert_allclose(stated.mass, model.body_mass[index], rtol=1e-12)
-        np.testing.assert_allclose(stated.center, model.body_ipos[index], rtol=0, atol=1e-12 * max(abs(stated.center)))
-        inertia = turn @ np.diag(model.body_inertia[index]) @ turn.T
-        np.testing.assert_allclose(stated.inertia, inertia, rtol=0, atol=1e-9 * stated.inertia.max())
+        if link.inertial is not None:
+            stated, turn = link.inertial, matrix(model.body_iquat[index])
+            np.testing.assert_allclose(stated.mass, model.body_mass[index], rtol=1e-12)
+            np.testing.assert_allclose(stated.center, model.body_ipos[index], atol=1e-12 * max(abs(stated.center)))
+            inertia = turn @ np.diag(model.body_inertia[index]) @ turn.T
+            np.testing.assert_allclose(stated.inertia, inertia, rtol=0, atol=1e-9 * stated.inertia.max())
         geoms = range(model.body_geomadr[index], model.body_geomadr[index] + model.body_geomnum[index])
         found = {tuple(np.round(model.geom_pos[geom], 9)): geom for geom in geoms}
         assert len(link.shapes) == len(geoms)
-        for shape in (stated.shape for stated in link.shapes):
+        for shape in (stated.shape for stated in link.shapes if stated.shape.kind != "mesh"):
             geom = found[tuple(np.round(shape.pose.position, 9))]
             halves = {"box": 0.5, "capsule": (1.0, 0.5), "cylinder": (1.0, 0.5)}.get(shape.kind, 1.0)
             np.testing.assert_allclose(np.multiply(shape.size, halves), model.geom_size[geom, : len(shape.size)])
             np.testing.assert_allclose(shape.pose.rotation, matrix(model.geom_quat[geom]), atol=1e-9)
+    return links
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_frames_are_those_of_mujoco(tmp_path, seed):
+    path = tmp_path / "model.xml"
+    path.write_text(MODEL.format("", Writer(seed).body(4)))
+    check_links(path)
+
+
+CHILD = """<mujoco model="child"><compiler angle="radian" meshdir="meshes" eulerseq="XYZ" inertiafromgeom="false"/>
+<asset><mesh file="t.obj"/><model name="inner" file="more/inner.xml"/></asset>
+<default><geom size="7"/><default class="k"><geom size="3"/></default></default><include file="part.xml"/>
+<worldbody><geom size=".5" pos="0 0 9"/><frame name="fr" pos="10 0 0" scale="2" massscale="3"><body name="b" pos="1 2 3"
+euler="1 0 .5" childclass="k">{0}<geom/><frame euler="0 1 0"><geom pos="1 2 3"/><attach model="inner" prefix="i_"/>
+</frame><geom type="mesh" mesh="t" pos="5 5 5"/></body></frame><body name="out" childclass="k"><body name="deep">{0}
+<geom/></body></body></worldbody></mujoco>"""
+INERTIAL = '<inertial mass="2" pos="1 0 0" euler="0 .3 0" diaginertia="1 2 2.5"/>'
+INNER = """<mujoco><worldbody><geom size="2" pos="4 4 4"/><body name="i" euler="90 0 0">{}<geom size="1"/></body>
+</worldbody></mujoco>"""
+MESH = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+
+def write_child(folder):
+    (folder / "child" / "more").mkdir(parents=True)
+    (folder / "child" / "meshes").mkdir()
+    (folder / "child" / "meshes" / "t.obj").write_text(MESH)
+    (folder / "child" / "part.xml").write_text(
+        '<mujoco><worldbody><body name="part"><geom/></body></worldbody></mujoco>'
+    )
+    (folder / "child" / "more" / "inner.xml").write_text(INNER.format(INERTIAL))
+    (folder / "child" / "c.xml").write_text(CHILD.format(INERTIAL))
+
+
+@pytest.mark.parametrize("chosen", ['body="b"', 'body="deep"', 'frame="fr"', ""])
+def test_attached_models_are_those_of_mujoco(tmp_path, chosen):
+    """Names have all prefixes; a body leaves its own frames behind, and models have their own settings and folders."""
+    write_child(tmp_path)
+    asset = '<asset><model name="m" file="child/c.xml"/></asset><default><geom size="11"/></default>'
+    attach = '<attach model="m" {} prefix="{}"/>'
+    body = '<body name="own"><geom/><frame pos="0 0 5" euler="0 0 90" scale="3">{}</frame></body>{}'
+    path = tmp_path / "model.xml"
+    path.write_text(MODEL.format(asset, body.format(attach.format(chosen, "p_"), attach.format(chosen, "q_"))))
+    links = check_links(path)
+    assert all(link.span is None and link.place.file for link in links[1:])
+    for one in Auditor(Roots.for_file(path)).audit(read_description(path)).links:
+        assert not any(entry.finding.code.startswith("mesh") for entry in one.entries)
+
+
+@pytest.mark.parametrize(
+    "fault, code",
+    [("out", "mesh_outside"), ("none", "mesh_missing"), ("own", "include_twice"), ("robot", "description_unknown")],
+)
+def test_attached_file_keeps_the_rules_of_includes(tmp_path, fault, code):
+    folder = tmp_path / "a" / "b"
+    folder.mkdir(parents=True)
+    names = {"out": tmp_path / "out.xml", "own": folder / "own.xml", "robot": folder / "robot.xml"}
+    model = MODEL.format('<asset><model name="m" file="{}.xml"/></asset>', '<body name="b"/>')
+    for name, path in names.items():
+        path.write_text("<robot/>" if name == "robot" else model.format("own"))
+    path = folder / "model.xml"
+    path.write_text(model.format("../../out" if fault == "out" else fault))
+    with pytest.raises(FileError) as refused:
+        read_description(path)
+    found = refused.value.finding
+    assert code in (found.code, found.values.get("cause", {}).get("code")) and found.values["line"] == 1
+
+
+def test_attached_model_without_its_body_is_a_finding(tmp_path):
+    write_child(tmp_path)
+    path = tmp_path / "model.xml"
+    for attach in ('model="m" body="none"', 'model="none" body="b"', 'body="own"'):
+        body = '<body name="own"><geom size="1"/>\n<attach {} prefix="p_"/></body>'.format(attach)
+        path.write_text(MODEL.format('<asset><model name="m" file="child/c.xml"/></asset>', body))
+        (link,) = read_description(path).links
+        assert [(one.code, one.values["line"]) for one in link.findings] == [("description_number", 2)]
+
+
+def test_attachments_of_attachments_are_limited(tmp_path):
+    """Forty models that attach the next one twice each are 2^40 bodies."""
+    for index in range(40):
+        body = '<frame><attach model="m" prefix="a"/><attach model="m" prefix="b"/></frame>'
+        asset = '<asset><model name="m" file="{}.xml"/></asset>'.format(index + 1)
+        (tmp_path / "{}.xml".format(index)).write_text(MODEL.format(asset, '<body name="b"/>' + body))
+    (tmp_path / "40.xml").write_text(MODEL.format("", '<geom size="1"/>'))
+    with pytest.raises(FileError) as refused:
+        read_description(tmp_path / "0.xml")
+    assert refused.value.finding.code == "file_too_large"
+
+
+STAR = "0 0 0 1 0 0 0 2 0 0 0 3 .2 .2 .2"  # Its last vertex is within the hull of the others.
+FACES = 'face="0 2 1 0 1 3 0 3 2 1 2 4 2 3 4 3 1 4"'
+
+
+@pytest.mark.parametrize("faces", ["", FACES])
+@pytest.mark.parametrize(
+    "more", ["", 'class="big"', 'scale="-2 1 3"', 'scale="2 2 2" refpos="1 2 3" refquat="1 2 3 4"']
+)
+@pytest.mark.parametrize("frame", ["", 'scale=".5" pos="1 2 3"'])
+def test_inline_mesh_has_the_inertia_of_mujoco(tmp_path, faces, more, frame):
+    """Its own inertia, as MuJoCo computes it from single-precision vertices, has no finding."""
+    mesh = '<asset><mesh name="m" vertex="{}" {} {}/></asset>'.format(STAR, faces, more)
+    head = '<default><mesh inertia="exact"/><default class="big"><mesh scale="2 2 2"/></default></default>' + mesh
+    body = '<body name="a">{}<frame {}><geom type="mesh" mesh="m" pos="3 2 1" euler="10 20 30"/></frame></body>'
+    path = tmp_path / "model.xml"
+    path.write_text("<mujoco>{}<worldbody>{}</worldbody></mujoco>".format(head, body.format("", frame)))
+    model = mujoco.MjModel.from_xml_path(str(path))
+    numbers = model.body_mass[1], model.body_ipos[1], model.body_iquat[1], model.body_inertia[1]
+    form = '<inertial mass="{}" pos="{}" quat="{}" diaginertia="{}"/>'
+    inertial = form.format(*(" ".join(map(repr, np.ravel(values).tolist())) for values in numbers))
+    path.write_text(MODEL.format(head, body.format(inertial, frame)))
+    (one,) = Auditor(Roots.for_file(path)).audit(read_description(path)).links
+    assert not one.entries
+    np.testing.assert_allclose(one.density, 1000.0, rtol=1e-5)
+    np.testing.assert_allclose(one.geometry.inertia, one.link.inertial.inertia, atol=1e-5 * model.body_inertia[1].max())
+    np.testing.assert_allclose(one.geometry.center, one.link.inertial.center, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        "0 0 0 1 0",
+        "0 0 0 1 0 0 2 0 0 3 0 0",
+        "0 0 nan 1 0 0 0 1 0 0 0 1",
+        STAR + '" face="0 1 9',
+        STAR + '" face="0 1',
+        STAR + '" face="0 1 1.5',
+        "x y z",
+    ],
+)
+def test_wrong_inline_mesh_is_a_finding_at_its_asset(tmp_path, numbers):
+    path = tmp_path / "model.xml"
+    body = '<body name="a">{}<geom type="mesh" mesh="m"/></body>'.format(INERTIAL)
+    path.write_text(MODEL.format('\n<asset><mesh name="m" vertex="{}"/></asset>\n\n'.format(numbers), body))
+    (one,) = Auditor(Roots.for_file(path)).audit(read_description(path)).links
+    assert [(entry.finding.code, entry.place.line) for entry in one.entries] == [("description_number", 2)]

@@ -16,7 +16,9 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from importlib import import_module
+from io import BytesIO
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from ...scans.findings import FILE_MISSING, FILE_NOT_REGULAR
@@ -41,6 +43,7 @@ _WIDE = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16", b"<\0": "
 _ENCODING = re.compile(r"""^(<\?xml\b[^>]*?)\s+encoding\s*=\s*["'][\w.-]*["']""")
 _USD = "#usda"
 _LAYERED = re.compile(rb"\b(?:references|payload|subLayers)\s*=\s*(?:\[[^\]@]*)?@")
+_MARK = "body_moments_place"
 _QUEUE = ThreadPoolExecutor(1)  # One file at a time: xacro keeps what it reads in global variables.
 MAX_DESCRIPTION = 64 << 20  # bytes
 MAX_LINKS = 100_000
@@ -140,13 +143,8 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
     is_binary = data.startswith((b"PXR-USDC", b"PK"))
     is_composed = is_binary or is_text and _LAYERED.search(data) is not None
     if is_text or is_binary:
-        if is_composed:
-            data = _compose_usd(path, roots)
-        description = AUDITED[_USD].reader_module.read(data)
+        description = AUDITED[_USD].reader_module.read(_compose_usd(path, roots) if is_composed else data)
     else:
-        if path.suffix.lower() == ".xacro":
-            parse(data)  # It refuses entities.
-            data, is_composed = _expand_xacro(path, roots), True
         description = _xml(data, roots, path)
     if is_composed:  # The file itself does not hold the inertials.
         nowhere = {"span": None, "place": Place(), "inertial_place": Place()}
@@ -179,7 +177,7 @@ def _check_bytes(count: int) -> None:
 
 def _xml(data: bytes, roots: Roots, path: Path) -> Description:
     data = _narrow(data)
-    root = parse(data)
+    root = _expand_xacro(path, data, roots) if path.suffix.lower() == ".xacro" else parse(data)
     if root.tag not in AUDITED:
         raise FileError(DESCRIPTION_UNKNOWN, tag=root.tag)
     if root.tag in ("mujoco", "sdf"):
@@ -199,21 +197,24 @@ def _narrow(data: bytes) -> bytes:
 
 
 def _include(root: Node, roots: Roots, own: Path) -> None:
-    """Replace each `include` of MJCF or SDF by the file's elements, which have no place in the model's own file."""
+    """Replace each `include` of MJCF or SDF by the file's elements, which have no place in the model's own file.
+
+    Models that MJCF attaches become children of their elements.
+    """
     is_mjcf = root.tag == "mujoco"
-    waiting: list[tuple[Node, int, Roots, tuple[Path, ...]]] = [(root, 1, roots, (own,))]
-    included = [own]
-    total, count = 0, 0
+    waiting: list[tuple[Node, int, Roots, tuple[Path, ...], list[Path]]] = [(root, 1, roots, (own,), [own])]
+    total, count, files = 0, 0, 0
     while waiting:
-        node, depth, beside, within = waiting.pop()
+        node, depth, beside, within, model = waiting.pop()
         count += 1
         check_size(depth, count)
         children, pending = [], [(child, beside, within) for child in reversed(node.children)]
         while pending:
             child, here, above = pending.pop()
-            if child.tag != "include":
+            is_attached = is_mjcf and node.tag == "asset" and child.tag == "model"
+            if child.tag != "include" and not is_attached:
                 children.append(child)
-                waiting.append((child, depth + 1, here, above))
+                waiting.append((child, depth + 1, here, above, model))
                 continue
             uri = child.find("uri")
             name = child.get("file") if is_mjcf else uri.text.strip() if uri is not None else ""
@@ -221,18 +222,37 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
             try:
                 path = here.find(name) if is_mjcf else _model_file(name, here)
                 data = _bytes(path)
-                total += len(data)
+                total, files = total + len(data), files + 1
                 _check_bytes(total)
                 found = parse(_narrow(data), str(path))
+                if is_attached and found.tag != root.tag:
+                    raise FileError(DESCRIPTION_UNKNOWN, tag=found.tag)
             except FileError as error:
                 raise FileError(INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **place) from error
-            # MuJoCo refuses a second time; models of SDF may repeat, but not include themselves.
-            if path in (included if is_mjcf else above) or len(included) > MAX_INCLUDES:
+            # A model of MuJoCo includes a file once; all models may repeat, but not include themselves.
+            if path in (model if is_mjcf and not is_attached else above) or files > MAX_INCLUDES:
                 raise FileError(INCLUDE_TWICE, name=name, **place)
-            included.append(path)
-            there = here if is_mjcf else here.at(path.parent)
-            pending += [(below, there, (*above, path)) for below in reversed(found.children)]
+            there, inside = here if is_mjcf and not is_attached else here.at(path.parent), (*above, path)
+            if is_attached:
+                child.children = [found]
+                children.append(child)
+                waiting.append((found, depth + 1, there, inside, [path]))
+            else:
+                model.append(path)
+                _override(child, found)
+                pending += [(below, there, inside) for below in reversed(found.children)]
         node.children = children
+
+
+def _override(include: Node, found: Node) -> None:
+    """Give the models that SDF includes the name, the pose and the placement frame that the including file states."""
+    stated = {child.tag: child for child in include.children}
+    for node in found.all("model") if "uri" in stated else ():
+        for name in ("name", "placement_frame"):
+            if name in stated:
+                node.attributes[name] = stated[name].text.strip()
+        if "pose" in stated:
+            node.children = [stated["pose"], *(child for child in node.children if child.tag != "pose")]
 
 
 def _model_file(name: str, roots: Roots) -> Path:
@@ -294,34 +314,51 @@ def _check_layers(sdf: Any, path: Path, roots: Roots) -> None:
             waiting.append(sdf.Layer.FindOrOpen(target))
 
 
-class _Included(list):
-    """xacro's list of included files, each of which must be within the roots."""
-
-    def __init__(self, roots: Roots) -> None:
-        super().__init__()
-        self._roots = roots
-
-    def append(self, name: str) -> None:
-        """Add a file that is about to be read. FileError if it is outside of the roots."""
-        self._roots.find(os.path.abspath(name))
-        super().append(name)
+def _marked(data: bytes, file: str, places: dict[str, Place]) -> bytes:
+    """Return XML whose elements have the key of their place as an attribute, which macros of xacro pass on."""
+    parts, end = [], 0
+    for node in parse(data).walk():
+        if ":" not in node.tag:  # Elements of xacro itself take no other attributes.
+            start, end = end, node.start + 1 + len(node.tag.encode())
+            parts += [data[start:end], b' %s="%d"' % (_MARK.encode(), len(places))]
+            places[str(len(places))] = node.place._replace(file=file)
+    return b"".join([*parts, data[end:]])
 
 
-def _expand_xacro(path: Path, roots: Roots) -> bytes:
-    """Return the XML that xacro makes of a file. It evaluates the file's expressions as Python."""
+def _expand_xacro(path: Path, data: bytes, roots: Roots) -> Node:
+    """Return the element that xacro makes of a file. It evaluates the file's expressions as Python."""
+    places: dict[str, Place] = {}
+    marked = _marked(data, "", places)
     try:
         xacro: Any = import_module("xacro")
     except ImportError as error:
         raise FileError(XACRO_NOT_EXPANDED, name=path.name, error=str(error)) from error
 
     def expand() -> bytes:
-        xacro.all_includes = _Included(roots)
-        return xacro.process_file(str(path), verbosity=0).toxml("utf-8")
+        # xacro appends the name of each file that it reads to a list. This one refuses files outside of the roots.
+        xacro.all_includes = SimpleNamespace(append=lambda name: roots.find(os.path.abspath(name)))
+        parse_file, files = xacro.parse, iter([marked])
+
+        def parse_marked(_: None, name: str) -> Any:
+            source = next(files, None) or _marked(_narrow(_bytes(Path(name))), os.path.abspath(name), places)
+            return parse_file(BytesIO(source))
+
+        xacro.parse = parse_marked
+        try:
+            return xacro.process_file(str(path), verbosity=0).toxml("utf-8")
+        finally:
+            xacro.parse = parse_file
 
     try:
-        return _QUEUE.submit(expand).result()
+        root = parse(_QUEUE.submit(expand).result(), str(path))
     except FileError as error:
         raise FileError(INCLUDE_UNREADABLE, name=path.name, cause=error.finding.as_record()) from error
     except (Exception, SystemExit) as error:  # whatever an expression of the file raises
         reason = " ".join(str(error).split())[:200]
         raise FileError(XACRO_NOT_EXPANDED, name=path.name, error=reason) from error
+    waiting = [(root, Place())]
+    while waiting:
+        node, above = waiting.pop()
+        node.place = places.get(node.attributes.pop(_MARK, ""), above)
+        waiting += [(child, node.place) for child in node.children]
+    return root

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import json
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +26,7 @@ from ...streams.stl import StlFile
 from ...verdict.finding import FileError, finding, system_reason
 from ...verdict.number_text import parse_number, parse_numbers, parse_whole, parse_wholes
 from ..findings import MESH_UNREADABLE
-from ..stated import rotation_about
+from ..stated import MOST, rotation_about
 from ..write.gltf import BINARY, JSON, chunks
 from .xml import MAX_DEPTH, Node, parse
 
@@ -267,6 +267,19 @@ def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int6
     step = np.arange(cut.sum()) - np.repeat(np.cumsum(cut) - cut, cut)
     first = starts[face]
     return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)
+
+
+def checked_surface(texts: Sequence[str], points: NDArray, sizes: NDArray, corners: NDArray) -> Surface:
+    """Return faces of given sizes over points, three numbers each. ValueError, with its text, if an array is wrong."""
+    is_right = (
+        len(points) % 3 == 0 and (np.abs(points) <= MOST).all(),
+        (sizes >= 0).all() and (sizes == np.rint(sizes)).all() and sizes.sum() == len(corners),
+        len(corners) and (corners == np.rint(corners)).all() and 0 <= corners.min() <= corners.max() < len(points) // 3,
+    )
+    for text, is_fine in zip(texts, is_right):
+        if not is_fine:
+            raise ValueError(text[:80])
+    return Surface.from_triangles(points.reshape(-1, 3), fan(sizes.astype(np.int64), corners.astype(np.int64)))
 
 
 READERS: dict[str, Callable[[Path], tuple]] = {".stl": read_stl, ".obj": read_obj, ".glb": read_glb, ".dae": read_dae}

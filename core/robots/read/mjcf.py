@@ -2,21 +2,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reader of MJCF: the inertials and shapes of its bodies.
 
-It applies defaults by class, the compiler's angle unit and Euler order, and mesh folders.
+It applies defaults by class, the compiler's angle unit and Euler order, and mesh folders. Models that it attaches have
+their own.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from math import inf, radians
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...mesh.hulls import convex_hull
+from ...mesh.surface import Surface
 from ...numerics.rotations import rotation_matrix
-from ...verdict.finding import Finding
+from ...verdict.finding import Finding, MeasureError
 from ...verdict.number_text import parse_numbers
 from ..model import Pose, Shape
 from ..stated import (
@@ -24,40 +28,81 @@ from ..stated import (
     MOST,
     Angles,
     Description,
-    Place,
     StatedInertial,
     StatedLink,
     StatedShape,
     rotation_about,
 )
-from .xml import FLAT_KINDS, NOWHERE, Node, attempt, number, numbers
+from .meshes import checked_surface
+from .xml import FLAT_KINDS, Node, attempt, check_size, number, numbers, stated_link
 
 SQUARE_ATOL = 1e-9  # of the entries of a rotation between axes, which are 0 or 1
 LEAST_LENGTH = 1e-14  # of a direction; shorter ones are rounding errors, also for MuJoCo
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 
 
-@dataclass(eq=False)
 class _Model:
-    """The settings of a whole file."""
+    """The settings and assets of a whole file. count: counts the elements of all models together."""
 
-    degrees: bool = True
-    euler: str = "xyz"
-    mesh_folder: str = ""
-    meshes: dict[str, tuple[str, str]] = field(default_factory=dict)  # path and scale
-    classes: dict[str, dict[str, dict[str, str]]] = field(default_factory=dict)
+    def __init__(self, root: Node, count: Iterator[int]) -> None:
+        self.root, self.count = root, count
+        self.degrees, self.euler, self.mesh_folder = True, "xyz", ""
+        self.meshes: dict[str, Node] = {}
+        self.models: dict[str, _Model] = {}
+        self._shapes: dict[Node, Shape] = {}  # those of the meshes that were read
+        self._classes: dict[str, dict[str, dict[str, str]]] = {}
+        for compiler in root.all("compiler"):
+            self.degrees = compiler.get("angle", "degree" if self.degrees else "radian") != "radian"
+            self.euler = compiler.get("eulerseq", self.euler)
+            self.mesh_folder = compiler.get("meshdir", compiler.get("assetdir", self.mesh_folder))
+        for defaults in root.all("default"):
+            self._add_defaults(defaults, "main", {})
+        for asset in (asset for assets in root.all("asset") for asset in assets.children):
+            if asset.tag == "mesh":
+                file = asset.get("file").replace("\\", "/")
+                self.meshes[asset.get("name") or file.rpartition("/")[2].rpartition(".")[0]] = asset
+            elif asset.tag == "model" and asset.children:
+                (inner,) = asset.children
+                self.models[asset.get("name") or inner.get("model")] = _Model(inner, count)
+
+    def _add_defaults(self, node: Node, name: str, above: dict[str, dict[str, str]]) -> None:
+        own = self._classes[name] = {tag: dict(values) for tag, values in above.items()}
+        for child in node.children:
+            if child.tag != "default":
+                own.setdefault(child.tag, {}).update(child.attributes)
+        for child in node.all("default"):
+            self._add_defaults(child, child.get("class"), own)
+
+    def attributes(self, node: Node, current: str = "main") -> dict[str, str]:
+        """Return the attributes of an element and its defaults. current: the class of those that name none."""
+        return self._classes.get(node.get("class") or current, {}).get(node.tag, {}) | node.attributes
+
+    def mesh(self, node: Node) -> Shape:
+        """Return the mesh of an asset, which MuJoCo moves and turns before it scales it."""
+        if node not in self._shapes:
+            values = self.attributes(node)
+            scaled = _Frame(self, scale=numbers(values.get("scale", ""), 3, (1.0, 1.0, 1.0)))
+            turn = _rotation({"quat": values["refquat"]} if "refquat" in values else {}, self)[0].T
+            size = scaled.scale_along(turn, values.get("refquat", ""))
+            pose = scaled.place(-turn @ numbers(values.get("refpos", ""), 3, (0.0, 0.0, 0.0)), turn)
+            file, surface = values.get("file", ""), _surface(values) if "vertex" in values else None
+            path = file if file.startswith("/") or not self.mesh_folder else self.mesh_folder + "/" + file
+            self._shapes[node] = Shape("mesh", tuple(size.tolist()), pose, path, surface=surface)
+        return self._shapes[node]
 
 
 class _Frame(NamedTuple):
     """The frame that elements of a body stand in: its pose in the body, what scales it, and the class of its defaults.
 
-    scale: (3,) along the frame's axes. mass: the factor of masses.
+    scale: (3,) along the frame's axes. mass: the factor of masses. prefix: of the names of bodies.
     """
 
+    model: _Model
     pose: Pose = Pose()
     scale: NDArray[np.float64] = np.ones(3)
     mass: float = 1.0
     defaults: str = "main"
+    prefix: str = ""
 
     @property
     def is_plain(self) -> bool:
@@ -66,21 +111,36 @@ class _Frame(NamedTuple):
         is_in_place = not pose.position.any() and bool((pose.rotation == np.eye(3)).all())
         return is_in_place and self.mass == 1.0 and bool((self.scale == 1.0).all())
 
-    def enter(self, node: Node, model: _Model) -> _Frame:
-        """Return the frame of an element `frame` in this one."""
-        turn, position = _rotation(node.attributes, model)[0], numbers(node.get("pos"), 3, (0.0, 0.0, 0.0))
+    def enter(self, node: Node) -> _Frame:
+        """Return the frame of an element `frame` in this one, or that of a `body`, scaled as this one."""
+        turn, position = _rotation(node.attributes, self.model)[0], numbers(node.get("pos"), 3, (0.0, 0.0, 0.0))
         text = node.get("scale")
         own = numbers(text, 3) if len(text.split()) > 1 else np.full(3, number(text, 1.0))
         if not ((own >= LEAST) & (own <= MOST)).all():
             raise ValueError(text)
-        scale = self.scale_along(turn, text) * own
+        scale = self.scale_along(turn, text or node.get("name")) * own
         mass = self.mass * number(node.get("massscale"), float(own.prod()))
-        return _Frame(self.place(position, turn), scale, mass, node.get("childclass") or self.defaults)
+        pose = Pose() if node.tag == "body" else self.place(position, turn)
+        return self._replace(pose=pose, scale=scale, mass=mass, defaults=node.get("childclass") or self.defaults)
 
-    def enter_body(self, node: Node, model: _Model) -> _Frame:
-        """Return the frame of an element `body` in this one: its own, scaled as this one."""
-        turn, text = _rotation(node.attributes, model)[0], node.get("name")
-        return _Frame(Pose(), self.scale_along(turn, text), self.mass, node.get("childclass") or self.defaults)
+    def attach(self, node: Node) -> tuple[list[Node], _Frame]:
+        """Return the elements of another model that an element `attach` names, and their frame."""
+        model = self.model.models.get(node.get("model"))
+        if model is None:
+            raise ValueError(node.get("model"))
+        worlds, names = model.root.all("worldbody"), {tag: node.get(tag) for tag in ("body", "frame") if node.get(tag)}
+        inner = self._replace(model=model, defaults="main", prefix=self.prefix + node.get("prefix"))
+        if not names:
+            return [child for world in worlds for child in world.children], inner
+        waiting = [(world, "main") for world in worlds]
+        while waiting:
+            part, current = waiting.pop()
+            check_size(1, next(model.count))
+            if part.get("name") == names.get(part.tag, part):
+                return [part], inner._replace(defaults=current)
+            current = part.get("childclass") or current
+            waiting += [(child, current) for child in part.children]
+        raise ValueError(*names.values())
 
     def place(self, position: NDArray, turn: NDArray) -> Pose:
         """Return the pose in the body of a pose in this frame."""
@@ -96,78 +156,53 @@ class _Frame(NamedTuple):
 
 def read(root: Node, data: bytes) -> Description:
     """Return a description from the element `mujoco`."""
-    model = _settings(root)
+    outside = _Frame(_Model(root, itertools.count(1)))
     links: list[StatedLink] = []
     for world in root.all("worldbody"):
         refused: list[Finding] = []  # of frames of the world, which the bodies in them report
-        waiting = [*reversed([part for part in _parts(world, _Frame(), model, refused) if part[0].tag == "body"])]
+        waiting = [*reversed([part for part in _parts(world.children, outside, refused) if part[0].tag == "body"])]
         while waiting:
             body, above = waiting.pop()
-            outer = attempt(refused, body, above.enter_body, model) or _Frame()
-            parts = [*_parts(body, outer, model, refused)]
-            links.append(_link(body, parts, model, len(links), refused))
+            outer = attempt(refused, body, above.enter) or above._replace(pose=Pose())
+            parts = [*_parts(body.children, outer, refused)]
+            links.append(_link(body, outer, parts, len(links), refused))
             refused = []
             waiting += reversed([part for part in parts if part[0].tag == "body"])
     return Description(root.get("model"), "mjcf", tuple(links), data)
 
 
-def _parts(body: Node, frame: _Frame, model: _Model, refused: list[Finding]) -> Iterator[tuple[Node, _Frame]]:
-    """Yield the children of a body and of its frames, with their frames. refused: findings about wrong frames."""
-    for child in body.children:
-        if child.tag not in ("frame", "replicate"):
-            yield child, frame
-            continue
-        inner = frame if child.tag == "replicate" else attempt(refused, child, frame.enter, model)
-        if inner is not None:
-            yield from _parts(child, inner, model, refused)
-
-
-def _settings(root: Node) -> _Model:
-    model = _Model()
-    for compiler in root.all("compiler"):
-        model.degrees = compiler.get("angle", "degree" if model.degrees else "radian") != "radian"
-        model.euler = compiler.get("eulerseq", model.euler)
-        model.mesh_folder = compiler.get("meshdir", compiler.get("assetdir", model.mesh_folder))
-    for defaults in root.all("default"):
-        _defaults(defaults, "main", {}, model)
-    of_mesh = model.classes.get("main", {}).get("mesh", {})
-    for assets in root.all("asset"):
-        for mesh in assets.all("mesh"):
-            file = mesh.get("file")
-            name = mesh.get("name") or file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
-            path = file if file.startswith("/") or not model.mesh_folder else model.mesh_folder + "/" + file
-            model.meshes[name] = path, mesh.get("scale", of_mesh.get("scale", ""))
-    return model
-
-
-def _defaults(node: Node, name: str, above: dict[str, dict[str, str]], model: _Model) -> None:
-    own = {tag: dict(values) for tag, values in above.items()}
-    for child in node.children:
-        if child.tag != "default":
-            own.setdefault(child.tag, {}).update(child.attributes)
-    model.classes[name] = own
-    for child in node.all("default"):
-        _defaults(child, child.get("class"), own, model)
+def _parts(nodes: Sequence[Node], frame: _Frame, refused: list[Finding]) -> Iterator[tuple[Node, _Frame]]:
+    """Yield elements and their frames; also those in frames and attached models. refused: findings about wrong ones."""
+    for node in nodes:
+        check_size(1, next(frame.model.count))
+        inside = None
+        if node.tag == "attach":
+            inside = attempt(refused, node, frame.attach)
+        elif node.tag in ("frame", "replicate"):
+            inner = frame if node.tag == "replicate" else attempt(refused, node, frame.enter)
+            inside = inner and (node.children, inner)
+        else:
+            yield node, frame
+        if inside is not None:
+            yield from _parts(*inside, refused)
 
 
 def _link(
-    body: Node, parts: Sequence[tuple[Node, _Frame]], model: _Model, count: int, refused: Sequence[Finding]
+    body: Node, outer: _Frame, parts: Sequence[tuple[Node, _Frame]], count: int, refused: Sequence[Finding]
 ) -> StatedLink:
     findings = [*refused]
-    node, frame = next((part for part in parts if part[0].tag == "inertial"), (None, _Frame()))
-    inertial = attempt(findings, node, _inertial, frame, model)
-    read = (attempt(findings, geom, _shape, inner, model) for geom, inner in parts if geom.tag == "geom")
+    node, frame = next((part for part in parts if part[0].tag == "inertial"), (None, outer))
+    inertial = attempt(findings, node, _inertial, frame)
+    read = (attempt(findings, geom, _shape, inner, findings) for geom, inner in parts if geom.tag == "geom")
     shapes = tuple(shape for shape in read if shape is not None)
-    # Numbers in a frame are not those of the body, so that repairs do not fit them.
-    span = None if node is None or node.start == NOWHERE or not frame.is_plain else (node.start, node.end)
-    name = body.get("name") or "body {}".format(count + 1)
-    places = body.place, (node or body).place
-    # Without an inertial MuJoCo takes it from geoms.
-    return StatedLink(name, inertial, shapes, span, False, tuple(findings), None, *places)
+    name = outer.prefix + body.get("name") if body.get("name") else "body {}".format(count + 1)
+    # Without an inertial MuJoCo takes it from geoms. Numbers in a frame are not those of the body; no repair fits them.
+    link = stated_link(body, name, node, inertial, shapes, False, findings)
+    return link if frame.is_plain else replace(link, span=None)
 
 
-def _inertial(node: Node, frame: _Frame, model: _Model) -> StatedInertial:
-    rotation, angles, quaternion = _rotation(node.attributes, model)
+def _inertial(node: Node, frame: _Frame) -> StatedInertial:
+    rotation, angles, quaternion = _rotation(node.attributes, frame.model)
     if node.get("fullinertia"):
         xx, yy, zz, xy, xz, yz = numbers(node.get("fullinertia"), 6, ())
         tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
@@ -204,22 +239,25 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
         for axis, angle in zip(model.euler, (first, second, third)):
             step = rotation_about(np.eye(3)["xyz".index(axis.lower())], angle)
             turn = turn @ step if axis.islower() else step @ turn
-        fixed_axes = model.euler == "XYZ"
-        return turn, (first, second, third) if fixed_axes else None, None
+        return turn, (first, second, third) if model.euler == "XYZ" else None, None
+    turn = np.eye(3)
     if "axisangle" in attributes:
-        values = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0))
-        return rotation_about(_direction(values[:3], attributes["axisangle"]), values[3] * unit), None, None
-    if "xyaxes" in attributes:
-        values = numbers(attributes["xyaxes"], 6, ())
-        x = _direction(values[:3], attributes["xyaxes"])
-        y = _direction(values[3:], attributes["xyaxes"])
-        y = _direction(y - (y @ x) * x, attributes["xyaxes"])
-        return np.column_stack([x, y, np.cross(x, y)]), None, None
-    if "zaxis" in attributes:
-        z = _direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"])
-        half = np.array([1.0 + z[2], -z[1], z[0], 0.0])
-        return rotation_matrix(half if half.any() else [0.0, 1.0, 0.0, 0.0]), None, None
-    return np.eye(3), None, None
+        values, text = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0)), attributes["axisangle"]
+        turn = rotation_about(_direction(values[:3], text), values[3] * unit)
+    elif "xyaxes" in attributes:
+        values, text = numbers(attributes["xyaxes"], 6, ()), attributes["xyaxes"]
+        x, y = _direction(values[:3], text), _direction(values[3:], text)
+        y = _direction(y - (y @ x) * x, text)
+        turn = np.column_stack([x, y, np.cross(x, y)])
+    elif "zaxis" in attributes:
+        turn = _upright(_direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"]))
+    return turn, None, None
+
+
+def _upright(z: NDArray) -> NDArray[np.float64]:
+    """Return the (3, 3) least rotation from the z axis to a unit vector."""
+    half = np.array([1.0 + z[2], -z[1], z[0], 0.0])
+    return rotation_matrix(half if half.any() else [0.0, 1.0, 0.0, 0.0])
 
 
 def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
@@ -229,35 +267,37 @@ def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
     return vector / length
 
 
-def _shape(geom: Node, frame: _Frame, model: _Model) -> StatedShape | None:
-    """Return the shape of a geom in its body."""
-    stated = _own_shape(geom, frame.defaults, model)
-    if stated is None:
+def _shape(geom: Node, frame: _Frame, findings: list[Finding]) -> StatedShape | None:
+    """Return the shape of a geom in its body. findings: gets those about its mesh."""
+    model = frame.model
+    attributes, text = model.attributes(geom, frame.defaults), geom.get("name")
+    rotation, angles, _ = _rotation(attributes, model)
+    pose = Pose(numbers(attributes.get("pos", ""), 3, (0.0, 0.0, 0.0)), rotation)
+    kind = attributes.get("type", "mesh" if "mesh" in attributes else "sphere")
+    if kind == "mesh":
+        asset = model.meshes.get(attributes.get("mesh", ""))
+        shape = Shape("mesh") if asset is None else attempt(findings, asset, model.mesh)
+        shape = shape and replace(shape, pose=pose @ shape.pose)
+    else:
+        shape = _primitive(kind, attributes, pose)
+    if shape is None:
         return None
-    shape, text = stated.shape, geom.get("name")
-    scale = frame.scale_along(shape.pose.rotation, text)
+    turn, is_turned = shape.pose.rotation, bool((shape.pose.rotation != rotation).any())
+    scale = frame.scale_along(turn, text)
     round_axes = {"sphere": 3, "capsule": 2, "cylinder": 2}.get(shape.kind, 0)
     if round_axes and np.ptp(scale[:round_axes]):
         raise ValueError(text)  # It is no longer round.
     factors = scale[[0, 2]] if round_axes == 2 else scale[: len(shape.size)]
     size = tuple((np.array(shape.size) * factors).tolist())
-    pose = frame.place(shape.pose.position, shape.pose.rotation)
-    angles = stated.angles if frame.is_plain else None
-    return replace(stated, shape=replace(shape, size=size, pose=pose), angles=angles, place=Place(*geom.place[:2]))
-
-
-def _own_shape(geom: Node, current: str, model: _Model) -> StatedShape | None:
-    attributes = {**model.classes.get(geom.get("class") or current, {}).get("geom", {}), **geom.attributes}
-    kind = attributes.get("type", "mesh" if "mesh" in attributes else "sphere")
-    rotation, angles, _ = _rotation(attributes, model)
-    position = numbers(attributes.get("pos", ""), 3, (0.0, 0.0, 0.0))
+    shape = replace(shape, size=size, pose=frame.place(shape.pose.position, turn))
     collides = attributes.get("contype", "1") != "0" or attributes.get("conaffinity", "1") != "0"
-    role = "collision" if collides else "visual"
+    angles = angles if frame.is_plain and not is_turned else None
+    return StatedShape(shape, "collision" if collides else "visual", angles, geom.place, model.root.place.file)
+
+
+def _primitive(kind: str, attributes: dict[str, str], pose: Pose) -> Shape | None:
+    """Return the shape of a geom in its frame, None if it bounds no volume. pose: unless it states both of its ends."""
     size = parse_numbers(attributes.get("size", ""))
-    if kind == "mesh":
-        file, text = model.meshes.get(attributes.get("mesh", ""), ("", ""))
-        scale = tuple(numbers(text, 3, (1.0, 1.0, 1.0)).tolist())
-        return StatedShape(Shape("mesh", scale, Pose(position, rotation), file), role, angles)
     if kind in FLAT_KINDS:
         return None
     if kind not in SIZES:
@@ -269,11 +309,22 @@ def _own_shape(geom: Node, current: str, model: _Model) -> StatedShape | None:
         ends = numbers(attributes["fromto"], 6, ())
         along = ends[:3] - ends[3:]
         length = float(np.linalg.norm(along))
-        along = _direction(along, attributes["fromto"])
-        rotation, _, _ = _rotation({"zaxis": " ".join(map(repr, along.tolist()))}, model)
-        pose = Pose((ends[:3] + ends[3:]) / 2.0, rotation)
+        turn = _upright(_direction(along, attributes["fromto"]))
         sizes = {"box": (2.0 * size[0], 2.0 * size[0], length), "ellipsoid": (size[0], size[0], length / 2.0)}
-        return StatedShape(Shape(kind, sizes.get(kind, (size[0], length)), pose), role)
+        return Shape(kind, sizes.get(kind, (size[0], length)), Pose((ends[:3] + ends[3:]) / 2.0, turn))
     halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(kind, 3)  # index of the first half of a length
     values = tuple(2.0 * value if place >= halves else value for place, value in enumerate(size[: SIZES[kind]]))
-    return StatedShape(Shape(kind, values, Pose(position, rotation)), role, angles)
+    return Shape(kind, values, pose)
+
+
+def _surface(values: dict[str, str]) -> Surface:
+    """Return the mesh of an asset's vertices and faces; without faces, the convex hull of the vertices."""
+    vertices, faces = values["vertex"], values.get("face", "")
+    points, corners = np.array(parse_numbers(vertices)), np.array(parse_numbers(faces))
+    if not faces:
+        try:
+            hull = convex_hull(points.reshape(-1, 3))
+        except (MeasureError, ValueError) as error:
+            raise ValueError(vertices[:80]) from error
+        points, corners = hull.points.ravel(), hull.triangles.ravel()
+    return checked_surface((vertices, faces, faces), points, np.full(-(-len(corners) // 3), 3), corners)

@@ -12,30 +12,80 @@ from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding
 from ..model import Pose
 from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
-from .xml import NOWHERE, Node, attempt, number, numbers, read_shapes
+from .xml import Node, attempt, number, numbers, read_shapes, stated_link
 
 KINDS = ("box", "ellipsoid", "sphere", "cylinder", "capsule")
+OWN = "__model__"  # the name of a model's frame within itself
 
 
 def read(root: Node, data: bytes) -> Description:
     """Return a description from the element `sdf`: all links, wherever their models are."""
     models = [node for node in root.walk() if node.tag == "model"]
-    links = tuple(_link(node, model, len(models) > 1) for model in models for node in model.all("link"))
+    scopes: dict[Node, _Scope] = {}
+    scopes.update((model, _Scope(model, scopes)) for model in models)
+    links = tuple(_link(node, model, scopes[model], len(models) > 1) for model in models for node in model.all("link"))
     return Description(models[0].get("name") if models else "", "sdf", links, data)
 
 
-def _link(node: Node, model: Node, several: bool) -> StatedLink:
+class _Scope:
+    """The frames of a model by their names, each in another one of them. scopes: those of all models."""
+
+    def __init__(self, model: Node, scopes: dict[Node, _Scope]) -> None:
+        frames = [child for child in model.children if child.tag in ("link", "joint", "frame", "model")]
+        self._frames = {frame.get("name"): frame for frame in frames}
+        self._scopes = scopes
+        self._poses = {OWN: Pose()}
+
+    def pose(self, name: str) -> Pose:
+        """Return the pose of a frame in the model. ValueError if it is unknown, or in itself."""
+        chain: dict[str, tuple[Node, str]] = {}
+        inner = name
+        while inner not in self._poses:
+            node = self._frames.get(inner.partition("::")[0])
+            if node is None or inner in chain:
+                raise ValueError(inner)
+            default = {"joint": _text(node, "child"), "frame": node.get("attached_to")}.get(node.tag)
+            outer = _relative_to(node) or default or OWN
+            chain[inner], inner = (node, outer), outer
+        for inner, (node, outer) in reversed(chain.items()):
+            pose = self._poses[outer] @ _pose(node)[0]
+            rest = inner.partition("::")[2]
+            if node.tag == "model":
+                scope = self._scopes[node]
+                pose = pose @ scope.pose(node.get("placement_frame") or OWN).inverse() @ scope.pose(rest or OWN)
+            elif rest:
+                raise ValueError(inner)
+            self._poses[inner] = pose
+        return self._poses[name]
+
+
+def _link(node: Node, model: Node, scope: _Scope, several: bool) -> StatedLink:
     findings: list[Finding] = []
     element = node.find("inertial")
     is_auto = element is not None and element.get("auto") in ("true", "1")
     inertial = None if is_auto else attempt(findings, element, _inertial)
-    span = None if element is None or inertial is None or element.start == NOWHERE else (element.start, element.end)
-    shapes = read_shapes(findings, node, _pose, KINDS, _text, 1.0)
+
+    def pose_of(part: Node) -> tuple[Pose, Angles | None]:
+        pose, angles, _ = _pose(part)
+        frame = _relative_to(part)
+        if not frame:
+            return pose, angles
+        try:
+            return scope.pose(node.get("name")).inverse() @ scope.pose(frame) @ pose, None
+        except ValueError as error:
+            raise ValueError(frame) from error
+
+    shapes = read_shapes(findings, node, pose_of, KINDS, _text, 1.0, node.place.file)
     static = _text(model, "static") in ("true", "1")
     name = "{}::{}".format(model.get("name"), node.get("name")) if several else node.get("name")
     moves = bool(shapes) and not static and element is None
-    places = node.place, (element or node).place
-    return StatedLink(name, inertial, shapes, span, moves, tuple(findings), None, *places)
+    return stated_link(node, name, element, inertial, shapes, moves, findings)
+
+
+def _relative_to(node: Node) -> str:
+    """Return the name of the frame that an element's pose is in, "" if it is the usual one."""
+    element = node.find("pose")
+    return "" if element is None else element.get("relative_to")
 
 
 def _text(node: Node, *path: str) -> str:
@@ -44,6 +94,7 @@ def _text(node: Node, *path: str) -> str:
 
 
 def _inertial(node: Node) -> StatedInertial:
+    """Return an inertial, whose pose is always in its link."""
     pose, angles, quaternion = _pose(node)
     tensor = np.eye(3)
     for name, i, j in ENTRIES:
@@ -55,8 +106,6 @@ def _inertial(node: Node) -> StatedInertial:
 def _pose(node: Node) -> tuple[Pose, Angles | None, tuple[float, ...] | None]:
     element = node.find("pose")
     text = "" if element is None else element.text
-    if element is not None and element.get("relative_to"):  # a frame, which is not resolved
-        raise ValueError(element.get("relative_to"))
     if element is not None and element.get("rotation_format") == "quat_xyzw":
         x, y, z, qx, qy, qz, qw = numbers(text, 7, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)).tolist()
         if not any((qx, qy, qz, qw)):

@@ -9,7 +9,7 @@ import numpy as np
 from ...verdict.finding import Finding
 from ..model import Pose
 from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
-from .xml import Node, attempt, number, numbers, read_shapes
+from .xml import Node, attempt, number, numbers, read_shapes, stated_link
 
 
 def read(root: Node, data: bytes) -> Description:
@@ -22,9 +22,7 @@ def _link(node: Node) -> StatedLink:
     element = node.find("inertial")
     inertial = attempt(findings, element, _inertial)
     shapes = read_shapes(findings, node, _origin, ("box", "sphere", "cylinder", "capsule"), Node.get)
-    span = None if element is None else (element.start, element.end)
-    places = node.place, (element or node).place
-    return StatedLink(node.get("name"), inertial, shapes, span, bool(shapes), tuple(findings), None, *places)
+    return stated_link(node, node.get("name"), element, inertial, shapes, bool(shapes), findings)
 
 
 def _inertial(node: Node) -> StatedInertial:

@@ -9,24 +9,26 @@ refers to another of the layer has its attributes.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...mesh.surface import Surface
 from ...numerics.rotations import polar_rotation, rotation_matrix
 from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_number
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
 from ..stated import LEAST, MOST, Description, Place, StatedInertial, StatedLink, StatedShape, rotation_about
-from .meshes import fan
+from .meshes import checked_surface
 from .xml import check_size
 
 _TOKEN = re.compile(
     r'\s+|#[^\n]*|"""(?:.|\n)*?"""|\'\'\'(?:.|\n)*?\'\'\'|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\''
-    r"|@@@(?:.|\n)*?@@@|@[^@\n]*@|<[^>\n]*>|[(){}\[\]=,;]|[^\s(){}\[\]=,;\"'@<#]+"
+    r"|@@@(?:.|\n)*?@@@|@[^@\n]*@|<[^>\n]*>|[(){}\[\]=,;]|[^\s(){}\[\]=,;\"'@<#]+|."
 )
 _FIELD = re.compile(r"[^\s()\[\],]+")
 _REFERENCE = re.compile(r"\breferences\s*=\s*\[?\s*<([^>]*)>")
@@ -70,22 +72,13 @@ class Prim:
         return float(self.vector(name, (default,))[0])
 
 
-def _tokens(text: str) -> Iterator[tuple[str, int]]:
-    position = 0
-    while position < len(text):
-        match = _TOKEN.match(text, position)
-        if match is None:
-            raise _invalid(text, position)
-        token = match.group()
-        if not token[0].isspace() and token[0] != "#":
-            yield token, position
-        position = match.end()
-
-
 class _Parser:
     def __init__(self, text: str) -> None:
         self.text = text
-        self.tokens = list(_tokens(text))
+        self.tokens = [(match[0], match.start()) for match in _TOKEN.finditer(text) if match[0].strip()[:1] not in "#"]
+        wrong = next((place for token, place in self.tokens if token in ('"', "'", "@", "<")), None)
+        if wrong is not None:
+            raise _invalid(text, wrong)
         self.index = 0
         self.count = 0
         self.line, self.counted = 1, 0
@@ -99,7 +92,7 @@ class _Parser:
         return self.tokens[self.index - 1]
 
     def balanced(self) -> tuple[int, int]:
-        """Skip one pair of brackets with its content; return its range in the text."""
+        """Skip a word, or a pair of brackets with its content; return its range in the text."""
         depth, start = 0, self.tokens[self.index][1]
         while True:
             token, position = self.take()
@@ -107,7 +100,7 @@ class _Parser:
                 depth += 1
             elif token in ")]}":
                 depth -= 1
-            if depth == 0:
+            if depth <= 0:
                 return start, position + len(token)
 
     def prim(self, depth: int) -> Prim:
@@ -128,10 +121,6 @@ class _Parser:
         while self.peek() != "}":
             if self.peek() in _SPECIFIERS:
                 prim.children.append(self.prim(depth + 1))
-            elif self.peek() == "variantSet":
-                while self.peek() != "{":
-                    self.take()
-                self.balanced()
             elif self.peek() in "([{":
                 self.balanced()
             else:
@@ -149,14 +138,8 @@ class _Parser:
                 self.take()
             return
         self.take()
-        value_start = self.tokens[self.index][1]
-        if self.peek() in ("(", "[", "{"):
-            _, end = self.balanced()
-        else:
-            token, position = self.take()
-            end = position + len(token)
-        name = words[-1] if words else ""
-        prim.values[name] = self.text[value_start:end]
+        start, end = self.balanced()
+        prim.values[words[-1] if words else ""] = self.text[start:end]
 
 
 def read(data: bytes) -> Description:
@@ -266,14 +249,18 @@ def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], t
     turn = _turn(matrix)
     to_link = np.eye(4)
     to_link[:3, :3], to_link[:3, 3] = turn.T, -turn.T @ matrix[:3, 3]
-    inertial = None
-    try:
-        inertial = _inertial(prim, to_link @ matrix, scales)
-    except ValueError as error:
-        findings.append(_unreadable(prim, error, text))
-    shapes: list[StatedShape] = []
-    for part, error in _collect(prim, matrix, to_link, scales["length"], shapes):
-        findings.append(_unreadable(part, error, text))
+
+    def attempt(part: Prim, read_part: Callable, *more: Any) -> Any:
+        try:
+            return read_part(part, *more)
+        except ValueError as error:
+            line = text.count("\n", 0, max(text.find(str(error), part.start, part.end), part.start)) + 1
+            findings.append(finding(DESCRIPTION_NUMBER, text=str(error), element=part.name, line=line))
+            return None
+
+    inertial = attempt(prim, _inertial, to_link @ matrix, scales)
+    read_shapes = [attempt(part, _shape, to_link @ place, scales["length"]) for part, place in _parts(prim, matrix)]
+    shapes = [shape for shape in read_shapes if shape is not None]
     span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
     place = Place(prim.line)
     return StatedLink(path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix, place, place)
@@ -283,11 +270,6 @@ def _turn(matrix: NDArray) -> NDArray[np.float64]:
     """Return the (3, 3) rotation of a (4, 4) matrix, without its scale and its mirroring."""
     turn = polar_rotation(matrix[None])[0][0]
     return -turn if np.linalg.det(turn) < 0.0 else turn
-
-
-def _unreadable(prim: Prim, error: Exception, text: str) -> Finding:
-    line = text.count("\n", 0, max(text.find(str(error), prim.start, prim.end), prim.start)) + 1
-    return finding(DESCRIPTION_NUMBER, text=str(error), element=prim.name, line=line)
 
 
 def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> StatedInertial | None:
@@ -304,22 +286,12 @@ def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Stated
     return StatedInertial(float(mass[0]) * kilograms, placed, tensor, rotation_matrix(axes), None, tuple(axes.tolist()))
 
 
-def _collect(
-    prim: Prim, matrix: NDArray, to_link: NDArray, unit: float, shapes: list[StatedShape]
-) -> Iterator[tuple[Prim, ValueError]]:
-    """Collect the geometry of a body: the prims below it, up to the next body. matrix: from the prim to the world.
-
-    Yield the prims with wrong numbers, which are left out.
-    """
-    try:
-        shape = _shape(prim, to_link @ matrix, unit)
-        if shape is not None:
-            shapes.append(shape)
-    except ValueError as error:
-        yield prim, error
+def _parts(prim: Prim, matrix: NDArray) -> Iterator[tuple[Prim, NDArray]]:
+    """Yield a body and the prims below it, up to the next body, with their matrices to the world."""
+    yield prim, matrix
     for child in prim.children:
         if "PhysicsRigidBodyAPI" not in child.metadata:
-            yield from _collect(child, _placed(child, matrix), to_link, unit, shapes)
+            yield from _parts(child, _placed(child, matrix))
 
 
 def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
@@ -348,21 +320,15 @@ def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
 
 
 def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | None:
-    points, counts, corners = (prim.numbers(name) for name in ("points", "faceVertexCounts", "faceVertexIndices"))
+    names = "points", "faceVertexCounts", "faceVertexIndices"
+    points, counts, corners = map(prim.numbers, names)
     if points is None or counts is None or corners is None:
         return None  # another layer may have them
-    for name, values in (("points", points), ("faceVertexCounts", counts), ("faceVertexIndices", corners)):
-        if not (np.abs(values) <= MOST).all() or name == "points" and len(points) % 3:
-            raise ValueError(prim.values[name][:80])
-    points = points.reshape(-1, 3)
-    sizes, corners = counts.astype(np.int64), corners.astype(np.int64)
-    if sizes.min(initial=0) < 0 or sizes.sum() != len(corners):
-        raise ValueError(prim.values["faceVertexCounts"][:80])
-    if not len(corners) or corners.min() < 0 or corners.max() >= len(points):
-        raise ValueError(prim.values["faceVertexIndices"][:80])
-    placed = (points @ matrix[:3, :3].T + matrix[:3, 3]) * unit
-    triangles = fan(sizes, corners)
-    is_left_handed = prim.values.get("orientation", "").strip("\"'") == "leftHanded"
+    surface = checked_surface([prim.values[name] for name in names], points, counts, corners)
+    placed = (surface.points @ matrix[:3, :3].T + matrix[:3, 3]) * unit
+    if not (np.abs(placed) <= MOST).all():
+        raise ValueError(prim.values["points"][:80])
+    triangles, is_left_handed = surface.triangles, prim.values.get("orientation", "").strip("\"'") == "leftHanded"
     if is_left_handed != (np.linalg.det(matrix[:3, :3]) < 0.0):
         triangles = triangles[:, ::-1]
-    return StatedShape(Shape("mesh"), role, None, placed, triangles)
+    return StatedShape(Shape("mesh", surface=Surface.from_triangles(placed, triangles)), role)

@@ -22,7 +22,7 @@ from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_numbers
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER, XML_ENTITIES
 from ..model import Shape
-from ..stated import Place, StatedShape
+from ..stated import Place, StatedInertial, StatedLink, StatedShape
 
 MAX_ELEMENTS = 1_000_000
 MAX_DEPTH = 200
@@ -155,11 +155,12 @@ def read_shapes(
     kinds: Sequence[str],
     get: Callable[[Node, str], str],
     length: float | None = None,
+    beside: str = "",
 ) -> tuple[StatedShape, ...]:
     """Return the visual and collision shapes of a link of URDF or SDF that bound a volume.
 
     pose_of: returns the pose of an element, and the angles if stated. kinds: known ones besides meshes. get: returns
-    the text of an element's property. length: default of a radius or length, if there is one.
+    the text of an element's property. length: default of a radius or length, if there is one. beside: as of a shape.
     """
 
     def read(node: Node, role: str) -> StatedShape | None:
@@ -179,12 +180,26 @@ def read_shapes(
             else:
                 names = ("radius",) if kind == "sphere" else ("radius", "length")
                 size = [number(get(element, name), length) for name in names]
-            return StatedShape(Shape(kind, tuple(size), pose, file), role, angles, place=node.place)
+            return StatedShape(Shape(kind, tuple(size), pose, file), role, angles, node.place, beside)
         return None
 
     elements = [(element, role) for role in ("visual", "collision") for element in link.all(role)]
     shapes = [attempt(findings, element, read, role) for element, role in elements]
     return tuple(shape for shape in shapes if shape is not None)
+
+
+def stated_link(
+    node: Node,
+    name: str,
+    element: Node | None,
+    inertial: StatedInertial | None,
+    shapes: tuple[StatedShape, ...],
+    moves: bool,
+    findings: Sequence[Finding],
+) -> StatedLink:
+    """Return a link with its places. element: that of its inertial, which a repair replaces if it is in the file."""
+    span = None if element is None or element.start == NOWHERE else (element.start, element.end)
+    return StatedLink(name, inertial, shapes, span, moves, tuple(findings), None, node.place, (element or node).place)
 
 
 def _unreadable(node: Node, error: Exception) -> Finding:
@@ -196,6 +211,6 @@ def _unreadable(node: Node, error: Exception) -> Finding:
         if any(text in (words, *words.split()) for words in (one.text, *one.attributes.values()))
     ]
     holder = holders[0] if len(holders) == 1 else node
-    return finding(
-        DESCRIPTION_NUMBER, text=text, element=holder.tag, line=holder.place.line, column=holder.place.column
-    )
+    line, column, file = holder.place
+    source = {"source": file} if file else {}
+    return finding(DESCRIPTION_NUMBER, text=text, element=holder.tag, line=line, column=column, **source)

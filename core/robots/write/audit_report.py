@@ -135,9 +135,7 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
     lines += ["<style>{}</style>".format(_STYLE), "<h1>Audit of robot descriptions</h1>"]
     for one in documents:
         lines.append("<h2>{}</h2>".format(html.escape(str(one["file"]))))
-        counts = count_findings(one)
-        summary = ", ".join(counted(counts[level + "s"], level) for level in map(str, Severity))
-        lines.append("<p>{}: {}.</p>".format(counted(counts["links"], "link"), summary))
+        lines.append("<p>{}: {}.</p>".format(*_summary(one)))
         lines += ["<table>", "<tr><th>Link<th>Severity<th>Finding<th>Mass, kg<th>Density, kg/m³<th>Repair</tr>"]
         for _, link, level, code, message, mass, density, repaired in _table_rows([one]):
             fine = "nothing to compare" if "" in (mass, density) else "agrees with its geometry"
@@ -154,6 +152,12 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
     if _rests_on_geometry(documents):
         lines.append("<p>{}</p>".format(RESTS_ON))
     return "\n".join([*lines, "</html>", ""])
+
+
+def _summary(document: dict[str, Any]) -> tuple[str, str]:
+    """Return the counts of links and of findings as text."""
+    counts = count_findings(document)
+    return counted(counts["links"], "link"), ", ".join(counted(counts[str(one) + "s"], str(one)) for one in Severity)
 
 
 def _rests_on_geometry(documents: Iterable[dict[str, Any]]) -> bool:
@@ -188,9 +192,7 @@ def to_text(documents: Sequence[dict[str, Any]]) -> str:
                     lines.append("    shapes: {}".format(_numbers(found["geometry"])))
                 if found["change"] is not None:
                     lines.append("    change: {} ({})".format(found["change"], found["certainty"]))
-        counts = count_findings(one)
-        total = ", ".join(counted(counts[level + "s"], level) for level in map(str, Severity))
-        lines.append("{}: {}, {}".format(one["file"], counted(counts["links"], "link"), total))
+        lines.append("{}: {}, {}".format(one["file"], *_summary(one)))
         if one["repaired"]:
             lines.append("repaired copy: {}".format(one["repaired"]))
         elif any(link["repaired"] for link in one["links"]):

@@ -69,32 +69,26 @@ def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tu
 
 def without_collision(robot: Robot) -> Robot:
     """Return a robot whose shapes are only seen."""
-    links = [
-        replace(link, shapes=tuple(replace(shape, collides=False) for shape in link.shapes if shape.seen))
-        for link in robot.links
-    ]
-    return replace(robot, links=tuple(links))
+    return _with_shapes(robot, lambda link: [replace(shape, collides=False) for shape in link.shapes if shape.seen])
 
 
 def with_colliders(robot: Robot, colliders_of: Callable[[Link], Sequence[Shape]]) -> Robot:
     """Return a robot whose links collide as their colliders, shapes in the links' frames, if they have any."""
-    links = []
-    for link in robot.links:
-        colliders = colliders_of(link)
-        if colliders:
-            seen = (replace(shape, collides=False) for shape in link.shapes)
-            link = replace(link, shapes=(*seen, *(replace(shape, seen=False) for shape in colliders)))
-        links.append(link)
-    return replace(robot, links=tuple(links))
+
+    def shapes_of(link: Link) -> Sequence[Shape]:
+        colliders = [replace(shape, seen=False) for shape in colliders_of(link)]
+        return [*(replace(shape, collides=False) for shape in link.shapes), *colliders] if colliders else link.shapes
+
+    return _with_shapes(robot, shapes_of)
 
 
 def with_primitives(robot: Robot, kind: str) -> Robot:
     """Return a robot with a "box", "ellipsoid", "capsule" or no shape ("none") as each link's geometry."""
-    links = [
-        replace(
-            link,
-            shapes=() if kind == "none" or link.inertial is None else (equal_inertia_shape(link.inertial, kind),),
-        )
-        for link in robot.links
-    ]
-    return replace(robot, links=tuple(links))
+    return _with_shapes(
+        robot,
+        lambda link: () if kind == "none" or link.inertial is None else (equal_inertia_shape(link.inertial, kind),),
+    )
+
+
+def _with_shapes(robot: Robot, shapes_of: Callable[[Link], Sequence[Shape]]) -> Robot:
+    return replace(robot, links=tuple(replace(link, shapes=tuple(shapes_of(link))) for link in robot.links))

@@ -162,8 +162,8 @@ def Xform "world" ( doc = "a }} b" )
     fans = [(s, s + i + 1, s + i + 2) for s, count in zip(starts, sizes) for i in range(count - 2)]
     placed = (corners @ inner[:3, :3].T + inner[:3, 3]) * meters
     for stated, order in zip(link.shapes[8:10], ([0, 1, 2], [2, 1, 0])):
-        assert stated.shape.kind == "mesh" and near(stated.points, placed, 1e-12)
-        assert (stated.triangles == indices[np.array(fans)][:, order]).all()
+        assert stated.shape.kind == "mesh" and near(stated.shape.surface.points, placed, 1e-12)
+        assert (stated.shape.surface.triangles == indices[np.array(fans)][:, order]).all()
     assert len(link.shapes) == 11 and link.shapes[10].shape.kind == "ellipsoid"  # up to the next body
     for other, size, place in ((following, meters, np.eye(4)), (only, meters * np.cbrt(np.linalg.det(first)), first)):
         assert near(np.array(other.shapes[0].shape.size), np.full(3, size), 1e-12)
@@ -187,7 +187,7 @@ def test_damaged_meshes_in_usd_are_findings(tmp_path):
     assert len(link.shapes) == 1 and link.inertial is None
     texts = ["[0, 1]", "[4]", "[]", "[0, 1, 3]", "[0, -1, 2]"]  # an absent attribute may stand in another layer
     assert [one.values["text"] for one in link.findings] == texts
-    assert (link.shapes[0].points == [[0, 0, 0], [0.01, 0, 0], [0, 0.01, 0]]).all()  # centimeters
+    assert (link.shapes[0].shape.surface.points == [[0, 0, 0], [0.01, 0, 0], [0, 0.01, 0]]).all()  # centimeters
     wrong = "float3 physics:diagonalInertia = (1, 2)\nfloat physics:mass = 1\n"
     (link,) = read(tmp_path, body.format(wrong, "")).links
     assert [(one.code, one.values["text"]) for one in link.findings] == [("description_number", "(1, 2)")]
@@ -287,9 +287,9 @@ def test_usd_meshes_and_bodies_that_are_mirrored(tmp_path, is_mirrored, is_left_
     side = 2.0 * np.array([-1.0, 1.0, 1.0] if is_mirrored else [1.0, 1.0, 1.0])
     for content, local in ((own, np.full(3, side[0])), (below, side)):
         (link,) = bodies(tmp_path, content)
-        (shape,) = link.shapes
-        assert near(shape.points, 0.01 * np.diag(local), 1e-15)
-        ahead = np.linalg.det(shape.points[shape.triangles[0]]) > 0.0  # whether it faces away from the origin
+        (made,) = (shape.shape.surface for shape in link.shapes)
+        assert near(made.points, 0.01 * np.diag(local), 1e-15)
+        ahead = np.linalg.det(made.points[made.triangles[0]]) > 0.0  # whether it faces away from the origin
         assert ahead == (not is_left_handed)
         if content is own:
             assert near(link.local, np.diag([*local, 1.0]), 1e-15)
