@@ -39,6 +39,7 @@ BALL_SAG = 0.012  # of the radius: the greatest depth of their faces in a ball
 CONVEX_RTOL = 1e-9  # of the volume that a convex body lacks in its hull
 PAIRS_PER_BLOCK = 1 << 20
 INSIDE_RTOL = 1e-9  # of the size
+ON_BODY_RTOL, NEAR_BODY = 1e-10, 0.02  # of the size: reach of the first searches for the body around a place
 
 
 @dataclass(frozen=True)
@@ -231,7 +232,9 @@ def distances(
     samples, step = (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size / STEPS)
     nearest = np.full(len(samples), np.inf)
     for shape, solid in zip(shapes, solids):
-        nearest = np.minimum(nearest, _distances_from_shape(samples, shape, solid, nearest, size))
+        rest = np.flatnonzero(nearest > 0.0)
+        near = _distances_from_shape(samples[rest], shape, solid, nearest[rest], size)
+        nearest[rest] = np.minimum(nearest[rest], near)
     inward = float(nearest.max(initial=0.0))
     corners = np.concatenate([solid.points for solid in solids])
     outward = float(_heights(corners, hull).max())
@@ -244,14 +247,28 @@ def distances(
     own_step = 0.0
     for fineness in (COARSE_STEPS, STEPS) if enough < inf else (STEPS,):
         places, own_step = _outer_samples(solids, size, fineness)
-        component = np.zeros(len(places), np.intp)
-        winding, sure = tree.winding_numbers(places - tree.origin, component, INSIDE_RTOL * size)
-        places = places[~((winding != 0) & sure)]
-        if len(places):
-            outward = max(outward, float(tree.distances(places - tree.origin, component[: len(places)]).max()))
+        outward = max(outward, _farthest_outside(tree, places - tree.origin, size, enough))
         if outward > enough:
             break
     return outward, inward, max(step, own_step) + max(sags)
+
+
+def _farthest_outside(tree: Bvh, places: NDArray[np.float64], size: float, enough: float) -> float:
+    """Return the largest distance of places outside a body from it; inf if it is above `enough`.
+
+    Most places are on the body or near to it, and short searches leave few for the long one.
+    """
+    farthest, is_sorted = 0.0, False
+    for within in (ON_BODY_RTOL * size, min(NEAR_BODY * size, enough), enough):
+        distance = tree.distances(places, np.zeros(len(places), np.intp), within)
+        farthest = float(distance[distance < inf].max(initial=farthest))
+        places = places[distance == inf]
+        if not is_sorted:
+            winding, sure = tree.winding_numbers(places, np.zeros(len(places), np.intp), INSIDE_RTOL * size)
+            places, is_sorted = places[~((winding != 0) & sure)], True
+        if not len(places):
+            return farthest
+    return inf
 
 
 def _outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> tuple[NDArray[np.float64], float]:
