@@ -19,7 +19,7 @@ from ..blender.settings.assembly import Root, active_assembly, is_assembly
 from ..blender.write import properties, reports
 from ..core.numerics.float32 import shortest_decimal
 from ..core.verdict.finding import EditRefusedError, MeasureError, Severity
-from ..core.verdict.method import Verdict
+from ..core.verdict.method import Procedure
 from ..core.verdict.sentences import of_severity
 from . import selection
 from .findings import NO_ACTIVE_ASSEMBLY
@@ -131,7 +131,7 @@ class _SnapToAssembly:
     def execute(self, context: Context) -> set[str]:
         assembly = measured_assembly(context, self.target)
         for part in assembly.root.walk():
-            if part.measurement is not None and part.measurement.method.verdict == Verdict.OPEN:
+            if part.measurement is not None and part.measurement.method.procedure == Procedure.OPEN:
                 raise EditRefusedError(OPEN_OBJECT, subject=part.member.name)
         unit = shortest_decimal(context.scene.unit_settings.scale_length)
         center = (assembly.measurement.mass_properties.center / unit).tolist()

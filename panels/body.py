@@ -11,7 +11,7 @@ from __future__ import annotations
 from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
-from ..blender.session.displayed import Displayed, Total, Trust, displayed, shown_objects, total
+from ..blender.session.displayed import Displayed, Total, Verdict, displayed, shown_objects, total
 from ..blender.session.live.following import Lag, current_numbers, is_live
 from ..blender.session.stored import outcome
 from ..blender.session.tracking import armatures
@@ -61,7 +61,7 @@ class BodyPanel:
 
 def _one_object(layout: UILayout, context: Context, shown: Displayed | None) -> None:
     obj, frame = context.object, context.scene.body_moments.frame
-    _verdict(layout, obj.name, "OBJECT_DATA", None if shown is None else shown.trust)
+    _verdict(layout, obj.name, "OBJECT_DATA", None if shown is None else shown.verdict)
     length = properties.optional(obj, "body_length")
     numbers = None if shown is None else shown.in_frame(frame)
     is_rig = obj.type == "ARMATURE" and shown is not None and not shown.is_posed
@@ -94,7 +94,7 @@ def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
         text = localized("1 Object" if count == 1 else "{:d} Objects").format(count)
     posed = displayed(context.object, context.scene) if armatures.stands_for_meshes(context.object) else None
     is_rest = posed is not None and properties.optional(context.object, "body_mass") is not None
-    _verdict(layout, text, "GROUP", posed.trust if is_rest else shown.trust)
+    _verdict(layout, text, "GROUP", posed.verdict if is_rest else shown.verdict)
     numbers = shown.numbers if posed is None else posed.world
     _answer(layout, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume if shown.count and not is_rest else None)
     material_row(layout, context, context.object)
@@ -108,13 +108,13 @@ def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
     remedies.lines(layout, context, [*(Group(found) for found in shown.findings), *shown.groups])
 
 
-def _verdict(layout: UILayout, text: str, icon: str, trust: Trust | None) -> None:
+def _verdict(layout: UILayout, text: str, icon: str, verdict: Verdict | None) -> None:
     """Draw a translated name, and the verdict on its numbers at the right end."""
     row = layout.row(align=True)
     row.label(text=text, icon=icon, translate=False)
     verdict = row.row(align=True)
     verdict.alignment = "RIGHT"
-    icon, word = rows.VERDICTS[trust]
+    icon, word = rows.VERDICTS[verdict]
     verdict.label(text=word, icon=icon)
 
 

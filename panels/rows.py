@@ -23,7 +23,7 @@ from ..core.inertia.plain_body import ENTRIES, PlainBody
 from ..core.measurement.documents import plain
 from ..core.verdict.finding import Finding, Severity
 from ..core.verdict.sentences import fill, severity
-from ..core.verdict.trust import Trust
+from ..core.verdict.verdict import Verdict
 
 # share of a row for its label, for one of up to 3 letters, and for one of 1 letter
 LABEL_SHARE, SHORT_LABEL_SHARE, INDEX_LABEL_SHARE = 0.36, 0.3, 0.12
@@ -38,10 +38,10 @@ NARROW = 220  # regions below this width have buttons without icons, and heading
 ICONS = {Severity.NOTE: "INFO", Severity.WARNING: "ERROR", Severity.ERROR: "CANCEL"}  # ERROR is Blender's warning sign
 
 VERDICTS = {  # icon and word; the form says it, not the color alone
-    Trust.EXACT: ("CHECKMARK", "Exact"),
-    Trust.REPAIRED: ("MODIFIER", "Repaired"),
-    Trust.DOUBTFUL: ("ERROR", "Doubtful"),
-    Trust.OUT_OF_DATE: ("FILE_REFRESH", "Out of Date"),
+    Verdict.EXACT: ("CHECKMARK", "Exact"),
+    Verdict.REPAIRED: ("MODIFIER", "Repaired"),
+    Verdict.DOUBTFUL: ("ERROR", "Doubtful"),
+    Verdict.OUT_OF_DATE: ("FILE_REFRESH", "Out of Date"),
     None: ("RADIOBUT_OFF", "Not Measured"),
 }
 AXIS_LABELS, PRINCIPAL_LABELS = ("X", "Y", "Z"), ("1", "2", "3")

@@ -8,7 +8,7 @@ from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, UILayout, UIList
 
 from ..blender.session import displayed
-from ..blender.session.displayed import SortBy, Trust, drawn, listed_masses, listing
+from ..blender.session.displayed import SortBy, Verdict, drawn, listed_masses, listing
 from . import rows
 from .places import in_both_places
 
@@ -23,7 +23,7 @@ class BODY_MOMENTS_UL_measured(UIList):
         items=(
             (SortBy.NAME, "Name", "By name"),
             (SortBy.MASS, "Mass", "The heaviest first"),
-            (SortBy.VERDICT, "Verdict", "The least trustworthy first"),
+            (SortBy.VERDICT, "Procedure", "The least trustworthy first"),
         ),
         default=SortBy.NAME,
     )
@@ -37,9 +37,9 @@ class BODY_MOMENTS_UL_measured(UIList):
             layout.label(text=obj.name, translate=False)
             return
         row = layout.row(align=True)
-        row.alert = body.trust == Trust.OUT_OF_DATE
+        row.alert = body.verdict == Verdict.OUT_OF_DATE
         row.active = obj.select_get()
-        row.label(text=obj.name, icon=rows.VERDICTS[body.trust][0], translate=False)
+        row.label(text=obj.name, icon=rows.VERDICTS[body.verdict][0], translate=False)
         if not rows.is_narrow():
             rows.right(row, listed_masses(context.scene, context.view_layer)[obj.session_uid])
 

@@ -23,7 +23,7 @@ from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import affine_matrices, placed_boxes
 from ...core.moments.moments import Measure
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.verdict.method import Verdict
+from ...core.verdict.method import Procedure
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
 from ..settings.density import density_field
@@ -92,7 +92,7 @@ def object_transform(
         else:
             if resolved.kind == "wire":
                 raise ReadError(WIRE_UNSUPPORTED, quantity="The Fourier transform")
-            if body.method.verdict == Verdict.OPEN:
+            if body.method.procedure == Procedure.OPEN:
                 raise ReadError(FOURIER_OF_OPEN_SURFACE)
             parts = [(solid.repaired_surface, matrices) for solid, matrices in body.solids]
             of, total = Measure.VOLUME, body.volume.total

@@ -110,7 +110,7 @@ def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
     shown = replace(reading, parts=[Part(surface, reading.matrix[None])], findings=[])
     bounded = mesh_body(shown, unit, shell=False, union=False, threads=threads)
     measured = finding(LEVEL_SET_MEASURED, grid=reading.grid, polygons=len(surface.quads))
-    method = Method(bounded.method.verdict, Source.GRID)
+    method = Method(bounded.method.procedure, Source.GRID)
     return replace(bounded, method=method, findings=(measured, *bounded.findings))
 
 

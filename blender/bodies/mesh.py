@@ -24,7 +24,7 @@ from ...core.solid.findings import HOLES_CAPPED, INVERTED_COMPONENTS
 from ...core.solid.measure import measure_solid
 from ...core.verdict.finding import EditRefusedError, ReadError, finding
 from ...core.verdict.findings import FLIPPED_FACES
-from ...core.verdict.method import Method, Verdict
+from ...core.verdict.method import Method, Procedure
 from ..read.findings import SCALE_ZERO_AXIS
 from ..read.mesh import mesh_surface
 from ..read.objects import read_object
@@ -88,11 +88,11 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
     ]
     surface = union_surface(join_surfaces(repaired))
     solid = measure_solid(surface, threads=threads) if surface.triangle_count else None
-    if solid is None or solid.method == Verdict.OPEN:
+    if solid is None or solid.method == Procedure.OPEN:
         raise ReadError(UNION_FAILED)
     findings = [finding(UNION_BY_BOOLEAN)]
-    verdict = before.method.verdict
-    if verdict == Verdict.OPEN:
+    procedure = before.method.procedure
+    if procedure == Procedure.OPEN:
         findings.append(finding(OPEN_COMPONENTS_UNITED))
     findings += [result for result in before.findings if result.code in REPAIRS]
     findings += of_drawn(solid.findings, reading.parts, drawn_names(reading))
@@ -100,7 +100,7 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
         before,
         volume=solid.volume,
         area=solid.area,
-        method=Method(Verdict.UNION),
+        method=Method(Procedure.UNION),
         findings=tuple(findings),
         face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
         solids=((solid, np.eye(4)[None]),),

@@ -37,7 +37,7 @@ from ...core.nurbs.seams import sharpest_crease
 from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
 from ...core.nurbs.splines import Face
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ...core.verdict.method import Method, Source, Verdict, least_trusted
+from ...core.verdict.method import Method, Procedure, Source, least_trusted
 from .findings import DISPLAY_MESH_NEEDED, WALL_CREASES, ZERO_SCALE
 from .mesh import mesh_body
 from .request import Request
@@ -139,12 +139,12 @@ def body(reading: Reading, request: Request) -> Body:
     volumes = [sum_of_images(measure.volume, matrices) for _, measure, matrices in pieces]
     areas = [sum_moments(list(_image_areas(part, measure.area, matrices))) for part, measure, matrices in pieces]
     healths = [(measure.health, len(part.matrices), faces.total) for (part, measure, _), faces in zip(pieces, areas)]
-    verdicts = [Verdict(measure.method) for measure in measures]
+    procedures = [Procedure(measure.method) for measure in measures]
     if rest:
         volumes.append(rest.volume)
         areas.append(rest.area)
         healths.append((rest.health, 1, rest.area.total))
-        verdicts.append(rest.method.verdict)
+        procedures.append(rest.method.procedure)
     display = None
     if settings.compare:
         with suppress(MeasureError):  # a display mesh that cannot be measured compares with nothing
@@ -153,7 +153,7 @@ def body(reading: Reading, request: Request) -> Body:
         sum_moments(volumes),
         sum_moments(areas),
         merge_health(healths),
-        Method(least_trusted(verdicts), _source(reading)),
+        Method(least_trusted(procedures), _source(reading)),
         tuple(each_once(_solid_findings(reading, pieces, rest))),
         display_volume=display,
         estimated=True,
@@ -239,7 +239,13 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
         findings += polygons.findings
     area = sum_moments(areas)
     nothing = Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME)
-    common = (nothing, area, merge_health(healths), Method(Verdict.SHELL, _source(reading)), tuple(each_once(findings)))
+    common = (
+        nothing,
+        area,
+        merge_health(healths),
+        Method(Procedure.SHELL, _source(reading)),
+        tuple(each_once(findings)),
+    )
     if wall != "thin":
         return Body(*common, wall=sum_moments(sheets), estimated=True)
     return PatchSheetBody(*common, estimated=True, unit=unit, parts=tuple(patch_parts), polygons=polygons)

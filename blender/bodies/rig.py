@@ -25,7 +25,7 @@ from ...core.rig.cuts import bone_pieces, bones_of_caps, dominant_bones
 from ...core.solid.measure import measure_solid
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ...core.verdict.method import Method, Verdict, least_trusted
+from ...core.verdict.method import Method, Procedure, least_trusted
 from ..read.bones import RestBones, vertex_weights
 from ..read.fingerprint import matrix_hash
 from ..read.objects import locate, read_object
@@ -62,7 +62,7 @@ class _Sum:
     hanging: list[Moments] = field(default_factory=list)
     extents: list[Extent] = field(default_factory=list)
     areas: list[Extent] = field(default_factory=list)
-    verdicts: list[Verdict] = field(default_factory=list)
+    procedures: list[Procedure] = field(default_factory=list)
     surfaces: list[tuple[Surface, NDArray[np.float64]]] = field(default_factory=list)
     sources: dict[str, None] = field(default_factory=dict)
 
@@ -164,7 +164,7 @@ class _Measuring:
         found.hanging.append(replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS) * factor)
         found.extents.append(extent_of(measurement, "volume"))
         found.areas.append(extent_of(measurement, "area"))
-        found.verdicts.append(measurement.method.verdict)
+        found.procedures.append(measurement.method.procedure)
         for surface in measured.body.surfaces(measurement.kind == "shell"):
             found.surfaces.append((surface, np.eye(4)))
         if not self.is_given and unset_density(obj, measurement, self.depsgraph.scene) is not None:
@@ -187,14 +187,14 @@ class _Measuring:
             self.findings.append(finding(RIG_MEAN_DENSITY).of_sources([obj.name]))
         if not density > 0.0:
             raise ReadError(ZERO_QUANTITY, quantity="density")
-        for name, moments, area, surface, matrix, verdict in pieces:
+        for name, moments, area, surface, matrix, procedure in pieces:
             found = self._sum_of(name, obj)
             carrier = replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS)
             carrier = carrier * options.thickness if shell else carrier
             found.carriers.append((carrier, density))
             found.extents.append((carrier.total, float(carrier.rounding_error[0]), float(carrier.input_error[0])))
             found.areas.append((area.total, float(area.rounding_error[0]), float(area.input_error[0])))
-            found.verdicts.append(verdict)
+            found.procedures.append(procedure)
             found.surfaces.append((surface, matrix))
         own = obj.body_moments
         by_value = own.mass_from == "DENSITY" and own.density_from == "VALUE"
@@ -202,7 +202,7 @@ class _Measuring:
             self.unset.append(obj.name)
 
     def _pieces(self, obj: Object, part: Part, shell: bool) -> Iterator[tuple]:
-        """Yield (bone, SI world volume or area moments, area, surface, map, verdict) of each piece of a surface."""
+        """Yield (bone, SI world volume or area moments, area, surface, map, procedure) of each piece of a surface."""
         surface = part.surface
         if not len(surface.triangles) and not len(surface.quads):
             return
@@ -254,7 +254,7 @@ class _Measuring:
                 surface.points, triangles[bones == bone].astype(np.int64), displacement=surface.coordinate_error
             )
             area = _area(sheet, metric, KNOWN_ORDER)
-            yield self.bones.deforming[bone], area, area, sheet, metric, Verdict.SHELL
+            yield self.bones.deforming[bone], area, area, sheet, metric, Procedure.SHELL
 
     def _part(self, name: str, found: _Sum) -> BonePart:
         settings = self.armature.pose.bones[name].body_moments
@@ -278,7 +278,7 @@ class _Measuring:
                 location=head * self.unit,
                 fingerprint=fingerprint(mass.raw.tobytes(), "", digest(name.encode())),
                 findings=(),
-                method=Method(least_trusted(found.verdicts)),
+                method=Method(least_trusted(found.procedures)),
                 density_from=DENSITIES_FROM[mass_from],
             )
         except MeasureError as error:

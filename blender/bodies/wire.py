@@ -19,7 +19,7 @@ from ...core.nurbs.splines import Curve
 from ...core.polyhedron.third_order import nothing
 from ...core.verdict.finding import ReadError
 from ...core.verdict.health import MeshHealth
-from ...core.verdict.method import Method, Verdict
+from ...core.verdict.method import Method, Procedure
 from ..read.findings import NO_CURVE
 from ..read.objects import read_lines
 from .request import Request
@@ -63,7 +63,7 @@ def body(reading: Reading, request: Request) -> Body:
     return WireBody(
         *nothing(KNOWN_ORDER, length.about),
         MeshHealth(closed=all(_is_closed(curve, reach) for curve in curves), components=len(curves)),
-        Method(Verdict.WIRE),
+        Method(Procedure.WIRE),
         (),
         length=replace(length, input_error=moved),
         estimated=True,

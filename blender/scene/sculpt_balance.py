@@ -25,7 +25,7 @@ from ...core.statics.balancing import balance
 from ...core.statics.findings import BALANCE_NO_EFFECT, BALANCE_SHORT
 from ...core.verdict.finding import EditRefusedError, MeasureError
 from ...core.verdict.findings import LINKED_OBJECT
-from ...core.verdict.method import Method, Verdict
+from ...core.verdict.method import Method, Procedure
 from ..bodies.measure_object import measure_object
 from ..read.findings import SCALE_ZERO_AXIS
 from ..read.mesh import vertex_points
@@ -195,7 +195,7 @@ def _measure(context: Context, obj: Object) -> Measurement:
     measurement = measure_object(obj, context.evaluated_depsgraph_get())
     if measurement.mass_moments[0].measure == Measure.MASS:
         raise EditRefusedError(BALANCE_SETTINGS)
-    if measurement.kind == "solid" and (measurement.method != Method(Verdict.EXACT) or measurement.health.welded):
+    if measurement.kind == "solid" and (measurement.method != Method(Procedure.EXACT) or measurement.health.welded):
         raise EditRefusedError(BALANCE_UNCLEAN)
     return measurement
 

@@ -23,7 +23,7 @@ from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
 from ...core.numerics.float32 import shortest_decimal
 from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict.finding import EditRefusedError, Finding
-from ...core.verdict.method import Verdict
+from ...core.verdict.method import Procedure
 from ..bodies.measure_object import Measured, measure_body
 from ..bodies.stacks.many import measured_in_turn
 from ..bodies.stacks.stack import Stacked
@@ -115,7 +115,7 @@ def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarg
 
 def target_of(context: Context, obj: Object, measured: Measured | Stacked, strict: bool) -> SnapTarget:
     """Return the `snap_target` of a measured object."""
-    if measured.method.verdict == Verdict.OPEN:
+    if measured.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT)
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     body = measured.mass_properties

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The displayed numbers of objects, and the trust in them: panels, list and overlay ask here. Loads no numpy.
+"""The displayed numbers of objects, and the verdict on them: panels, list and overlay ask here. Loads no numpy.
 
 The order of the list is cached until Blender reports a change.
 """
@@ -19,9 +19,9 @@ from ...core.inertia.plain_body import PlainBody, add_bodies
 from ...core.lazy import loaded_module
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
-from ...core.verdict.method import Method, Verdict
+from ...core.verdict.method import Method, Procedure
 from ...core.verdict.sentences import Group, grouped
-from ...core.verdict.trust import Trust, open_body_caveats, trust_of
+from ...core.verdict.verdict import Verdict, find_verdict, open_body_caveats
 from .. import read
 from ..read.fingerprint import has_transform
 from ..write import properties
@@ -34,10 +34,10 @@ from .tracking.cache import SessionCache, current_value
 from .tracking.staleness import stale_reason
 from .tracking.stamps import Stale, of_results
 
-ASSEMBLY = Method(Verdict.ASSEMBLY)
+ASSEMBLY = Method(Procedure.ASSEMBLY)
 BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
 Listing = tuple[list[bool], list[int]]  # for each object its visibility in the list, and its line
-RANKS = {verdict: rank for rank, verdict in enumerate(Trust)}
+RANKS = {verdict: rank for rank, verdict in enumerate(Verdict)}
 
 
 class Displayed(NamedTuple):
@@ -53,7 +53,7 @@ class Displayed(NamedTuple):
     unit: float
     method: Method | None
     findings: Sequence[Finding]
-    trust: Trust
+    verdict: Verdict
     reason: Stale | None = None
     live: LiveResult | None = None
     lag: Lag = Lag.NONE
@@ -69,7 +69,7 @@ class Total:
     """Selected objects as one body.
 
     count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names of objects without
-    results; stale: names of objects with outdated results; findings: caveats about the sum; trust: the least of any
+    results; stale: names of objects with outdated results; findings: caveats about the sum; verdict: the least of any
     object; groups: the objects' own findings.
     """
 
@@ -80,7 +80,7 @@ class Total:
     missing: tuple[str, ...]
     stale: tuple[str, ...]
     findings: tuple[Finding, ...]
-    trust: Trust | None
+    verdict: Verdict | None
     groups: tuple[Group, ...]
 
 
@@ -119,9 +119,9 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
         is_behind, now = reason is not None, None
     if own is None:
         return None
-    trust = Trust.OUT_OF_DATE if is_behind else trust_of(method, findings)
+    verdict = Verdict.OUT_OF_DATE if is_behind else find_verdict(method, findings)
     unit = shortest_decimal(scene.unit_settings.scale_length)
-    return Displayed(own, own.in_world(obj.matrix_world, unit), unit, method, findings, trust, reason, now, lag)
+    return Displayed(own, own.in_world(obj.matrix_world, unit), unit, method, findings, verdict, reason, now, lag)
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
@@ -191,8 +191,8 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     unit = shortest_decimal(scene.unit_settings.scale_length)
     world = own.in_world(armature.matrix_world @ bone.matrix, unit)
     method, findings, reason = properties.method(bone), properties.findings(armature), stale_reason(armature, scene)
-    trust = trust_of(method, findings) if reason is None else Trust.OUT_OF_DATE
-    return Displayed(own, world, unit, method, findings, trust, reason)
+    verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
+    return Displayed(own, world, unit, method, findings, verdict, reason)
 
 
 def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -> Displayed | None:
@@ -210,8 +210,8 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
             mass=rest, density=factor * world.density, inertia=tuple(inertia), moments=tuple(moments)
         )
     own = world.in_object(armature.matrix_world, unit)
-    worst = max(known, key=lambda part: tuple(Trust).index(part.trust))
-    return Displayed(own, world, unit, worst.method, worst.findings, worst.trust, is_posed=True)
+    worst = max(known, key=lambda part: tuple(Verdict).index(part.verdict))
+    return Displayed(own, world, unit, worst.method, worst.findings, worst.verdict, is_posed=True)
 
 
 def _weighed(armature: Object, scene: Scene) -> Displayed | None:
@@ -224,9 +224,9 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
         return None
     unit = shortest_decimal(scene.unit_settings.scale_length)
     method, findings, reason = properties.method(armature), properties.findings(armature), stale_reason(armature, scene)
-    trust = trust_of(method, findings) if reason is None else Trust.OUT_OF_DATE
+    verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
     own = weight.body.in_object(armature.matrix_world, unit)
-    return Displayed(own, weight.body, unit, method, findings, trust, reason, is_posed=True)
+    return Displayed(own, weight.body, unit, method, findings, verdict, reason, is_posed=True)
 
 
 def shown_objects(context: Context) -> list[Object]:
@@ -263,7 +263,7 @@ def _sum(context: Context) -> Total:
             parts[obj] = shown
     worlds = [shown.world for shown in parts.values()]
     alone = next((world for world in worlds if world.mass > 0.0), None)
-    stale = tuple(obj.name for obj, shown in parts.items() if shown.trust == Trust.OUT_OF_DATE)
+    stale = tuple(obj.name for obj, shown in parts.items() if shown.verdict == Verdict.OUT_OF_DATE)
     return Total(
         len(parts),
         sum(world.volume for world in worlds),
@@ -275,7 +275,7 @@ def _sum(context: Context) -> Total:
             *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
             *read.assembly.total_caveats(parts, context.view_layer),
         ),
-        max((shown.trust for shown in parts.values()), key=tuple(Trust).index, default=None),
+        max((shown.verdict for shown in parts.values()), key=tuple(Verdict).index, default=None),
         tuple(grouped((obj.name_full, found) for obj, shown in parts.items() for found in shown.findings)),
     )
 
@@ -326,6 +326,6 @@ def _listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, wa
 def _rank(obj: Object, body: Displayed | None, sort_by: SortBy, warnings_first: bool) -> tuple:
     if body is None:
         return (True,)
-    by = {SortBy.MASS: -body.world.mass, SortBy.VERDICT: -RANKS[body.trust]}
-    is_first = warnings_first and body.trust in (Trust.OUT_OF_DATE, Trust.DOUBTFUL)
+    by = {SortBy.MASS: -body.world.mass, SortBy.VERDICT: -RANKS[body.verdict]}
+    is_first = warnings_first and body.verdict in (Verdict.OUT_OF_DATE, Verdict.DOUBTFUL)
     return (False, not is_first, by.get(sort_by, 0.0), obj.name.lower(), obj.name)

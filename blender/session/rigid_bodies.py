@@ -16,7 +16,7 @@ from bpy.types import Context, Object
 from ...core.inertia.mass_properties import combine
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError
-from ...core.verdict.method import Verdict
+from ...core.verdict.method import Procedure
 from ..bodies.measure_object import Measured as MeasuredBody
 from ..bodies.stacks.many import measured_in_turn
 from ..bodies.stacks.stack import Stacked
@@ -201,7 +201,7 @@ def _measured_part(part: Object, ask: Callable[[Object], MeasuredBody | Stacked]
     if part.type != "MESH":
         raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
     measured = ask(part)
-    if measured.measurement.method.verdict == Verdict.OPEN:
+    if measured.measurement.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT)
     return measured
 

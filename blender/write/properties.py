@@ -22,7 +22,7 @@ from ...core.measurement.documents import plain
 from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
 from ...core.verdict.findings import LINKED_OBJECT
-from ...core.verdict.method import Method, Source, Verdict
+from ...core.verdict.method import Method, Procedure, Source
 from ...core.verdict.sentences import of_severity, sentence
 
 if TYPE_CHECKING:
@@ -332,7 +332,7 @@ def is_estimated(obj: bpy.types.Object) -> bool:
     if how is None:
         return False
     is_filled = how.source == Source.GRID and obj.type != "VOLUME"
-    return is_filled or how.source == Source.NURBS or how.verdict == Verdict.WIRE
+    return is_filled or how.source == Source.NURBS or how.procedure == Procedure.WIRE
 
 
 def optional(obj: Owner, key: str) -> float | None:

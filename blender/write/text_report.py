@@ -17,7 +17,7 @@ from ...core.measurement.plain_text import visible
 from ...core.measurement.record import described
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.verdict.method import Method, Verdict
+from ...core.verdict.method import Method, Procedure
 from ...core.verdict.sentences import HEALTH, METHODS, method_key
 from ...core.wall.findings import WALL_MEASURED
 from . import properties
@@ -75,7 +75,7 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     if "method" in entry:
         walled = any(found["code"] == WALL_MEASURED for found in entry.get("findings", ()))
         _, explanation = METHODS.get(method_key(Method.parse(entry["method"]), walled), ("", ""))
-        yield report_line("Verdict", ": ".join(filter(None, (entry["method"], explanation))))
+        yield report_line("Procedure", ": ".join(filter(None, (entry["method"], explanation))))
         counts = list(_counts(entry.get("health", {})))
         if counts:
             yield report_line("Found", ", ".join(counts))
@@ -152,14 +152,14 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
 def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any]:
     """Return the record of an object's stored results, with an empty health, which is not stored."""
     method, findings = properties.method(obj), properties.findings(obj)
-    kinds = {Verdict.SHELL: "shell", Verdict.WIRE: "wire"}
+    kinds = {Procedure.SHELL: "shell", Procedure.WIRE: "wire"}
     source = properties.density_from(obj)
     if outdated:
         findings = (finding(STALE_RESULTS), *findings)
     entry = {
         "name": obj.name,
         "type": obj.type,
-        "kind": "solid" if method is None else kinds.get(method.verdict, "solid"),
+        "kind": "solid" if method is None else kinds.get(method.procedure, "solid"),
         "method": properties.method_text(obj),
         "density": stored.density,
         **({"density_from": source} if source else {}),

@@ -29,7 +29,7 @@ from ...core.scans import formats as scans
 from ...core.streams.file_mesh import FileMesh
 from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, MeasureError, QueryError, finding, system_reason
-from ...core.verdict.trust import open_body_caveats
+from ...core.verdict.verdict import open_body_caveats
 from .. import measure
 from ..files.suffixes import STREAMED, check_file, file_suffix
 from ..findings import FOURIER_OBJECT_COUNT, RESULTS_NEED_BLEND, STREAM_OPTIONS

@@ -24,7 +24,7 @@ from ...blender.settings.options import MeasureOptions
 from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import MeasureError
-from ...core.verdict.method import Verdict
+from ...core.verdict.method import Procedure
 from .entries import Contents
 
 
@@ -74,7 +74,7 @@ def measure_combined(options: MeasureOptions, contents: Contents, assets: bool) 
 
     roots = dict.fromkeys(_roots(scene))
     measured = [
-        root for root in roots if root.get("body_method") == Verdict.ASSEMBLY or settings_of(root).mass_from == "MASS"
+        root for root in roots if root.get("body_method") == Procedure.ASSEMBLY or settings_of(root).mass_from == "MASS"
     ]
     for root in measured:
         with contents.attempt(root.name):
@@ -84,7 +84,7 @@ def measure_combined(options: MeasureOptions, contents: Contents, assets: bool) 
             with suppress(MeasureError):  # assemblies of lamps, or of objects that are left out
                 add_assembly(root)
     for armature in sorted(scene.objects, key=lambda obj: obj.name):
-        if armature.type == "ARMATURE" and armature.get("body_method") == Verdict.ASSEMBLY:
+        if armature.type == "ARMATURE" and armature.get("body_method") == Procedure.ASSEMBLY:
             with contents.attempt(armature.name):
                 found.rigs.append(measure_rig(bpy.context, armature))
     return found

@@ -30,7 +30,7 @@ from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
-from ...core.verdict.trust import open_body_caveats
+from ...core.verdict.verdict import open_body_caveats
 from ..files.files import newer_version, open_file, requested_file
 from ..files.references import Opened, blocked_scripts, missing_links, scripts_of_open_file
 from ..files.saving import Place, write_assets

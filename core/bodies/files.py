@@ -29,7 +29,7 @@ from ..streams.measure import MeshFile, StreamIntegrals, measure_stream, open_me
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.findings import SELF_INTERSECTION
 from ..verdict.health import MeshHealth
-from ..verdict.method import Method, Verdict
+from ..verdict.method import Method, Procedure
 from .findings import (
     DENSITY_FROM_SAMPLES,
     GIVEN_DENSITY_IGNORED,
@@ -114,12 +114,12 @@ def measure_mesh_file(
         mesh = open_mesh_file(path)
         found = measure_stream(mesh, order, area_order, settings.threads, progress)
         volume, area = _in_meters(found, unit)
-        notes, verdict = [*findings, finding(MESH_STREAMED, count=found.face_count)], Verdict.EXACT
+        notes, verdict = [*findings, finding(MESH_STREAMED, count=found.face_count)], Procedure.EXACT
         if not found.closed:
-            verdict = Verdict.OPEN
+            verdict = Procedure.OPEN
             notes += [finding(STREAMED_OPEN)] if kind == "solid" else []
         elif found.volume.total < 0.0:
-            verdict = Verdict.REORIENTED
+            verdict = Procedure.REORIENTED
             notes += [finding(INVERTED_COMPONENTS, count=1, total=1)] if kind == "solid" else []
         body = StreamBody(
             volume,

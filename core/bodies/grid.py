@@ -23,7 +23,7 @@ from ..moments.moments import Measure, Moments
 from ..scans.formats import EVEN, Positions
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.health import MeshHealth
-from ..verdict.method import Method, Source, Verdict
+from ..verdict.method import Method, Procedure, Source
 from .findings import (
     DENSITY_FROM_GRID,
     GRID_EMPTY,
@@ -123,7 +123,7 @@ def density_body(
         volume,
         Moments(np.zeros(1), volume.about, Measure.AREA),
         MeshHealth(closed=True),
-        Method(Verdict.EXACT, Source.GRID),
+        Method(Procedure.EXACT, Source.GRID),
         (*findings, *empty, finding(GRID_WITHOUT_SURFACE)),
         mass=mass,
         higher_mass=higher,
@@ -214,7 +214,7 @@ def threshold_grid_body(
         above.volume,
         above.area,
         MeshHealth(closed=not above.clipped),
-        Method(Verdict.EXACT, Source.GRID),
+        Method(Procedure.EXACT, Source.GRID),
         tuple(findings),
         mass=mass,
         higher_mass=higher,

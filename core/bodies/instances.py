@@ -21,7 +21,7 @@ from ..moments.moments import Moments
 from ..polyhedron.integration import area_of_images
 from ..solid.findings import COMPONENTS_NESTED, COMPONENTS_OVERLAP, OVERLAP_UNCHECKED
 from ..solid.nesting import classify_pairs
-from ..solid.solid_verdict import SolidIntegrals
+from ..solid.solid_method import SolidIntegrals
 from ..verdict.finding import Finding, finding
 from ..verdict.findings import SELF_INTERSECTION
 from ..verdict.health import DefectiveElements, Intersection, MeshHealth

@@ -22,7 +22,7 @@ from ..polyhedron import polyhedron_moments
 from ..solid.findings import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES
 from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict.finding import Finding, finding
-from ..verdict.method import Method, Verdict, least_trusted
+from ..verdict.method import Method, Procedure, least_trusted
 from ..verdict.tolerances import NEGLIGIBLE
 from .findings import DRAWN_AS_POLYGONS, FLAT_SURFACES, INSTANCE_OVERLAP_UNCHECKED, NON_PLANAR_FACES_OF_DISPLAY_MESH
 from .instances import (
@@ -72,7 +72,7 @@ class MeshBody(Body):
         for solid, matrices in self.solids:
             surface = solid.given_surface
             same = (
-                solid.method in (Verdict.EXACT, Verdict.REORIENTED)
+                solid.method in (Procedure.EXACT, Procedure.REORIENTED)
                 and not solid.health.duplicate_faces
                 and solid.repaired_surface.triangle_count == surface.triangle_count
             )  # otherwise the repaired surface has fewer or more faces
@@ -164,7 +164,7 @@ def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDAr
 
 def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
     """Return the sum of all parts, each measured once in its own coordinates, and mapped to its places."""
-    volumes, areas, healths, verdicts, by_part, parts = [], [], [], [], [], []
+    volumes, areas, healths, procedures, by_part, parts = [], [], [], [], [], []
     drawn = drawn_names(reading)
 
     def measured_area(surface: Surface) -> Moments:
@@ -182,7 +182,7 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
         health = replace(solid.health, volume_spread=solid.health.volume_spread * stretch)
         healths.append((health, len(matrices), sum([float(moments.raw[0]) for moments in image_areas])))
         flat = not shell and not solid.volume.raw.any()
-        verdicts.append(None if flat else Verdict(solid.method))
+        procedures.append(None if flat else Procedure(solid.method))
         if shell:  # A sheet is not repaired.
             copies = solid.health.defective_elements.duplicate_faces
             remarks = [_copies_of_shell(part.surface, copies)] if len(copies) else []
@@ -204,11 +204,11 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
             )
         else:
             findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
-    of_solids = [verdict for verdict in verdicts if verdict]
-    if of_solids and len(of_solids) < len(verdicts):
-        flat_area = sum([area for (_, _, area), verdict in zip(healths, verdicts) if verdict is None])
+    of_solids = [procedure for procedure in procedures if procedure]
+    if of_solids and len(of_solids) < len(procedures):
+        flat_area = sum([area for (_, _, area), procedure in zip(healths, procedures) if procedure is None])
         slight = flat_area * unit * instances_size(reading) < NEGLIGIBLE * float(sum_moments(volumes).total)
-        findings.append(finding(FLAT_SURFACES, slight=slight, count=verdicts.count(None), total=len(verdicts)))
+        findings.append(finding(FLAT_SURFACES, slight=slight, count=procedures.count(None), total=len(procedures)))
     return MeshBody(
         sum_moments(volumes),
         sum_moments(areas),

@@ -28,7 +28,7 @@ from ..solid.findings import INVERTED_COMPONENTS
 from ..solid.measure import SolidIntegrals
 from ..verdict.finding import Finding, ReadError, finding, unique
 from ..verdict.findings import FLIPPED_FACES
-from ..verdict.method import Verdict
+from ..verdict.method import Procedure
 from ..verdict.tolerances import NEGLIGIBLE
 from ..wall import offset_solid, wall_moments
 from ..wall.findings import WALL_MEASURED
@@ -206,7 +206,7 @@ def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
 
 def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Finding]) -> Surface:
     """Return the surface with faces outward if it is closed, else unchanged with a finding."""
-    if solid.method in (Verdict.EXACT, Verdict.REORIENTED):
+    if solid.method in (Procedure.EXACT, Procedure.REORIENTED):
         area = polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[1].total
         if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:  # else the repair has removed faces
             findings += [result for result in solid.findings if result.code in {FLIPPED_FACES, INVERTED_COMPONENTS}]

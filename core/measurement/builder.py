@@ -22,7 +22,7 @@ from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.findings import OBJECT_TOO_LARGE
 from ..verdict.health import MeshHealth
-from ..verdict.method import Method, Verdict
+from ..verdict.method import Method, Procedure
 from ..wall.findings import NO_FACE_AREA
 from .findings import (
     AXES_FROM_THIRD_ORDER,
@@ -90,7 +90,7 @@ def measure_body(body: Body, settings: Settings, *, findings: tuple[Finding, ...
     given = DENSITY_FROM_VALUE if settings.mass is None else DENSITY_FROM_MASS
     return build_measurement(
         kind=settings.kind,
-        method=Method(Verdict.SHELL, body.method.source) if shell else body.method,
+        method=Method(Procedure.SHELL, body.method.source) if shell else body.method,
         density=0.0 if wire else density,
         thickness=settings.thickness if shell else 0.0,
         volume=body.volume if wire else measured,
@@ -139,7 +139,7 @@ def measure_total(
         mass_moments=(mass, 1.0),
         health=health or MeshHealth(closed=False, components=0),
         rotation=rotation,
-        **({"method": Method(Verdict.ASSEMBLY), "density_from": finding(DENSITY_FROM_MEMBERS)} | fields),
+        **({"method": Method(Procedure.ASSEMBLY), "density_from": finding(DENSITY_FROM_MEMBERS)} | fields),
     )
 
 
@@ -314,7 +314,7 @@ def mass_properties(points: ArrayLike, triangles: ArrayLike, *, density: float) 
     Returns
     -------
     Measurement
-        `mass_properties` has mass, center, inertia about the center and principal axes; `method` is the verdict.
+        `mass_properties` has mass, center, inertia about the center and principal axes; `method` tells how.
 
     Raises
     ------

@@ -28,7 +28,7 @@ from ..moments.moments import Moments, U, monomials
 from ..polyhedron.n_dimensions import multi_indices
 from ..verdict.finding import Finding, MeasureError, Severity
 from ..verdict.sentences import sentence, severity
-from ..verdict.trust import trust_of
+from ..verdict.verdict import find_verdict
 from .documents import plain
 from .measurement import UNIFORM_DENSITIES, Measurement
 
@@ -57,7 +57,7 @@ def record(
         "name": measurement.name,
         "type": measurement.type,
         "kind": measurement.kind,
-        "verdict": str(trust_of(measurement.method, measurement.findings)),
+        "verdict": str(find_verdict(measurement.method, measurement.findings)),
         "method": str(measurement.method),
         "density": measurement.density,
         **({} if measurement.density_from in UNIFORM_DENSITIES else {"density_from": str(measurement.density_from)}),

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measurement of a body bounded by B-spline patches: its kind, the decisions taken, and its moments.
 
-The counterpart of `core.solid` for surfaces that are not made of polygons, with the same verdicts: patches that face
+The counterpart of `core.solid` for surfaces that are not made of polygons, with the same procedures: patches that face
 against the rest of their part are turned, holes are capped, parts that are inside out and in no other part's material
 are turned, and unclosable patches are measured as a signed sum and called open. Parts are compared by samples of their
 patches: an overlap that is thinner than a hundredth of a part may be missed.
@@ -34,7 +34,7 @@ from ..solid.nesting import ComponentRelations, classify_pairs
 from ..solid.orientation import ComponentComparison, zero_volume
 from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.health import MeshHealth
-from ..verdict.method import Verdict
+from ..verdict.method import Procedure
 from ..verdict.tolerances import NEGLIGIBLE, welding_tolerance
 from .findings import (
     AMBIGUOUS_PATCH_SIDES,
@@ -68,7 +68,7 @@ class PatchIntegrals:
     volume: Moments
     area: Moments
     health: MeshHealth
-    method: Verdict
+    method: Procedure
     findings: tuple[Finding, ...]
     patches: tuple[Face, ...]
     signs: NDArray[np.float64]
@@ -194,11 +194,11 @@ def assess(
         cap_area_share=float(caps[solid].sum() / area.total) if area.total > 0.0 else 0.0,
     )
     if topology.unclosable.any() or not solid.any():
-        method = Verdict.OPEN
+        method = Procedure.OPEN
     elif caps[solid].any():
-        method = Verdict.CAPPED
+        method = Procedure.CAPPED
     else:
-        method = Verdict.REORIENTED if misoriented or turned else Verdict.EXACT
+        method = Procedure.REORIENTED if misoriented or turned else Procedure.EXACT
     return PatchIntegrals(
         volume,
         area,

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials, sum_moments
 from ..numerics.bspline import SplineSpace
-from ..verdict.method import Verdict
+from ..verdict.method import Procedure
 from ..verdict.tolerances import welding_tolerance
 from .bezier import MAX_CELLS, cells_of_nets, homogeneous
 from .patch_moments import area_slope, exact_points, flux_sums, integrand_in_blocks, volume_moments
@@ -45,7 +45,7 @@ class TrackedSolid:
 
     def _measure_anew(self, patches: Sequence[Patch], stored: float) -> None:
         self.measure: PatchIntegrals = measure_patches(patches, stored=stored)
-        self._is_tracking = self.measure.method is not Verdict.OPEN
+        self._is_tracking = self.measure.method is not Procedure.OPEN
         if not self._is_tracking:
             return
         volume, area = self.measure.volume, self.measure.area
@@ -74,7 +74,7 @@ class TrackedSolid:
             return False
         self._fluxes = [evaluator.moments(patch.points) for evaluator, patch in zip(self._evaluators, patches)]
         measure = self._assess(patches, find_topology(patches, welding_tolerance(size, stored)), stored)
-        if measure.method is Verdict.OPEN:
+        if measure.method is Procedure.OPEN:
             self._measure_anew(patches, stored)
             return False
         self.measure = measure

@@ -18,7 +18,7 @@ from ..moments.moments import Moments
 from ..solid.measure import measure_solid
 from ..verdict import internal_error
 from ..verdict.finding import Finding, MeasureError, Severity, finding
-from ..verdict.method import Verdict
+from ..verdict.method import Procedure
 from ..verdict.sentences import sentence, severity
 from .diagnosis import DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
@@ -42,7 +42,7 @@ from .stated import Description, Place, StatedInertial, StatedLink, StatedShape,
 
 BALL = 2000  # points of a ball
 ROUND = 1.01  # Factor that encloses a round shape, of which only some points are known.
-RELIABLE = (Verdict.EXACT, Verdict.REORIENTED, Verdict.CAPPED)
+RELIABLE = (Procedure.EXACT, Procedure.REORIENTED, Procedure.CAPPED)
 
 
 @dataclass(frozen=True, eq=False)
@@ -275,7 +275,7 @@ def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
         solid = measure_solid(surface)
     except MeasureError:
         return _Piece(points, None, upright)
-    certain = Verdict(solid.method) in RELIABLE and solid.volume.raw[0] > 0.0
+    certain = Procedure(solid.method) in RELIABLE and solid.volume.raw[0] > 0.0
     return _Piece(points, solid.volume if certain else None, upright)
 
 

@@ -6,6 +6,6 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    SolidIntegrals="solid_verdict",
+    SolidIntegrals="solid_method",
     measure_solid="measure",
 )

@@ -18,7 +18,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..mesh.surface import Surface
-from ..verdict.method import Verdict
+from ..verdict.method import Procedure
 from .closedness import CheckedSurface, GivenIntegrals, check_surface, integrate_and_prove
 from .hole_caps import (
     cap_holes,
@@ -32,8 +32,8 @@ from .hole_caps import (
 from .orientation import OrientedSolid, orient_components
 from .repaired_mesh import UNKNOWN, RepairedMesh, copy_with
 from .self_intersection import find_self_intersection
+from .solid_method import SolidIntegrals, judge
 from .solid_stack import SolidStack
-from .solid_verdict import SolidIntegrals, judge
 from .weld_open_parts import (
     copied_faces,
     drop_collapsed_triangles,
@@ -110,7 +110,7 @@ def _measure_given(checked: CheckedSurface, given: GivenIntegrals, shell: bool, 
     if moved and moved > MAX_WELDED_SHARE * abs(solid.oriented.volume.total):
         mesh = repair_surface(checked.surface, checked.tolerance, weld_near=False)
         unwelded = _measure_repaired(checked, given, mesh, shell, threads)
-        return solid if unwelded.method is Verdict.OPEN else unwelded
+        return solid if unwelded.method is Procedure.OPEN else unwelded
     return solid
 
 

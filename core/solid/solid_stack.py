@@ -35,7 +35,7 @@ from .boundary_loops import OwnedLoops, has_distinct_vertices, side_ends
 from .closedness import SUM_ROUNDING, GivenIntegrals, prove_closed, same_sign
 from .orientation import zero_volume
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
-from .solid_verdict import SolidIntegrals, cap_finding, shape_findings
+from .solid_method import SolidIntegrals, cap_finding, shape_findings
 
 MAX_COMPONENTS = 16  # Limit for one body: all pairs are compared.
 CLEAR_VOLUME = 4.0  # times the volume that counts as none: bodies with smaller components are measured one by one

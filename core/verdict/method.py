@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 
-class Verdict(StrEnum):
-    """The kind of body that was measured. The first four are of solids, the least trustworthy first."""
+class Procedure(StrEnum):
+    """The procedure that a body needed. The first four are of solids, the least trustworthy first."""
 
     OPEN = "open"  # bounds no certain volume: not to be closed, flat, or mostly within itself
     CAPPED = "capped"  # closed by caps over its holes
@@ -24,11 +24,11 @@ class Verdict(StrEnum):
     @property
     def is_closed(self) -> bool:
         """True if the surface encloses the measured volume."""
-        return self in (Verdict.CAPPED, Verdict.REORIENTED, Verdict.EXACT, Verdict.UNION)
+        return self in (Procedure.CAPPED, Procedure.REORIENTED, Procedure.EXACT, Procedure.UNION)
 
 
 class Source(StrEnum):
-    """The source of the geometry: the word before the verdict, empty for polygons."""
+    """The source of the geometry: the word before the procedure, empty for polygons."""
 
     POLYGONS = ""
     NURBS = "NURBS"
@@ -41,34 +41,34 @@ class Method:
 
     Parameters
     ----------
-    verdict : Verdict
+    procedure : Procedure
     source : Source
 
     Examples
     --------
     >>> from body_moments.core.verdict import Method
-    >>> from body_moments.core.verdict.method import Source, Verdict
-    >>> str(Method(Verdict.EXACT, Source.NURBS)), Method.parse("NURBS exact").source is Source.NURBS
+    >>> from body_moments.core.verdict.method import Procedure, Source
+    >>> str(Method(Procedure.EXACT, Source.NURBS)), Method.parse("NURBS exact").source is Source.NURBS
     ('NURBS exact', True)
     """
 
-    verdict: Verdict
+    procedure: Procedure
     source: Source = Source.POLYGONS
 
     def __str__(self) -> str:
-        return " ".join(filter(None, (self.source.value, self.verdict.value)))
+        return " ".join(filter(None, (self.source.value, self.procedure.value)))
 
     @classmethod
     def parse(cls, text: str) -> Method | None:
         """Return the method that `str` has written; None for any other text."""
-        source, _, verdict = text.rpartition(" ")
+        source, _, procedure = text.rpartition(" ")
         try:
-            return cls(Verdict(verdict), Source(source))
+            return cls(Procedure(procedure), Source(source))
         except ValueError:
             return None
 
 
-def least_trusted(verdicts: list[Verdict]) -> Verdict:
-    """Return the least trustworthy verdict of several solids."""
-    ranking = list(Verdict)
-    return min(verdicts, key=ranking.index, default=Verdict.OPEN)
+def least_trusted(procedures: list[Procedure]) -> Procedure:
+    """Return the least trustworthy procedure of several solids."""
+    ranking = list(Procedure)
+    return min(procedures, key=ranking.index, default=Procedure.OPEN)

@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 from .catalog import declared
 from .finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
 from .findings import AND_MORE
-from .method import Method, Verdict
+from .method import Method, Procedure
 
 MAX_LISTED = MAX_STORED_ELEMENTS
 ACCEPTED = "Accepted: {}"  # before a finding that a user has judged, by its value `accepted`
@@ -141,9 +141,9 @@ def method_key(method: Method | None, walled: bool) -> str:
     """Return the entry of METHODS that a method belongs to, "" for none. walled: if a shell is a wall."""
     if method is None:
         return ""
-    if walled and method.verdict == Verdict.SHELL:
+    if walled and method.procedure == Procedure.SHELL:
         return "wall"
-    return str(method) if str(method) in METHODS else method.verdict.value
+    return str(method) if str(method) in METHODS else method.procedure.value
 
 
 # Counts of the health record, as the text report names them: one, several.

@@ -21,7 +21,7 @@ from ...core import measurement
 from ...core.robots import write as robot_formats
 from ...core.robots.formats import FORMATS
 from ...core.verdict.finding import Finding, Severity
-from ...core.verdict.trust import open_body_caveats
+from ...core.verdict.verdict import open_body_caveats
 from .. import selection
 from .moments import reference_text
 

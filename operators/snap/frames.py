@@ -21,7 +21,7 @@ from ...blender.write import reports
 from ...core import inertia
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, MeasureError, Severity
-from ...core.verdict.method import Verdict
+from ...core.verdict.method import Procedure
 from .. import selection
 
 STRICT_PROPERTY = BoolProperty(
@@ -158,7 +158,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
 
         def add(obj: Object) -> None:
             measurement = measured(obj).measurement
-            if measurement.method.verdict == Verdict.OPEN:
+            if measurement.method.procedure == Procedure.OPEN:
                 raise EditRefusedError(OPEN_OBJECT)
             bodies_measured.append((measurement.mass_moments, measurement.mass_properties))
 

@@ -16,7 +16,7 @@ from ...blender.session.tracking.staleness import stale_reason
 from ...blender.settings.assembly import active_assembly, settings_of
 from ...blender.write import properties
 from ...core.inertia.plain_body import PlainBody, add_bodies
-from ...core.verdict.trust import Trust
+from ...core.verdict.verdict import Verdict
 from . import appearance as look
 
 Entry = Displayed | PlainBody  # one body, or several as one
@@ -39,7 +39,7 @@ class Bodies:
     @classmethod
     def of(cls, entries: Sequence[Entry], unit: float) -> Bodies:
         """Return the bodies as arrays; unit: meters per Blender unit."""
-        bodies = [(one.world, one.trust) if isinstance(one, Displayed) else (one, "sum") for one in entries]
+        bodies = [(one.world, one.verdict) if isinstance(one, Displayed) else (one, "sum") for one in entries]
         return cls(
             np.array([numbers.center for numbers, _ in bodies]).reshape(-1, 3) / unit,
             np.array([numbers.axes for numbers, _ in bodies]).reshape(-1, 3, 3).transpose(0, 2, 1),
@@ -72,7 +72,7 @@ def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
         selected = total(context)
         whole = selected.numbers if selected.count > 1 else None
     if are_many:
-        bodies = [(obj, body) for obj, body in bodies if obj in actives or body.trust == Trust.DOUBTFUL]
+        bodies = [(obj, body) for obj, body in bodies if obj in actives or body.verdict == Verdict.DOUBTFUL]
     entries: list[Entry] = [body for _, body in bodies]
     active = next((row for row, (subject, _) in enumerate(bodies) if subject in actives), -1)
     root = active_assembly(context)  # an empty with its children is drawn as an object

@@ -101,9 +101,9 @@ class Session:
         scene = bpy.context.scene
         is_stored = properties.is_stored(obj) and staleness.stale_reason(obj, scene) is None
         current = displayed.displayed(obj, scene) if following.is_live(obj) else None
-        shown = None if current is None or current.trust == displayed.Trust.OUT_OF_DATE else current.world
+        shown = None if current is None or current.verdict == displayed.Verdict.OUT_OF_DATE else current.world
         drawn, now = displayed.drawn(obj, scene), current or displayed.displayed(obj, scene)
-        same = drawn is None or (drawn.world, drawn.trust) == (now.world, now.trust)
+        same = drawn is None or (drawn.world, drawn.verdict) == (now.world, now.verdict)
         assert same, (place, obj.name, "overlay and panel differ")
         if not is_stored and shown is None:
             return

@@ -28,7 +28,7 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ....core.verdict.trust import open_body_caveats
+from ....core.verdict.verdict import open_body_caveats
 from ...read.assembly import Member, MemberKind, Root, members_key, members_of, settings_of, structure_hash
 from ...read.findings import (
     BOOLEAN_OPERAND,

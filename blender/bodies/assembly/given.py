@@ -22,7 +22,7 @@ from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, ReadError, finding
-from ....core.verdict.method import Method, Verdict
+from ....core.verdict.method import Method, Procedure
 from ...read.fingerprint import matrix_hash
 from ...read.objects import locate
 from ...settings.given import GivenPart, is_point_mass
@@ -116,7 +116,7 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
         name=reading.name,
         type=reading.type,
         kind="point",
-        method=Method(Verdict.GIVEN),
+        method=Method(Procedure.GIVEN),
         findings=(*reading.findings, *findings),
         rotation=reading.rotation,
         location=location,

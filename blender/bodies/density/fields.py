@@ -37,7 +37,7 @@ from ....core.numerics.rotations import polar_rotation
 from ....core.polyhedron import polyhedron_moments
 from ....core.solid.measure import SolidIntegrals
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ....core.verdict.method import Method, Source, Verdict
+from ....core.verdict.method import Method, Procedure, Source
 from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.findings import OBJECT_UNREADABLE, VOLUME_WITHOUT_GRIDS
 from ...read.tracking import tracking_paused
@@ -104,7 +104,7 @@ def polynomial_mass_result(
 
 def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float) -> Iterator[_Piece]:
     """Yield the repaired surfaces around the body."""
-    is_united = body.method.verdict == Verdict.UNION
+    is_united = body.method.procedure == Procedure.UNION
     if is_united and reading.instance_count > 1 and not in_world:
         raise ReadError(UNION_LACKS, data="object coordinates")
     for solid, matrices in body.solids:
@@ -187,7 +187,7 @@ def voxel_filled_body(
     """Return the body of the object `name` with mass moments to an order, from the grid's densities inside it."""
     names = {"grid": reading.grid, "object": reading.name}
     options.needs_even_samples(reading.grid)
-    if body.method.verdict == Verdict.OPEN:
+    if body.method.procedure == Procedure.OPEN:
         raise ReadError(OPEN_SURFACE_OF_GRID, subject=name)
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, subject=name, **names)
@@ -223,7 +223,7 @@ def voxel_filled_body(
     return replace(
         body,
         mass=mass,
-        method=Method(body.method.verdict, Source.GRID),
+        method=Method(body.method.procedure, Source.GRID),
         estimated=True,
         findings=(
             *body.findings,

@@ -35,7 +35,7 @@ from ....core.polyhedron import polyhedron_moments
 from ....core.solid.measure import SolidIntegrals
 from ....core.solid.orientation import ClosedParts
 from ....core.verdict.finding import Finding, ReadError, finding, truncate_findings
-from ....core.verdict.method import Verdict
+from ....core.verdict.method import Procedure
 from ....core.verdict.tolerances import NEGLIGIBLE
 from ...settings.density import DensityField, density_key, material_density
 from ...settings.findings import OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS
@@ -139,7 +139,7 @@ def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
 
 def _by_material(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
     shell = request.settings.kind == "shell"
-    if body.method.verdict == Verdict.UNION:
+    if body.method.procedure == Procedure.UNION:
         raise ReadError(UNION_LACKS, data="materials")
     face_densities = _FaceDensities(reading, request.settings.density or 0.0)
     parts: list[Moments] = []

@@ -35,7 +35,7 @@ from ....core.nurbs.flat_face import planar_region
 from ....core.nurbs.splines import Curve
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ....core.verdict.health import MeshHealth
-from ....core.verdict.method import Method, Source, Verdict
+from ....core.verdict.method import Method, Procedure, Source
 from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.findings import FLAT_OF_TYPE, RENDER_DIFFERS, SECTION_EXTRUDED, SECTION_NOT_FILLED
 from ...read.objects import read_lines
@@ -295,7 +295,7 @@ def body(reading: RegionReading, request: Request) -> Body:
         Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME),
         area,
         MeshHealth(closed=False, components=len(curves)),
-        Method(Verdict.SHELL, Source.NURBS),
+        Method(Procedure.SHELL, Source.NURBS),
         (),
         estimated=True,
         boundary=tuple(curves),

@@ -52,7 +52,7 @@ from ....core.shape.symmetries import UNDECIDED, Symmetry, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE
-from ....core.verdict.method import Source, Verdict
+from ....core.verdict.method import Procedure, Source
 from ...settings.options import MeasureOptions
 from ..measure_object import THREADS, Measured, measure_body
 from ..stacks.many import measured_in_turn
@@ -309,7 +309,7 @@ def _shape_of_measured(measured: Measured, threads: int) -> Shape:
     if body.wall is not None or body.length is not None:
         code = WALL_UNSUPPORTED if body.length is None else WIRE_UNSUPPORTED
         raise NoShapeError(finding(code, quantity="A pose or signature"), measurement)
-    if measurement.method.verdict == Verdict.OPEN:
+    if measurement.method.procedure == Procedure.OPEN:
         raise NoShapeError(SHAPE_OF_OPEN_SURFACE, measurement)
     shape = Shape(measurement, body, threads)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:

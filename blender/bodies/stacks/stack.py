@@ -33,12 +33,12 @@ from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_so
 from ....core.solid.solid_stack import SolidStack, can_be_stacked, measure_stack, small_moments_to_order
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
-from ....core.verdict.method import Method, Verdict
+from ....core.verdict.method import Method, Procedure
 from ...read.fingerprint import transform_key
 from ...read.mesh import MAX_DIGESTED_FACES, surface_digest
 from ...settings.accepted import accepted_codes, with_acceptance
 
-METHODS = {verdict: Method(verdict) for verdict in Verdict}
+METHODS = {verdict: Method(verdict) for verdict in Procedure}
 
 
 @dataclass(eq=False)
@@ -54,7 +54,7 @@ class MeshShape:
     row: int = -1
     solids: SolidStack | None = None
     alone: SolidIntegrals | None = None
-    method: Method = METHODS[Verdict.EXACT]
+    method: Method = METHODS[Procedure.EXACT]
     findings: tuple[Finding, ...] = ()
 
     @property
@@ -67,7 +67,7 @@ class MeshShape:
     @property
     def defects(self) -> DefectiveElements | None:
         """The elements with faults; None if there are none."""
-        spotless = self.alone is None and self.method is METHODS[Verdict.EXACT]
+        spotless = self.alone is None and self.method is METHODS[Procedure.EXACT]
         return None if spotless else self.health.defective_elements
 
     @cached_property
@@ -96,7 +96,7 @@ def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
         for i, (shape, is_measured) in enumerate(zip(small, solids.is_measured.tolist())):
             if is_measured:
                 shape.row, shape.solids, shape.findings = i, solids, solids.findings(i)
-                shape.method = METHODS[Verdict.CAPPED if solids.caps.is_capped[i] else Verdict.EXACT]
+                shape.method = METHODS[Procedure.CAPPED if solids.caps.is_capped[i] else Procedure.EXACT]
             else:
                 shape.alone = measure_left_over(solids, i, shape.surface)
     left_over = [shape for shape in shapes if shape.solids is None]

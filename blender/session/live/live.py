@@ -37,7 +37,7 @@ from ....core.nurbs.tracked_solid import TrackedSolid
 from ....core.polyhedron.integration import volume_and_center
 from ....core.verdict import internal_error
 from ....core.verdict.finding import MeasureError, ReadError
-from ....core.verdict.method import Method, Source, Verdict
+from ....core.verdict.method import Method, Procedure, Source
 from ...bodies.measure_object import Measured, measure_body
 from ...bodies.request import Request, measurement_of
 from ...read.fingerprint import has_transform, settings_hash, transform_key
@@ -55,7 +55,7 @@ RETRY = 0.7  # factor for the remembered time of a skipped pass, so that it is t
 IDLE = 0.25  # s without an update before measurements that take longer than the budget
 POLL = 0.1  # s between two checks whether these can begin
 _last_event = 0.0  # time of the last update
-FOLLOWED = {Verdict.EXACT, Verdict.CAPPED, Verdict.REORIENTED}
+FOLLOWED = {Procedure.EXACT, Procedure.CAPPED, Procedure.REORIENTED}
 
 
 @dataclass(eq=False)
@@ -192,7 +192,7 @@ def _measure(obj: Object, current: Followed, depsgraph: Depsgraph) -> tuple[Meas
         measure.volume,
         measure.area,
         measure.health,
-        Method(Verdict(measure.method), Source.NURBS),
+        Method(Procedure(measure.method), Source.NURBS),
         (*splines.findings, *measure.findings),
         estimated=True,
     )
@@ -312,7 +312,7 @@ class MovingSurface:
             or measured.measurement.kind != "solid"
             or body.mass is not None
             or method.source != Source.POLYGONS
-            or method.verdict not in FOLLOWED
+            or method.procedure not in FOLLOWED
             or len(reading.parts) != 1
             or len(body.solids) != 1
         ):

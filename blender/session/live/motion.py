@@ -22,7 +22,7 @@ from ....core.moments.moments import Measure, Moments
 from ....core.numerics.float32 import shortest_decimal
 from ....core.statics.mixes import Mixes, fit_mixes, sample_count
 from ....core.verdict.finding import EditRefusedError
-from ....core.verdict.method import Method, Verdict
+from ....core.verdict.method import Method, Procedure
 from ...bodies.measure_object import measure_body
 from ...bodies.mesh import object_hull
 from ...read.objects import read_object
@@ -103,7 +103,7 @@ class Motion:
         if not keys or sample_count(len(keys)) > min(self.frames, MAX_SAMPLES):
             return
         measurement = measure_body(obj, depsgraph).measurement
-        if measurement.method != Method(Verdict.EXACT) or measurement.health.welded:
+        if measurement.method != Method(Procedure.EXACT) or measurement.health.welded:
             return
         blocks = obj.data.shape_keys.key_blocks
         shapes = {
@@ -158,7 +158,7 @@ def _mixed(
 def _measured(obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float) -> Moments:
     """Measure an object, keep its moments if its matrices can map them, and return them in the world."""
     measurement = measure_body(obj, depsgraph).measurement
-    if measurement.method.verdict == Verdict.OPEN:
+    if measurement.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT, subject=obj.name)
     moments, factor = measurement.mass_moments
     followed.given_mass = object_settings(obj, depsgraph.scene).mass

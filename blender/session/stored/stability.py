@@ -21,7 +21,7 @@ from ....core.numerics.rotations import rotation_matrix
 from ....core.statics.findings import NO_STABLE_POSE
 from ....core.statics.support import CONTACT_RTOL, RestingPoses, Support, find_support, resting_poses
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError
-from ....core.verdict.method import Verdict
+from ....core.verdict.method import Procedure
 from ...bodies.measure_object import measure_body
 from ...bodies.mesh import MAX_CORNERS, object_hull
 from ...scene import reframe
@@ -131,7 +131,7 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
     depsgraph = context.evaluated_depsgraph_get()
     if properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
         result = measure_body(obj, depsgraph)
-        if result.measurement.method.verdict == Verdict.OPEN:
+        if result.measurement.method.procedure == Procedure.OPEN:
             raise EditRefusedError(OPEN_OBJECT)
         results.store(obj, result, context.scene)
         measured.append(obj)

@@ -16,7 +16,7 @@ from typing import NamedTuple
 from bpy.types import Collection, Object
 
 from ....core import measurement
-from ....core.verdict.method import Verdict
+from ....core.verdict.method import Procedure
 from ...settings.given import COLLIDERS
 from ...write import properties, section
 from .cache import SessionCache
@@ -102,7 +102,7 @@ def of_results(owner: Object | Collection) -> Stamp | None:
     kind = Kind.RESULTS
     if not isinstance(owner, Object):
         kind = Kind.ASSEMBLY
-    elif owner.type in {"EMPTY", "ARMATURE"} and owner.get("body_method") == Verdict.ASSEMBLY:
+    elif owner.type in {"EMPTY", "ARMATURE"} and owner.get("body_method") == Procedure.ASSEMBLY:
         kind = Kind.ASSEMBLY if owner.type == "EMPTY" else Kind.BONES
     return Stamp.parse(text, kind)
 

@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.blender.session import displayed
-from body_moments.blender.session.displayed import Trust, drawn
+from body_moments.blender.session.displayed import Verdict, drawn
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
@@ -209,7 +209,7 @@ def test_animated_setting_makes_results_stale(mass_from, name, change):
     scene.frame_set(2)
     assert close(getattr(obj.body_moments, name), 3000.0, 1e-7)
     assert reason(obj) == Stale.SETTINGS and stored(obj) == before
-    assert drawn(obj, scene).trust == Trust.OUT_OF_DATE  # in the list and the panel
+    assert drawn(obj, scene).verdict == Verdict.OUT_OF_DATE  # in the list and the panel
     assert displayed.total(bpy.context).stale == (obj.name,)
     if name == "density":
         scene.body_moments.default_material = "Copper"  # which is not its own
@@ -217,7 +217,7 @@ def test_animated_setting_makes_results_stale(mass_from, name, change):
     other.body_moments.density = 2.0  # what is set beside it is followed as ever
     assert reason(other) is None and reason(obj) == Stale.SETTINGS and stored(obj) == before
     scene.frame_set(1)
-    assert reason(obj) is None and drawn(obj, scene).trust == Trust.EXACT
+    assert reason(obj) is None and drawn(obj, scene).verdict == Verdict.EXACT
 
 
 def test_zero_and_unheard_of_densities_leave_the_numbers():

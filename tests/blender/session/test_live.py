@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.blender.session.displayed import Trust, displayed, drawn, total
+from body_moments.blender.session.displayed import Verdict, displayed, drawn, total
 from body_moments.blender.session.live import following, live
 from body_moments.blender.session.tracking import armatures, updates
 from body_moments.core.inertia.plain_body import add_bodies
@@ -91,7 +91,7 @@ def test_an_object_that_moves_is_not_measured(unit, given_mass, monkeypatch):
             obj.matrix_world = matrix @ obj.matrix_world
             update()
             assert_current(obj)
-            assert drawn(obj, bpy.context.scene).trust == Trust.EXACT and following.lag(obj) == following.Lag.NONE
+            assert drawn(obj, bpy.context.scene).verdict == Verdict.EXACT and following.lag(obj) == following.Lag.NONE
             assert tick(patch) is None
         obj.scale = (0.5, -3.0, 2.0)
         update()
@@ -140,7 +140,7 @@ def test_update_beyond_budget_is_late_and_marked(monkeypatch):
     following.followed.get(objects[0]).pass_seconds = 10.0
     bpy.context.scene.frame_set(5)
     assert [following.lag(obj) for obj in objects] == [following.Lag.BEHIND, following.Lag.FIRST_ORDER]
-    assert [drawn(obj, bpy.context.scene).trust for obj in objects] == [Trust.OUT_OF_DATE, Trust.EXACT]
+    assert [drawn(obj, bpy.context.scene).verdict for obj in objects] == [Verdict.OUT_OF_DATE, Verdict.EXACT]
     for obj in objects:
         following.followed.get(obj).result = following.LiveResult(
             following.current_numbers(obj).measurement, None, 5.0, following.current_numbers(obj).settings
@@ -334,16 +334,16 @@ def test_scaled_wall_is_stale_until_measured(kind, monkeypatch):
     obj = add(mesh_body(), location=(3, -1, 2), rotation=(0.3, 0.2, 1.0))
     obj.body_moments.kind, obj.body_moments.thickness = kind, 0.01
     start(obj)
-    measured_so = drawn(obj, bpy.context.scene).trust
-    assert measured_so != Trust.OUT_OF_DATE
+    measured_so = drawn(obj, bpy.context.scene).verdict
+    assert measured_so != Verdict.OUT_OF_DATE
     obj.scale.y = 1.7
     update()
-    assert drawn(obj, bpy.context.scene).trust == (Trust.OUT_OF_DATE if kind == "SHELL" else measured_so)
+    assert drawn(obj, bpy.context.scene).verdict == (Verdict.OUT_OF_DATE if kind == "SHELL" else measured_so)
     tick(monkeypatch)
     assert_current(obj)
     obj.rotation_euler = (1.0, 2.0, 3.0)
     update()
-    assert drawn(obj, bpy.context.scene).trust == measured_so
+    assert drawn(obj, bpy.context.scene).verdict == measured_so
     assert_current(obj)
 
 

@@ -7,7 +7,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.blender.session.displayed import Trust, drawn, drawn_bone
+from body_moments.blender.session.displayed import Verdict, drawn, drawn_bone
 from body_moments.blender.session.tracking.stamps import Stale
 from mathutils import Matrix
 
@@ -51,28 +51,33 @@ def test_shown_verdict_follows_repair_doubt_and_edit():
     flipped.data.polygons[3].flip()
     flipped.data.update()
     measure(exact, open_strip, flipped)
-    assert [drawn(obj, bpy.context.scene).trust for obj in (exact, open_strip, flipped)] == [
-        Trust.EXACT,
-        Trust.DOUBTFUL,
-        Trust.REPAIRED,
+    assert [drawn(obj, bpy.context.scene).verdict for obj in (exact, open_strip, flipped)] == [
+        Verdict.EXACT,
+        Verdict.DOUBTFUL,
+        Verdict.REPAIRED,
     ]
     exact.data.vertices[0].co.x -= 1.0
     exact.data.update()
     bpy.context.view_layer.update()
     shown = drawn(exact, bpy.context.scene)
-    assert shown.trust == Trust.OUT_OF_DATE and shown.reason == Stale.GEOMETRY
+    assert shown.verdict == Verdict.OUT_OF_DATE and shown.reason == Stale.GEOMETRY
 
 
 def test_restored_scale_makes_results_current():
     obj = add(mesh_body(), location=(1, 2, 3))
     measure(obj)
-    for scale, verdict in ((2.0, Trust.OUT_OF_DATE), (1.0, Trust.EXACT), (3.0, Trust.OUT_OF_DATE), (1.0, Trust.EXACT)):
+    for scale, verdict in (
+        (2.0, Verdict.OUT_OF_DATE),
+        (1.0, Verdict.EXACT),
+        (3.0, Verdict.OUT_OF_DATE),
+        (1.0, Verdict.EXACT),
+    ):
         obj.scale.x = scale
         bpy.context.view_layer.update()
-        assert drawn(obj, bpy.context.scene).trust == verdict
+        assert drawn(obj, bpy.context.scene).verdict == verdict
         obj.location.x += 1.0
         bpy.context.view_layer.update()
-        assert drawn(obj, bpy.context.scene).trust == verdict
+        assert drawn(obj, bpy.context.scene).verdict == verdict
     assert_shown(obj)
 
 
@@ -90,9 +95,9 @@ def test_bone_part_is_drawn_at_its_bone_in_any_unit(unit, scene):
     own = np.array(bone["body_center_of_mass"].to_list()) / unit
     assert np.abs(shown.center - unit * (place[:3, :3] @ own + place[:3, 3])).max() < 1e-5
     moments = np.array(bone["body_principal_moments"].to_list())
-    assert close(shown.mass, bone["body_mass"], 1e-12) and displayed.trust == Trust.EXACT
+    assert close(shown.mass, bone["body_mass"], 1e-12) and displayed.verdict == Verdict.EXACT
     assert close(shown.mass * np.square(shown.gyration), moments, 1e-9)
     assert np.abs(np.matmul(shown.axes, np.transpose(shown.axes)) - np.eye(3)).max() < 1e-6
     armature.data.bones["arm.L"].use_deform = False
     bpy.context.view_layer.update()
-    assert drawn_bone(armature.pose.bones["arm.L"], scene).trust == Trust.OUT_OF_DATE
+    assert drawn_bone(armature.pose.bones["arm.L"], scene).verdict == Verdict.OUT_OF_DATE

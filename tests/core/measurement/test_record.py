@@ -16,7 +16,7 @@ from body_moments.core.measurement import documents, record
 from body_moments.core.measurement.measurement import Measurement
 from body_moments.core.moments.moments import Moments, monomials
 from body_moments.core.verdict.finding import finding
-from body_moments.core.verdict.method import Method, Verdict
+from body_moments.core.verdict.method import Method, Procedure
 
 from tests.close import close
 
@@ -53,7 +53,7 @@ def box(
         name=name,
         type="MESH",
         kind="solid",
-        method=Method(Verdict.EXACT),
+        method=Method(Procedure.EXACT),
         density=density,
         thickness=0.0,
         volume=moments.total,

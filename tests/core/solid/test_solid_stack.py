@@ -8,7 +8,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure import measure_left_over, measure_solid
 from body_moments.core.solid.solid_stack import can_be_stacked, measure_stack, small_moments_to_order
 from body_moments.core.verdict.health import Intersection
-from body_moments.core.verdict.method import Verdict
+from body_moments.core.verdict.method import Procedure
 
 from tests.close import close
 from tests.core.bodies import mesh, moved
@@ -104,7 +104,7 @@ def agree(one, other):
 
 def assert_alike(stack, i, surface):
     alone, together = measure_solid(surface), stack.health(i)
-    assert alone.method is (Verdict.CAPPED if stack.caps.is_capped[i] else Verdict.EXACT)
+    assert alone.method is (Procedure.CAPPED if stack.caps.is_capped[i] else Procedure.EXACT)
     for one, other in ((alone.volume, stack.volume.at(i)), (alone.area, stack.area.at(i))):
         assert (np.abs(one.raw - other.raw) <= one.rounding_error).all()
         assert agree(one.about, other.about)

@@ -23,7 +23,7 @@ from body_moments.core.verdict.finding import (
     unique,
 )
 from body_moments.core.verdict.health import DefectiveElements, MeshHealth
-from body_moments.core.verdict.method import Method, Source, Verdict, least_trusted
+from body_moments.core.verdict.method import Method, Procedure, Source, least_trusted
 from body_moments.core.verdict.sentences import sentence, truncate_list
 
 from tests.core.findings import declarations
@@ -70,11 +70,11 @@ def test_mesh_without_findings_is_sound():
 
 def test_combined_verdict_is_the_worst_of_the_solids():
     order = ["open", "capped", "reoriented", "exact", "union", "shell", "wire", "given", "assembly"]
-    assert [str(verdict) for verdict in Verdict] == order and least_trusted([]) == Verdict.OPEN
+    assert [str(verdict) for verdict in Procedure] == order and least_trusted([]) == Procedure.OPEN
     for worse, better in zip(order, order[1:]):
-        assert least_trusted([Verdict(better), Verdict(worse), Verdict(better)]) == worse
-    assert [verdict for verdict in Verdict if verdict.is_closed] == ["capped", "reoriented", "exact", "union"]
-    for verdict in Verdict:
+        assert least_trusted([Procedure(better), Procedure(worse), Procedure(better)]) == worse
+    assert [verdict for verdict in Procedure if verdict.is_closed] == ["capped", "reoriented", "exact", "union"]
+    for verdict in Procedure:
         for source in Source:
             method = Method(verdict, source)
             assert Method.parse(str(method)) == method and str(method).split() == [*filter(None, [source]), verdict]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The last stage of measuring a solid: its verdict, findings and health."""
+"""The last stage of measuring a solid: its method, findings and health."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import Finding, finding
 from ..verdict.findings import FLIPPED_FACES, SELF_INTERSECTION
 from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
-from ..verdict.method import Verdict
+from ..verdict.method import Procedure
 from ..verdict.tolerances import NEGLIGIBLE
 from .closedness import CheckedSurface, GivenIntegrals
 from .findings import (
@@ -59,7 +59,7 @@ class SolidIntegrals:
         The area of the input's faces, without caps and copies left out, to order 0, or 3 for a shell.
     health : MeshHealth
         State of the input.
-    method : Verdict
+    method : Procedure
         EXACT, CAPPED, REORIENTED or OPEN.
     findings : tuple of Finding
         The decisions taken; findings about the whole surface have no elements.
@@ -82,7 +82,7 @@ class SolidIntegrals:
     volume: Moments
     area: Moments
     health: MeshHealth
-    method: Verdict
+    method: Procedure
     findings: tuple[Finding, ...]
     oriented: OrientedSolid
     given_surface: Surface
@@ -127,7 +127,7 @@ class SolidIntegrals:
 def judge(
     checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, intersection: SelfIntersection | None
 ) -> SolidIntegrals:
-    """Give a verdict on the measured body, and report all decisions. intersection: None if not searched."""
+    """Decide the method of a measured body, and report all decisions. intersection: None if not searched."""
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
     if not oriented.is_solid and not has_open:  # Rounding noise would pass for a tiny body.
@@ -144,11 +144,11 @@ def judge(
     caps = mesh.caps[oriented.solid].sum(axis=0)
     cap_share = float(caps[2] / given.area.total) if given.area.total > 0.0 else 0.0
     if has_open or not oriented.is_solid or self_intersecting:
-        verdict = Verdict.OPEN
+        procedure = Procedure.OPEN
     elif caps.any():
-        verdict = Verdict.CAPPED
+        procedure = Procedure.CAPPED
     else:
-        verdict = Verdict.REORIENTED if len(flipped) or len(inverted) else Verdict.EXACT
+        procedure = Procedure.REORIENTED if len(flipped) or len(inverted) else Procedure.EXACT
     findings: list[Finding] = []
     step = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))  # one ulp of float32
     if mesh.max_displacement > step:  # less is how the same place is written twice
@@ -167,12 +167,12 @@ def judge(
         findings += _component_findings(mesh, oriented.comparison, checked.size, volume.total)
     if self_intersecting:
         findings.append(finding(SELF_INTERSECTING))
-    elif intersection is not None and verdict is not Verdict.OPEN:
+    elif intersection is not None and procedure is not Procedure.OPEN:
         findings += _intersection_findings(intersection, volume.total)
     findings += shape_findings(oriented.is_solid, given.planarity, volume)
     state = Intersection.NOT_CHECKED if intersection is None else intersection.state
     health = _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share, state)
-    return SolidIntegrals(volume, given.area, health, verdict, tuple(findings), oriented, checked.surface)
+    return SolidIntegrals(volume, given.area, health, procedure, tuple(findings), oriented, checked.surface)
 
 
 def _flipped_faces(mesh: RepairedMesh, turned: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
