@@ -265,10 +265,11 @@ def _least_moves(
     middle: NDArray[np.float64],
     reach: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Return (n, 3) moves in balls with the least Σ areas |move|², so that (10, n, 3) rows · moves = (10,) wanted.
+    """Return the (n, 3) moves with the least Σ areas |move|² that give Σ rows · moves = wanted, each within its ball.
 
-    If there are none, the sums come as near as they can. middle: (n, 3) and reach: (n,) of the balls. The moves are
-    rows · multipliers / areas, each taken to the nearest point of its ball; Newton's method finds the multipliers.
+    If there are none, the sums come as near as they can. rows: (10, n, 3); wanted: (10,); middle (n, 3) and reach (n,)
+    of the balls. The moves are rows · multipliers / areas, each taken to the nearest point of its ball; Newton's method
+    finds the multipliers.
     """
     count = len(rows)
     slack = SLACK * float(np.einsum("knd,knd,n->k", rows, rows, 1.0 / areas).max())

@@ -314,7 +314,7 @@ class _Sums:
             size[number] += np.abs(term).sum()
 
     def _add_boxes(self, cells: Cells, threshold: float) -> None:
-        """Add parts of cells that lie entirely inside."""
+        """Add whole cells, which lie entirely inside the body."""
         if not len(cells.size):
             return
         nodes, weights = gauss_legendre((self.order + 1) // 2 + 1)

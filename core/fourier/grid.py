@@ -126,7 +126,7 @@ class GridTransform(Transform):
     def _points_over(
         self, triangle_rows: NDArray[np.intp], n: int, q: NDArray
     ) -> Generator[float, None, NDArray[np.complex128]]:
-        """Return the sums of `_sum_over`, by the points of a rule with n points along a side of each triangle."""
+        """Return the sums of `_sum_over` by quadrature, with n points along a side of each triangle."""
         total, size = np.zeros(len(q), np.complex128), max(1, PAIRS_PER_BLOCK // (len(q) * n * n))
         for start in range(0, len(triangle_rows), size):
             points, vectors, weights = self._nodes(self.faces.triangles[triangle_rows[start : start + size]], n)

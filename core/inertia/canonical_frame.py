@@ -152,7 +152,10 @@ def _sign(harmonic: tuple[int, int, int] | None, fourfold: float) -> float:
 def _fix_rotation_about_axis(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int, fourfold: float = -1.0
 ) -> tuple[NDArray, tuple[int, int, int] | None, float]:
-    """Turn bases so that the first clear harmonic about an axis is real; return frames, (degree, m, k) and tilt."""
+    """Turn bases about an axis so that the first clear harmonic is real.
+
+    Return the frames, the (degree, m, k) of that harmonic, or None, and the angular uncertainty of the frames.
+    """
     harmonic = _clear_harmonic(central, spread, bases, axis)
     if harmonic is None:
         return bases, None, 0.0

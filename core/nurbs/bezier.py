@@ -158,7 +158,7 @@ def cells_of_nets(
     constant_weights: tuple[bool, bool],
     reach: float,
 ) -> BezierCells:
-    """Split nets (g, count_s, count_t, 3 or 4) into Bézier cells at the spans, relative to anchors (g, 3)."""
+    """Return the Bézier cells of control nets (g, count_s, count_t, 3 or 4) over knot spans. anchor: (g, 3) origins."""
     s, active_rows = spaces[0].bezier_extraction[spans[0]], spaces[0].active_controls[spans[0]]
     t, columns = spaces[1].bezier_extraction[spans[1]], spaces[1].active_controls[spans[1]]
     (u, k), (v, kk), (g, _, count, d) = active_rows.shape, columns.shape, nets.shape

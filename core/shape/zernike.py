@@ -209,7 +209,10 @@ def _radial(n: int, l: int) -> tuple[Fraction, ...]:
 
 
 def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:
-    """Return (k,) A_nm, ordered as `degrees`, of a shape by area moments about the disc's center, with z = 0."""
+    """Return the (k,) Zernike moments A_nm of a flat shape, in the order of `degrees`.
+
+    moments: its area moments about the disc's center, in the plane z = 0.
+    """
     degree = monomials(moments.order).sum(axis=1)
     scaled = Moments(moments.raw / radius ** (degree + 2.0), moments.about, moments.measure)
     c = {key: entry.value for key, entry in complex_moments(scaled).items()}

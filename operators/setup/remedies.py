@@ -34,7 +34,7 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
 
 
 class _OnActive:
-    """Base of operators that change the settings of the active object, if it can keep them."""
+    """Base of operators that change the active object's settings; refused if the object cannot hold settings."""
 
     bl_options = {"REGISTER", "UNDO"}
 

@@ -212,5 +212,5 @@ def _unreadable(node: Node, error: Exception) -> Finding:
     ]
     holder = holders[0] if len(holders) == 1 else node
     line, column, file = holder.place
-    source = {"source": file} if file else {}
+    source: dict[str, Any] = {"source": file} if file else {}
     return finding(DESCRIPTION_NUMBER, text=text, element=holder.tag, line=line, column=column, **source)
