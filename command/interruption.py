@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import signal
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
 from ..core.measurement.plain_text import print_message
@@ -53,17 +53,14 @@ def check_interruption() -> None:
 
 
 class Progress:
-    """A counter of the "samples" or "faces" read from a file, with a report every `PERIOD` seconds."""
+    """A counter of the "samples" or "faces" read from a file, reported with the file's name every `PERIOD` seconds."""
 
-    def __init__(self, file: str, what: str) -> None:
-        self._file, self._what, self._count, self._due = file, what, 0, time.monotonic() + PERIOD
+    def __init__(self, file: str, what: str, report: Callable[[str, str], None] = print_message) -> None:
+        self._file, self._what, self._report = file, what, report
+        self._count, self._due = 0, time.monotonic() + PERIOD
 
     def __call__(self, count: int) -> None:
         self._count += count
         if time.monotonic() >= self._due:
             self._due = time.monotonic() + PERIOD
-            self.report("{:.3g} {} read. Ctrl+C ends it".format(self._count, self._what))
-
-    def report(self, text: str) -> None:
-        """Print a message about the file."""
-        print_message(self._file, text)
+            self._report(self._file, "{:.3g} {} read. Ctrl+C ends it".format(self._count, self._what))

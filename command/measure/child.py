@@ -10,6 +10,7 @@ import os
 import re
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import redirect_stderr, suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -42,7 +43,11 @@ def serve(line: Lifeline) -> None:
     except SystemExit:
         line.answer({"usage": said.getvalue()})
         return
-    run = Run(options, setup["threads"], setup["memory"], lambda file, what: _Told(file, what, line))
+
+    def report(_file: str, text: str) -> None:
+        line.answer({"note": text})
+
+    run = Run(options, setup["threads"], setup["memory"], partial(Progress, report=report))
     line.answer({"ready": {"blender": blender_version()}})
     for message in messages:
         with suppress(OSError):
@@ -58,17 +63,6 @@ def _measure(run: Run, path: str, line: Lifeline) -> None:
     names = sorted(map(os.fspath, references(path, run.opened)))
     head["reads"] = {name: state(name) for name in names}
     line.answer(head, json.dumps(document, allow_nan=False).encode() + b"\n")
-
-
-class _Told(Progress):
-    """A counter whose reports are sent to the supervisor."""
-
-    def __init__(self, file: str, what: str, line: Lifeline) -> None:
-        super().__init__(file, what)
-        self._line = line
-
-    def report(self, text: str) -> None:
-        self._line.answer({"note": text})
 
 
 def references(path: str, opened: Iterable[str] = ()) -> set[Path]:

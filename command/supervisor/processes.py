@@ -19,6 +19,7 @@ from typing import Any
 from .lifeline import WINDOW
 
 _WINDOWS = os.name == "nt"
+_NEW_GROUP = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows: a process that can be asked to end
 _MEMORY_SHARE = 0.8  # share of the machine's memory, for all processes that measure
 _END = 5.0  # seconds that a killed process may take to be gone
 _TOOL = 5.0  # seconds that a tool of the system may take to answer
@@ -54,8 +55,6 @@ def start(command: Sequence[str], folder: Path, log: Path) -> subprocess.Popen[b
     folder.mkdir()
     temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
     environment = {**os.environ, **temporary, "BLENDER_USER_RESOURCES": str(folder / "user")}
-    # A terminal's Ctrl+C is for the supervisor alone.
-    flags = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows; elsewhere a session of its own
     with open(log, "ab") as errors:
         return subprocess.Popen(
             command,
@@ -63,7 +62,7 @@ def start(command: Sequence[str], folder: Path, log: Path) -> subprocess.Popen[b
             stdout=subprocess.PIPE,
             stderr=errors,
             env=environment,
-            creationflags=flags,
+            creationflags=_NEW_GROUP,  # a terminal's Ctrl+C is for the supervisor alone
             start_new_session=not _WINDOWS,
         )
 
@@ -166,9 +165,8 @@ class WholeRun:
         self._journal = output.with_name(output.name + ".journal")
         self._place, self._lines = 0, 0
         nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
-        flags = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows it can be asked to end then
         environment = {**os.environ, WINDOW: "1"}
-        self._process = subprocess.Popen(command, env=environment, creationflags=flags, **nowhere)
+        self._process = subprocess.Popen(command, env=environment, creationflags=_NEW_GROUP, **nowhere)
 
     @property
     def exit_code(self) -> int | None:

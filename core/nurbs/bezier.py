@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -59,7 +59,7 @@ class BezierCells:
 
     def __getitem__(self, selection: slice | NDArray) -> BezierCells:
         anchor = self.anchor if self.anchor.shape[1] == 1 else self.anchor[:, selection]
-        return BezierCells(self.net[:, :, selection], anchor, self.constant_weights, self.reach)
+        return replace(self, net=self.net[:, :, selection], anchor=anchor)
 
     def split(self) -> BezierCells:
         """Split each patch into four."""
@@ -70,9 +70,7 @@ class BezierCells:
             for t_half in halves(net.shape[3])
         ]
         anchor = self.anchor if self.anchor.shape[1] == 1 else np.tile(self.anchor, 4)
-        return BezierCells(
-            np.concatenate(quarters, axis=1).swapaxes(1, 2), anchor, self.constant_weights, self.reach
-        ).about_anchor()
+        return replace(self, net=np.concatenate(quarters, axis=1).swapaxes(1, 2), anchor=anchor).about_anchor()
 
     def about_anchor(self) -> BezierCells:
         """Return the cells anchored at their first control points, so that coordinates are as small as the cell."""
@@ -83,7 +81,7 @@ class BezierCells:
             np.subtract(self.net[:3], first[:, None, :, None] * net[3], out=net[:3])
         else:
             np.subtract(self.net, first[:, None, :, None], out=net)
-        return BezierCells(net, self.anchor + first, self.constant_weights, self.reach)
+        return replace(self, net=net, anchor=self.anchor + first)
 
     def evaluate(self, rule: Rule, most: int = 1, ends: bool = False) -> tuple[list[NDArray[np.float64]], Weights]:
         """Evaluate the patches and their derivatives at the points of Gauss rules; return them and the points' weights.

@@ -26,19 +26,17 @@ Face: TypeAlias = "Patch | FlatFace"
 SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (fixed axis, end, run forward), counter-clockwise
 
 
-def checked_points(
-    points: ArrayLike, weights: ArrayLike | None, shape: tuple[int, ...]
-) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Return read-only float64 copies of points (*shape, 3) and weights (*shape), None if equal."""
-    points = _frozen_copy(float_array("points", points, *shape, 3))
+def _freeze_points(part: Curve | Patch, *shape: int) -> None:
+    """Replace the points (*shape, 3) and weights (*shape) by read-only float64 copies, equal weights by None."""
+    points = _frozen_copy(float_array("points", part.points, *shape, 3))
     if not np.isfinite(points).all():
         raise MeasureError(NON_FINITE_CONTROL_POINTS)
-    if weights is None:
-        return points, None
-    weights = _frozen_copy(float_array("weights", weights, *shape))
-    if not (np.isfinite(weights).all() and (weights > 0.0).all()):
-        raise MeasureError(NON_POSITIVE_WEIGHTS)
-    return points, None if (weights == weights.flat[0]).all() else weights
+    object.__setattr__(part, "points", points)
+    if part.weights is not None:
+        weights = _frozen_copy(float_array("weights", part.weights, *shape))
+        if not (np.isfinite(weights).all() and (weights > 0.0).all()):
+            raise MeasureError(NON_POSITIVE_WEIGHTS)
+        object.__setattr__(part, "weights", None if (weights == weights.flat[0]).all() else weights)
 
 
 def _frozen_copy(values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -82,9 +80,7 @@ class Curve:
 
     def __post_init__(self) -> None:
         check_type("space", self.space, SplineSpace)
-        points, weights = checked_points(self.points, self.weights, (self.space.count,))
-        object.__setattr__(self, "points", points)
-        object.__setattr__(self, "weights", weights)
+        _freeze_points(self, self.space.count)
 
     def evaluate(self, parameters: ArrayLike) -> NDArray[np.float64]:
         """Return the (n, 3) points of the curve at n parameters."""
@@ -175,9 +171,7 @@ class Patch:
     def __post_init__(self) -> None:
         for space in self.spaces:
             check_type("spaces", space, SplineSpace)
-        points, weights = checked_points(self.points, self.weights, (self.spaces[0].count, self.spaces[1].count))
-        object.__setattr__(self, "points", points)
-        object.__setattr__(self, "weights", weights)
+        _freeze_points(self, self.spaces[0].count, self.spaces[1].count)
 
     @cached_property
     def constant_weights(self) -> tuple[bool, bool]:
