@@ -17,18 +17,18 @@ import zlib
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import Any
+from urllib.parse import unquote
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.cad.obj_text import check_obj_text
 from ...core.scans.findings import DAMAGE_SIZE, FILE_DAMAGED
-from ...core.streams.findings import AT_ROW, NON_FINITE_COORDINATES
-from ...core.streams.text_fields import MAX_FLOAT32, SHORT, Data, find_number_fault, map_file, refuse_line
-from ...core.verdict.finding import FileError, Finding, finding
+from ...core.streams.file_mesh import refuse_non_finite
+from ...core.streams.text_fields import BLOCK, MAX_FLOAT32, SHORT, Data, find_number_fault, map_file, refuse_line
+from ...core.verdict.finding import FileError, finding
 from ..findings import MISSING_REFERENCES
 
-BLOCK = 1 << 18  # bytes at a time
 MALFORMED = (ValueError, KeyError, IndexError, TypeError, AttributeError, RecursionError, struct.error, zlib.error)
 _FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
 _FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
@@ -40,7 +40,6 @@ _FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
 _GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _GLTF_TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _GLTF_COMPRESSIONS = {"EXT_meshopt_compression", "KHR_meshopt_compression"}
-_KIND = "componentType", "type"
 _OF_NODES = ("matrix", "translation", "rotation", "scale")
 
 
@@ -63,7 +62,7 @@ def check_fbx(data: Data, _path: str) -> None:
                 more, row = bad_in_table(numbers[:, None])
                 first = first if count else (begin + row) // 3
                 count += more
-            refuse(count, finding(AT_ROW, element="vertex", row=first))
+            refuse_non_finite(count, "vertex", first)
 
 
 def _check_ascii_fbx(data: Data) -> None:
@@ -103,12 +102,12 @@ def check_gltf(data: Data, path: str) -> None:
         buffers = Buffers(data, path)
         for number, node in enumerate(buffers.document.get("nodes", [])):
             count = sum(not abs(value) < MAX_FLOAT32 for key in _OF_NODES for value in node.get(key, ()))
-            refuse(count, finding(AT_ROW, element="node", row=node.get("name") or number))
+            refuse_non_finite(count, "node", node.get("name") or number)
         for number, mesh in _placing_accessors(buffers.document).items():
             where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
             with suppress(*MALFORMED):  # others may be whole
                 count, first = _bad_in_accessor(buffers, buffers.document["accessors"][number])
-                refuse(count, finding(AT_ROW, element=where + ", row", row=first))
+                refuse_non_finite(count, where + ", row", first)
 
 
 def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
@@ -132,17 +131,11 @@ def _bad_in_accessor(buffers: Buffers, accessor: dict[str, Any]) -> tuple[int, i
     sparse = accessor.get("sparse")
     if sparse:
         size = {"count": sparse["count"]}
-        more, row = bad_in_table(buffers.table({key: accessor[key] for key in _KIND} | sparse["values"] | size))
+        more, row = bad_in_table(buffers.table(accessor | {"byteOffset": 0} | sparse["values"] | size))
         if more and not count:
             first = int(buffers.table({"type": "SCALAR"} | sparse["indices"] | size)[row, 0])
         count += more
     return count, first
-
-
-def unquote(uri: str) -> str:
-    """Return a glTF's reference with escapes such as %20 replaced by their characters."""
-    data = re.sub(rb"%([0-9a-fA-F]{2})", lambda match: bytes.fromhex(match[1].decode()), uri.encode())
-    return data.decode("utf-8", "surrogateescape")
 
 
 class Buffers:
@@ -163,7 +156,7 @@ class Buffers:
         )
 
     def table(self, accessor: dict[str, Any]) -> NDArray:
-        """Return the (n, k) numbers of an accessor without its sparse ones; none if an extension compresses them."""
+        """Return the (n, k) numbers of an accessor without sparse ones; none if an extension has compressed them."""
         kind, width = np.dtype(_GLTF_TYPES[accessor["componentType"]]), _GLTF_WIDTHS[accessor["type"]]
         view = self.document["bufferViews"][accessor["bufferView"]] if "bufferView" in accessor else None
         if view is None or _GLTF_COMPRESSIONS & view.get("extensions", {}).keys():
@@ -175,13 +168,10 @@ class Buffers:
 
     def _buffer(self, number: int) -> tuple[Data, int]:
         """Return the bytes that contain a buffer, and its start in them. FileError if it is missing or too short."""
-        if number not in self.opened:
-            buffer = self.document["buffers"][number]
-            self.opened[number] = self._open(buffer, buffer["byteLength"])
-        return self.opened[number]
-
-    def _open(self, buffer: dict[str, Any], size: int) -> tuple[Data, int]:
-        uri = buffer.get("uri")
+        if number in self.opened:
+            return self.opened[number]
+        buffer = self.document["buffers"][number]
+        uri, size = buffer.get("uri"), buffer["byteLength"]
         if uri is None:
             name = "BIN"
             if self.binary is None:
@@ -190,7 +180,7 @@ class Buffers:
         elif uri.startswith("data:"):
             name, data, start = "data:", base64.b64decode(uri.partition(",")[2]), 0
         else:
-            name = unquote(uri)
+            name = unquote(uri, errors="surrogateescape")
             try:
                 data, start = map_file(os.path.join(self.folder, name)), 0
             except (OSError, ValueError) as error:  # ValueError: it is empty
@@ -198,12 +188,8 @@ class Buffers:
         if len(data) - start < size:
             cause = finding(DAMAGE_SIZE, bytes=len(data) - start, total=size)
             raise FileError(FILE_DAMAGED, file=name, cause=cause.as_record())
+        self.opened[number] = data, start
         return data, start
-
-
-def refuse(count: int, place: Finding) -> None:
-    if count:
-        raise FileError(NON_FINITE_COORDINATES, count=count, place=place.as_record())
 
 
 def bad_in_table(rows: NDArray) -> tuple[int, int]:

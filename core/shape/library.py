@@ -113,9 +113,7 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
 
 def _lines(path: Path) -> Iterator[bytes]:
     with open(path, "rb") as file:
-        number = 0
-        while line := file.readline(MAX_LINE_BYTES + 1):
-            number += 1
+        for number, line in enumerate(iter(lambda: file.readline(MAX_LINE_BYTES + 1), b""), 1):
             if len(line) > MAX_LINE_BYTES:
                 raise FileError(LIBRARY_LINE, file=path.name, line=number)
             yield line
@@ -168,8 +166,5 @@ def classify(similarity: Likeness) -> Similarity:
         return Similarity.DIFFERENT
     if similarity.shape > SAME_SHAPE_DISTANCE:
         return Similarity.SIMILAR
-    if similarity.is_mirror_image is None:
-        return Similarity.COPY_OR_MIRROR if same_size(similarity) else Similarity.SCALED_COPY_OR_MIRROR
-    if similarity.is_mirror_image:
-        return Similarity.MIRROR if same_size(similarity) else Similarity.SCALED_MIRROR
-    return Similarity.COPY if same_size(similarity) else Similarity.SCALED_COPY
+    relation = {None: "copy_or_mirror", True: "mirror", False: "copy"}[similarity.is_mirror_image]
+    return Similarity(relation if same_size(similarity) else "scaled_" + relation)

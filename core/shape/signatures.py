@@ -49,6 +49,7 @@ from .zernike import (
 )
 
 Key = tuple[int, int]  # (n, l) of a multiplet, or (p, q) of a complex moment of a flat shape, p ≥ q
+ARRAYS = "invariants", "zernike", "fourier", "chirality"
 INVARIANT_ORDER = 6
 COUPLED_ORDER = 4  # largest order of the moments that are coupled in threes; of a flat shape, of two of the three
 CHIRAL_ORDER = 6
@@ -82,26 +83,16 @@ class Signature:
 
     def as_record(self) -> dict:
         """Return the arrays and the size by name, for JSON."""
-        return {
-            **({} if self.dimension == 3 else {"dimension": self.dimension}),
-            "size": self.size,
-            "invariants": self.invariants,
-            "zernike": self.zernike,
-            "fourier": self.fourier,
-            "chirality": self.chirality,
-        }
+        dimension = {} if self.dimension == 3 else {"dimension": self.dimension}
+        return {**dimension, "size": self.size, **{name: getattr(self, name) for name in ARRAYS}}
 
     @classmethod
     def from_record(cls, record: dict) -> Signature:
         """Read a signature from JSON. FileError if the record is not a signature."""
         try:
-            arrays = [
-                np.array(record[name], np.float64).reshape(-1)
-                for name in ("invariants", "zernike", "fourier", "chirality")
-            ]
-            invariants, zernike, fourier, chirality = arrays
+            arrays = [np.array(record[name], np.float64).reshape(-1) for name in ARRAYS]
             dimension = record.get("dimension", 3)
-            result = cls(float(record["size"]), invariants, zernike, fourier, chirality, dimension=dimension)
+            result = cls(float(record["size"]), *arrays, dimension=dimension)
             lengths = _lengths(dimension)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError(SIGNATURE_UNRECOGNIZED) from error

@@ -162,10 +162,11 @@ def _schoenflies(symmetry_found: Symmetry) -> str:
     if not axes:
         return "C1" if not improper else "Cs" if planes else "Ci"
     axis, n = axes[0]
+    is_flat = any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes)
     if proper == n:
         if not improper:
             return "C{:d}".format(n)
-        if any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes):
+        if is_flat:
             return "C{:d}h".format(n)
         return "C{:d}v".format(n) if planes else "S{:d}".format(2 * n)
     if sum(order == n for _, order in axes) > 1 and n > 2:
@@ -175,5 +176,4 @@ def _schoenflies(symmetry_found: Symmetry) -> str:
         return "D{:d}".format(n)
     if n == 2:
         return "D2h" if center else "D2d"
-    flat = any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes)
-    return "D{:d}{:s}".format(n, "h" if flat else "d")
+    return "D{:d}{:s}".format(n, "h" if is_flat else "d")

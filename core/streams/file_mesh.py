@@ -123,10 +123,15 @@ def box_of_blocks(blocks: Iterable[NDArray[np.floating]], element: str) -> Box:
             first = first if bad else rows + int(np.argmax(wrong.any(axis=1)))
             bad += int(np.count_nonzero(wrong))
         rows += len(block)
-    if bad:
-        place = finding(AT_ROW, element=element, row=first).as_record()
-        raise FileError(NON_FINITE_COORDINATES, count=bad, place=place)
+    refuse_non_finite(bad, element, first)
     return (low, high) if rows else (np.zeros(3), np.zeros(3))
+
+
+def refuse_non_finite(count: int, element: str, row: int | str) -> None:
+    """Raise FileError if the count is not zero. row: the first element with such a number, or its name."""
+    if count:
+        place = finding(AT_ROW, element=element, row=row).as_record()
+        raise FileError(NON_FINITE_COORDINATES, count=count, place=place)
 
 
 def strip_triangles(strip: NDArray[np.integer]) -> NDArray[np.integer]:

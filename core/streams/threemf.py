@@ -27,15 +27,14 @@ from ..scans.scan_files import DEFAULT_LIMITS, Limits
 from ..verdict.finding import FileError, system_reason
 from ..verdict.number_text import SPACES, parse_number, parse_numbers, parse_whole
 from .findings import DAMAGE_INDEX, FILE_TOO_LARGE, FILE_UNREADABLE, LINE_MISREAD, THREEMF_EXTENSION
+from .text_fields import BLOCK, MAX_FLOAT32, MAX_TEXT
 
 MODEL = "model"  # the type of objects that are parts; supports and helpers have other types
 MAX_INSTANCES = 100_000  # meshes that the build places
 MAX_DEPTH = 100  # components within components
-MAX_TEXT = 60  # letters of a wrong field that are shown
 UNITS = {"micron": 1e-6, "millimeter": 1e-3, "centimeter": 1e-2, "inch": 0.0254, "foot": 0.3048, "meter": 1.0}
 _KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # read here, or without effect on the shape
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
-_BLOCK = 1 << 16
 _DAMAGE = (
     *(zipfile.BadZipFile, zlib.error, EOFError, expat.ExpatError),
     *(RuntimeError, LookupError, ValueError, OverflowError),
@@ -98,7 +97,7 @@ class _Package:
     def pieces(self, part: str) -> Iterator[bytes]:
         """Yield the bytes of a part, in pieces."""
         with self._archive.open(self._names[part.lower()]) as file:
-            while piece := file.read(_BLOCK):
+            while piece := file.read(BLOCK):
                 self._unpacked += len(piece)
                 self._limits.check(self._path, "unpacked_bytes", self._unpacked)
                 yield piece
@@ -247,6 +246,6 @@ def _transform(text: str) -> NDArray[np.float64]:
 def _coordinate(text: str) -> float:
     """Return the number of a text. ValueError, with the text, if it is no number or too large for float32."""
     value = parse_number(text.strip(SPACES))
-    if not abs(value) < 3.4e38:
+    if not abs(value) < MAX_FLOAT32:
         raise ValueError(text)
     return value

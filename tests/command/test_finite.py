@@ -153,7 +153,7 @@ def test_gltf_text_numbers_and_overrides_are_checked(tmp_path, gltf):
     place = {"element": "mesh “{}”, row".format(text["meshes"][0]["name"]), "row": 7}
     for nothing in (0, None):  # null stands for nothing
         accessor["byteOffset"] = nothing
-        files.write_text(path, json.dumps(text | ({"skins": None} if nothing is None else {})))
+        files.write_text(path, json.dumps(text | {"skins": [] if nothing == 0 else None}))
         said(path, 1, "at_row", **place)
 
 
@@ -202,19 +202,15 @@ def fbx_file(path, values, packed):
 
     def node(name, content, at, properties=b""):
         head = 13 + len(name) + len(properties)
-        inner = content(at + head) if content else b""
-        inner += bytes(13) if content else b""
-        end = at + head + len(inner)
-        count = 1 if properties else 0
-        return struct.pack("<3IB", end, count, len(properties), len(name)) + name + properties + inner
+        inner = content(at + head) + bytes(13) if content else b""
+        sizes = at + head + len(inner), bool(properties), len(properties), len(name)
+        return struct.pack("<3IB", *sizes) + name + properties + inner
 
     data = np.array(values, "<f8").tobytes()
     stored = zlib.compress(data) if packed else data
     array = b"d" + struct.pack("<3I", len(values), packed, len(stored)) + stored
-    geometry = [b"Vertices", None]
-    objects = node(b"Objects", lambda at: node(b"Geometry", lambda at: node(*geometry, at, array), at), 27 + 13 + 3)
-    other = node(b"Any", None, 27)
-    assert len(other) == 16
+    other, inner = node(b"Any", None, 27), [b"Vertices", None]
+    objects = node(b"Objects", lambda at: node(b"Geometry", lambda at: node(*inner, at, array), at), 27 + 16)
     path.write_bytes(b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<I", 7400) + other + objects + bytes(13))
 
 

@@ -150,6 +150,14 @@ def test_surface_decides_the_group_of_turned_and_moved_bodies(name):
         assert shape(obj).pose()["symmetry"] == name
 
 
+def test_axes_hidden_by_coarse_coordinates_have_no_bound():
+    points, faces = orbit_of("I")
+    mesh = bpy.data.meshes.new("I")
+    mesh.from_pydata((points + 200.0).tolist(), [], faces.tolist())
+    pose = shape(add(mesh)).pose()
+    assert (pose["symmetry"], pose["unique"], pose["angle_bound"]) == ("I", False, np.pi)
+
+
 @pytest.mark.parametrize("corners", range(3, 10))
 def test_pose_with_one_corner_off_is_bounded_or_not_unique(corners):
     """A corner 1e-4 off leaves no symmetry but perhaps a mirror; axes that only it fixes are badly known."""
