@@ -11,7 +11,7 @@ import itertools
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import TypeVar, cast
+from typing import Any, TypeVar, cast
 from xml.parsers import expat
 
 import numpy as np
@@ -22,7 +22,7 @@ from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_numbers
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER, XML_ENTITIES
 from ..model import Shape
-from ..stated import Place, StatedInertial, StatedLink, StatedShape
+from ..stated import Place, StatedLink, StatedShape
 
 MAX_ELEMENTS = 1_000_000
 MAX_DEPTH = 200
@@ -188,18 +188,11 @@ def read_shapes(
     return tuple(shape for shape in shapes if shape is not None)
 
 
-def stated_link(
-    node: Node,
-    name: str,
-    element: Node | None,
-    inertial: StatedInertial | None,
-    shapes: tuple[StatedShape, ...],
-    moves: bool,
-    findings: Sequence[Finding],
-) -> StatedLink:
+def stated_link(node: Node, element: Node | None, findings: Sequence[Finding], **values: Any) -> StatedLink:
     """Return a link with its places. element: that of its inertial, which a repair replaces if it is in the file."""
     span = None if element is None or element.start == NOWHERE else (element.start, element.end)
-    return StatedLink(name, inertial, shapes, span, moves, tuple(findings), None, node.place, (element or node).place)
+    places = {"place": node.place, "inertial_place": (element or node).place}
+    return StatedLink(span=span, findings=tuple(findings), **places, **values)
 
 
 def _unreadable(node: Node, error: Exception) -> Finding:
@@ -212,5 +205,5 @@ def _unreadable(node: Node, error: Exception) -> Finding:
     ]
     holder = holders[0] if len(holders) == 1 else node
     line, column, file = holder.place
-    source = {"source": file} if file else {}
+    source: dict[str, Any] = {"source": file} if file else {}
     return finding(DESCRIPTION_NUMBER, text=text, element=holder.tag, line=line, column=column, **source)
