@@ -8,7 +8,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
 
-from tests.core.bodies import box
+from tests.core.bodies import box, sphere
 
 
 def rotation(rng):
@@ -16,26 +16,6 @@ def rotation(rng):
     q, r = np.linalg.qr(rng.normal(size=(3, 3)))
     q = q * np.sign(np.diag(r))
     return q * np.linalg.det(q)
-
-
-def ball(count=6):
-    """A closed mesh whose vertices lie on a sphere."""
-    u = np.linspace(0.0, 2.0 * np.pi, 2 * count, endpoint=False)
-    v = np.linspace(0.0, np.pi, count + 1)[1:-1]
-    rings = np.stack(
-        [np.outer(np.sin(v), np.cos(u)), np.outer(np.sin(v), np.sin(u)), np.outer(np.cos(v), np.ones_like(u))], axis=-1
-    ).reshape(-1, 3)
-    points, n = np.concatenate([rings, [[0, 0, 1], [0, 0, -1]]]), len(u)
-    faces = []
-    for j in range(n):
-        k = (j + 1) % n
-        faces.append((len(rings), j, k))
-        last = (len(v) - 1) * n
-        faces.append((len(rings) + 1, last + k, last + j))
-        for i in range(len(v) - 1):
-            a, b, c, d = i * n + j, i * n + k, (i + 1) * n + k, (i + 1) * n + j
-            faces += [(a, d, c), (a, c, b)]
-    return points, np.array(faces)
 
 
 def inertial(points, triangles, density=1000.0):
@@ -47,7 +27,7 @@ def inertial(points, triangles, density=1000.0):
 
 def shaped(rng, kind):
     """(points, triangles) of one random body."""
-    points, triangles = ball() if kind == "ball" else box((-1, -1, -1), (1, 1, 1))
+    points, triangles = sphere(1) if kind == "ball" else box((-1, -1, -1), (1, 1, 1))
     sides = {
         "plate": [1.0, rng.uniform(0.3, 1.0), 10.0 ** rng.uniform(-9, -3)],
         "rod": [1.0, 10.0 ** rng.uniform(-4, -2), 10.0 ** rng.uniform(-4, -2)],
@@ -97,3 +77,9 @@ def shapes(pose):
     """One of each primitive."""
     sizes = {"box": (1.0, 2.0, 3.0), "sphere": (0.5,), "capsule": (0.25, 1.0), "cylinder": (0.25, 2.0)}
     return (*(Shape(kind, size, pose) for kind, size in sizes.items()), Shape("ellipsoid", (1.0, 2.0, 3.0), pose))
+
+
+def near(found, truth, rel=1e-14, scale=None):
+    """Return whether all entries are within `rel` of the largest true entry, or of `scale`."""
+    found, truth = np.asarray(found, float), np.asarray(truth, float)
+    return np.abs(found - truth).max() <= rel * (np.abs(truth).max() if scale is None else scale)

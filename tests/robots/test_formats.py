@@ -13,20 +13,14 @@ from body_moments.core.robots.model import Inertial, Joint, Link, Pose, Robot
 from body_moments.core.robots.write import mjcf, sdf, urdf, usd
 from body_moments.core.robots.write.text import roll_pitch_yaw
 from body_moments.core.robots.write.texts import robot_text
-from pxr import Sdf, Usd, UsdGeom, UsdPhysics
+from pxr import UsdGeom, UsdPhysics
 from urdf_parser_py.urdf import URDF
 
 from tests.robots import sdf_schema
-from tests.robots.links import bodies, rotation, shapes
+from tests.robots.links import bodies, near, rotation, shapes
+from tests.robots.stage import stage_of
 
-RTOL = 1e-14  # Relative to the largest entry.
 SINGLE = 2.0**-23
-
-
-def near(found, truth, rel=RTOL, scale=None):
-    """Return whether all entries are within `rel` of the largest true entry, or of `scale`."""
-    found, truth = np.asarray(found, float), np.asarray(truth, float)
-    return np.abs(found - truth).max() <= rel * (np.abs(truth).max() if scale is None else scale)
 
 
 def tensor(moments, axes):
@@ -169,14 +163,8 @@ def test_sdf_joints_and_shapes_are_valid(chain):
     assert not sdf.check(chain)
 
 
-def stage_of(text):
-    layer = Sdf.Layer.CreateAnonymous(".usda")
-    assert layer.ImportFromString(text)
-    return Usd.Stage.Open(layer), layer
-
-
 def test_usd_in_single_precision_breaks_no_triangle_inequality(many):
-    stage, _ = stage_of(usd.write(many))
+    stage = stage_of(usd.write(many))
     assert UsdGeom.GetStageMetersPerUnit(stage) == 1.0 and UsdPhysics.GetStageKilogramsPerUnit(stage) == 1.0
     for link in many.links:
         prim, true = stage.GetPrimAtPath("/Robot/" + usd.identifier(link.name)), link.inertial
@@ -196,7 +184,7 @@ def test_usd_in_single_precision_breaks_no_triangle_inequality(many):
 @pytest.mark.parametrize("away", [False, True])
 def test_usd_links_stand_in_place_and_joints_hold_them(away):
     chain = bodies(24, chain=True, away=away)
-    stage, _ = stage_of(usd.write(chain))
+    stage = stage_of(usd.write(chain))
     assert stage.GetDefaultPrim().HasAPI(UsdPhysics.ArticulationRootAPI)
     cache = UsdGeom.XformCache()
     places = {}
@@ -235,7 +223,7 @@ def test_forbidden_names_are_changed_and_stay_unique():
     assert len({model.body(index).name for index in range(model.nbody)}) == len(names) + 1
     assert len(URDF.from_xml_string(urdf.write(robot).encode()).link_map) == len(names) + 1
     sdf_schema.validate(ElementTree.fromstring(sdf.write(robot)))
-    stage, _ = stage_of(usd.write(robot))
+    stage = stage_of(usd.write(robot))
     assert sum(prim.HasAPI(UsdPhysics.MassAPI) for prim in stage.Traverse()) == len(names)
 
 
@@ -253,5 +241,5 @@ def test_shapes_are_read_as_they_were_meant(chain):
     kinds = [type(shape.geometry).__name__ for shape in link.collisions]
     assert kinds == ["Box", "Sphere", "Cylinder", "Sphere", "Sphere", "Cylinder", "Box"]
     assert [found.code for found in urdf.check(robot)] == ["robot_ellipsoid_as_box"]
-    stage, _ = stage_of(usd.write(robot))
+    stage = stage_of(usd.write(robot))
     assert sum(prim.HasAPI(UsdPhysics.CollisionAPI) for prim in stage.Traverse()) == 5

@@ -19,51 +19,38 @@ from body_moments.core.robots.write.marker import is_ours
 from body_moments.core.robots.write.shapes import with_meshes, with_primitives
 from body_moments.core.robots.write.stl import to_stl
 from body_moments.core.robots.write.texts import robot_text
-from pxr import Sdf, Usd, UsdGeom, UsdPhysics
+from pxr import Sdf, UsdGeom, UsdPhysics
 
-from tests.robots.links import bodies, inertial, rotation, shaped, shapes
+from tests.robots.links import bodies, inertial, near, rotation, shaped, shapes
+from tests.robots.stage import stage_of
 
-VECTOR = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+NUMBER, INDEX = {"type": "number"}, {"type": "integer", "minimum": 0}
+VECTOR = {"type": "array", "items": NUMBER, "minItems": 3, "maxItems": 3}
+
+
+def record(properties, **more):
+    """The schema of an object with these properties alone."""
+    return {"type": "object", "properties": properties, "additionalProperties": False, **more}
+
+
 MOTION = {
     "mass": {"type": "number", "exclusiveMinimum": 0},
     "centerOfMass": VECTOR,
     "inertiaDiagonal": {**VECTOR, "items": {"type": "number", "exclusiveMinimum": 0}},
-    "inertiaOrientation": {"type": "array", "items": {"type": "number"}, "minItems": 4, "maxItems": 4},
+    "inertiaOrientation": {"type": "array", "items": NUMBER, "minItems": 4, "maxItems": 4},
     "linearVelocity": VECTOR,
     "angularVelocity": VECTOR,
-    "gravityFactor": {"type": "number"},
+    "gravityFactor": NUMBER,
 }
+KINDS = {"enum": ["static", "kinematic", "dynamic"]}
 # The schemas of the extensions. Zero mass or inertia is allowed there, and means something else.
 SCHEMAS = {
-    gltf.KHR: {
-        "type": "object",
-        "properties": {
-            "motion": {
-                "type": "object",
-                "properties": {**MOTION, "isKinematic": {"type": "boolean"}},
-                "additionalProperties": False,
-            }
-        },
-        "required": ["motion"],
-    },
-    gltf.OMI: {
-        "type": "object",
-        "properties": {
-            "motion": {
-                "type": "object",
-                "properties": {**MOTION, "type": {"enum": ["static", "kinematic", "dynamic"]}},
-                "required": ["type"],
-                "additionalProperties": False,
-            }
-        },
-        "required": ["motion"],
-    },
+    name: {"type": "object", "properties": {"motion": motion}, "required": ["motion"]}
+    for name, motion in (
+        (gltf.KHR, record({**MOTION, "isKinematic": {"type": "boolean"}})),
+        (gltf.OMI, record({**MOTION, "type": KINDS}, required=["type"])),
+    )
 }
-
-
-def near(found, truth, rel=1e-14):
-    found, truth = np.asarray(found, float), np.asarray(truth, float)
-    return np.abs(found - truth).max() <= rel * np.abs(truth).max()
 
 
 def test_mujoco_loads_meshes_and_keeps_measured_inertia():
@@ -104,9 +91,7 @@ def test_usd_layer_of_masses_composes_with_its_geometry(unit):
         'def Mesh "m" {\n}\ndef Xform "hand" {\n}\n}\n}\n'
     )
     text = usd.write_over(robot, {"Würfel 1": ["root", "Würfel_1"]}, below.identifier, unit)
-    layer = Sdf.Layer.CreateAnonymous(".usda")
-    assert layer.ImportFromString(text)
-    stage = Usd.Stage.Open(layer)
+    stage = stage_of(text)
     assert stage.GetMetadata("metersPerUnit") == unit
     found = [prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.MassAPI)]
     assert [prim.GetName() for prim in found] == ["Würfel_1"] and found[0].GetChild("m")
@@ -162,49 +147,27 @@ def test_primitives_have_the_inertia_of_mujoco(kind):
         assert near((axes * found.inertia) @ axes.T, true.inertia, 1e-12)
 
 
-NUMBER, INDEX = {"type": "number"}, {"type": "integer", "minimum": 0}
 AXES = {"type": "array", "items": {"enum": [0, 1, 2]}, "minItems": 1, "maxItems": 3, "uniqueItems": True}
 # The schemas of KHR_physics_rigid_bodies and KHR_implicit_shapes.
-LIMIT = {
-    "type": "object",
-    "properties": {"linearAxes": AXES, "angularAxes": AXES, "min": NUMBER, "max": NUMBER},
-    "oneOf": [{"required": ["linearAxes"]}, {"required": ["angularAxes"]}],
-    "additionalProperties": False,
-}
+LIMIT = record(
+    {"linearAxes": AXES, "angularAxes": AXES, "min": NUMBER, "max": NUMBER},
+    oneOf=[{"required": ["linearAxes"]}, {"required": ["angularAxes"]}],
+)
+ONE_JOINT = record({"name": {"type": "string"}, "limits": {"type": "array", "items": LIMIT}})
 JOINTS = {
     "type": "object",
-    "properties": {
-        "physicsJoints": {
-            "type": "array",
-            "items": {
-                "type": "object",
-                "properties": {"name": {"type": "string"}, "limits": {"type": "array", "items": LIMIT}},
-                "additionalProperties": False,
-            },
-        }
-    },
+    "properties": {"physicsJoints": {"type": "array", "items": ONE_JOINT}},
     "required": ["physicsJoints"],
 }
-JOINT = {
-    "type": "object",
-    "properties": {"connectedNode": INDEX, "joint": INDEX, "enableCollision": {"type": "boolean"}},
-    "required": ["connectedNode", "joint"],
-    "additionalProperties": False,
-}
-ROUND = {
-    "type": "object",
-    "properties": {"height": NUMBER, "radiusTop": NUMBER, "radiusBottom": NUMBER},
-    "additionalProperties": False,
-}
+JOINT = record(
+    {"connectedNode": INDEX, "joint": INDEX, "enableCollision": {"type": "boolean"}},
+    required=["connectedNode", "joint"],
+)
+ROUND = record({"height": NUMBER, "radiusTop": NUMBER, "radiusBottom": NUMBER})
+FORMS = {"sphere": record({"radius": NUMBER}), "box": record({"size": VECTOR}), "capsule": ROUND, "cylinder": ROUND}
 SHAPE = {
     "type": "object",
-    "properties": {
-        "type": {"enum": ["sphere", "box", "capsule", "cylinder"]},
-        "sphere": {"type": "object", "properties": {"radius": NUMBER}, "additionalProperties": False},
-        "box": {"type": "object", "properties": {"size": VECTOR}, "additionalProperties": False},
-        "capsule": ROUND,
-        "cylinder": ROUND,
-    },
+    "properties": {"type": {"enum": [*FORMS]}, **FORMS},
     "required": ["type"],
     "minProperties": 2,
     "maxProperties": 2,
@@ -301,9 +264,7 @@ def test_meshes_are_embedded_in_single_file_formats():
     assert near(shown[faces], true[triangles], 1e-6)
     assert near(document["accessors"][0]["min"], found.min(axis=0), 0.0)
     assert len(views) == 2 and document["accessors"][1]["count"] == triangles.size
-    layer = Sdf.Layer.CreateAnonymous(".usda")
-    assert layer.ImportFromString(robot_text(robot, "usd")[0])
-    stage = Usd.Stage.Open(layer)
+    stage = stage_of(robot_text(robot, "usd")[0])
     seen, mesh = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
     assert mesh.GetPrim().HasAPI(UsdPhysics.MeshCollisionAPI) and mesh.GetPurposeAttr().Get() == "guide"
     assert not seen.GetPrim().HasAPI(UsdPhysics.CollisionAPI) and seen.GetPurposeAttr().Get() == "default"

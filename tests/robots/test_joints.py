@@ -21,11 +21,12 @@ from body_moments.core.robots.model import FreeAxis, Joint, Link, Mimic, Pose, R
 from body_moments.core.robots.write import gltf_robot, mjcf, sdf, urdf, usd
 from body_moments.core.robots.write.shapes import with_primitives, without_collision
 from body_moments.core.robots.write.texts import check, robot_text
-from pxr import Sdf, Usd, UsdPhysics, UsdValidation
+from pxr import UsdPhysics, UsdValidation
 from urdf_parser_py.urdf import URDF
 
 from tests.robots import sdf_schema
 from tests.robots.links import free_axes, inertial, rotation, shaped
+from tests.robots.stage import stage_of
 
 KINDS = ("ball", "box", "sheared")
 ENTRIES = [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]
@@ -288,9 +289,7 @@ def test_fixed_base_does_not_fall_in_any_format():
         assert [joint.findtext("child") for joint in joints if joint.findtext("parent") == "world"] == [
             "base"
         ] * is_fixed
-        layer = Sdf.Layer.CreateAnonymous(".usda")
-        assert layer.ImportFromString(usd.write(robot))
-        stage = Usd.Stage.Open(layer)
+        stage = stage_of(usd.write(robot))
         alone = [prim for prim in stage.Traverse() if prim.IsA(UsdPhysics.FixedJoint)]
         assert len(alone) == is_fixed
         for prim in alone:
@@ -337,9 +336,7 @@ def test_stated_values_of_joints_are_in_each_format():
     assert model.jnt_stiffness.tolist()[1:] == [7.0] * 2 and model.jnt_actfrcrange[1:].tolist() == [[-12.0, 12.0]] * 2
     assert model.eq_data[0, :3].tolist() == [0.125, 0.25, 0.0]
     assert (model.eq_obj1id[0], model.eq_obj2id[0]) == (model.joint("slide").id, model.joint("hinge").id)
-    layer = Sdf.Layer.CreateAnonymous(".usda")
-    assert layer.ImportFromString(usd.write(robot))
-    stage = Usd.Stage.Open(layer)
+    stage = stage_of(usd.write(robot))
     for name, direction, unit in (("hinge", "angular", np.pi / 180.0), ("slide", "linear", 1.0)):
         drive = UsdPhysics.DriveAPI.Get(stage.GetPrimAtPath("/Robot/" + name), direction)
         assert abs(drive.GetDampingAttr().Get() - 0.5 * unit) < 1e-7 and drive.GetMaxForceAttr().Get() == 12.0
@@ -402,9 +399,7 @@ def test_usd_breaks_no_rule_of_its_own_validators():
     assert len(validators) > 20
     pair = Robot("pair", (*assembly(3).links, Link("apart", arm().links[0].inertial)), assembly(3).joints)
     for robot in (arm(VALUES, is_fixed=True), arm(), assembly(3), pair, Robot("one", arm().links[:1])):
-        layer = Sdf.Layer.CreateAnonymous(".usda")
-        assert layer.ImportFromString(usd.write(with_primitives(robot, "box")))
-        stage = Usd.Stage.Open(layer)
+        stage = stage_of(usd.write(with_primitives(robot, "box")))
         errors = UsdValidation.ValidationContext(validators).Validate(stage)
         assert not [error.GetMessage() for error in errors]
         # Newton refuses an articulation of several trees.
@@ -417,8 +412,7 @@ def test_usd_breaks_no_rule_of_its_own_validators():
 def test_usd_layer_of_masses_holds_fixed_roots(unit):
     robot = Robot("arm", arm(is_fixed=True).links)
     paths = {link.name: ["scene", link.name] for link in robot.links}
-    layer = Sdf.Layer.CreateAnonymous(".usda")
-    assert layer.ImportFromString(usd.write_over(robot, paths, "./geometry.usdc", unit))
+    layer = stage_of(usd.write_over(robot, paths, "./geometry.usdc", unit)).GetRootLayer()
     (prim,) = [spec for spec in layer.GetPrimAtPath("/scene").nameChildren if spec.typeName == "PhysicsFixedJoint"]
     assert prim.relationships["physics:body1"].targetPathList.explicitItems == ["/scene/base"]
     place = np.array(prim.attributes["physics:localPos0"].default) * unit

@@ -239,20 +239,12 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
                 waiting.append((found, depth + 1, there, inside, [path]))
             else:
                 model.append(path)
-                _override(child, found)
+                for inner in found.all("model"):  # The including file of SDF may place and name it anew.
+                    stated = {one.tag: one.text.strip() for one in child.children}
+                    inner.attributes |= {name: stated[name] for name in ("name", "placement_frame") if name in stated}
+                    inner.children = [*child.all("pose"), *inner.children]
                 pending += [(below, there, inside) for below in reversed(found.children)]
         node.children = children
-
-
-def _override(include: Node, found: Node) -> None:
-    """Give the models that SDF includes the name, the pose and the placement frame that the including file states."""
-    stated = {child.tag: child for child in include.children}
-    for node in found.all("model") if "uri" in stated else ():
-        for name in ("name", "placement_frame"):
-            if name in stated:
-                node.attributes[name] = stated[name].text.strip()
-        if "pose" in stated:
-            node.children = [stated["pose"], *(child for child in node.children if child.tag != "pose")]
 
 
 def _model_file(name: str, roots: Roots) -> Path:

@@ -197,7 +197,7 @@ def _link(
     shapes = tuple(shape for shape in read if shape is not None)
     name = outer.prefix + body.get("name") if body.get("name") else "body {}".format(count + 1)
     # Without an inertial MuJoCo takes it from geoms. Numbers in a frame are not those of the body; no repair fits them.
-    link = stated_link(body, name, node, inertial, shapes, False, findings)
+    link = stated_link(body, node, findings, name=name, inertial=inertial, shapes=shapes, moves=False)
     return link if frame.is_plain else replace(link, span=None)
 
 

@@ -12,7 +12,7 @@ from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding
 from ..model import Pose
 from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
-from .xml import Node, attempt, number, numbers, read_shapes, stated_link
+from .xml import MAX_DEPTH, Node, attempt, number, numbers, read_shapes, stated_link
 
 KINDS = ("box", "ellipsoid", "sphere", "cylinder", "capsule")
 OWN = "__model__"  # the name of a model's frame within itself
@@ -36,26 +36,19 @@ class _Scope:
         self._scopes = scopes
         self._poses = {OWN: Pose()}
 
-    def pose(self, name: str) -> Pose:
+    def pose(self, name: str, depth: int = 0) -> Pose:
         """Return the pose of a frame in the model. ValueError if it is unknown, or in itself."""
-        chain: dict[str, tuple[Node, str]] = {}
-        inner = name
-        while inner not in self._poses:
-            node = self._frames.get(inner.partition("::")[0])
-            if node is None or inner in chain:
-                raise ValueError(inner)
+        if name not in self._poses:
+            first, _, rest = name.partition("::")
+            node = self._frames.get(first)
+            if node is None or rest and node.tag != "model" or depth > MAX_DEPTH:
+                raise ValueError(name)
             default = {"joint": _text(node, "child"), "frame": node.get("attached_to")}.get(node.tag)
-            outer = _relative_to(node) or default or OWN
-            chain[inner], inner = (node, outer), outer
-        for inner, (node, outer) in reversed(chain.items()):
-            pose = self._poses[outer] @ _pose(node)[0]
-            rest = inner.partition("::")[2]
+            pose = self.pose(_relative_to(node) or default or OWN, depth + 1) @ _pose(node)[0]
             if node.tag == "model":
-                scope = self._scopes[node]
-                pose = pose @ scope.pose(node.get("placement_frame") or OWN).inverse() @ scope.pose(rest or OWN)
-            elif rest:
-                raise ValueError(inner)
-            self._poses[inner] = pose
+                inner, place = self._scopes[node], node.get("placement_frame") or OWN
+                pose = pose @ inner.pose(place, depth + 1).inverse() @ inner.pose(rest or OWN, depth + 1)
+            self._poses[name] = pose
         return self._poses[name]
 
 
@@ -79,7 +72,7 @@ def _link(node: Node, model: Node, scope: _Scope, several: bool) -> StatedLink:
     static = _text(model, "static") in ("true", "1")
     name = "{}::{}".format(model.get("name"), node.get("name")) if several else node.get("name")
     moves = bool(shapes) and not static and element is None
-    return stated_link(node, name, element, inertial, shapes, moves, findings)
+    return stated_link(node, element, findings, name=name, inertial=inertial, shapes=shapes, moves=moves)
 
 
 def _relative_to(node: Node) -> str:

@@ -22,7 +22,8 @@ def _link(node: Node) -> StatedLink:
     element = node.find("inertial")
     inertial = attempt(findings, element, _inertial)
     shapes = read_shapes(findings, node, _origin, ("box", "sphere", "cylinder", "capsule"), Node.get)
-    return stated_link(node, node.get("name"), element, inertial, shapes, bool(shapes), findings)
+    more = {"name": node.get("name"), "moves": bool(shapes)}
+    return stated_link(node, element, findings, inertial=inertial, shapes=shapes, **more)
 
 
 def _inertial(node: Node) -> StatedInertial:

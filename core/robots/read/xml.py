@@ -22,7 +22,7 @@ from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_numbers
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER, XML_ENTITIES
 from ..model import Shape
-from ..stated import Place, StatedInertial, StatedLink, StatedShape
+from ..stated import Place, StatedLink, StatedShape
 
 MAX_ELEMENTS = 1_000_000
 MAX_DEPTH = 200
@@ -188,18 +188,11 @@ def read_shapes(
     return tuple(shape for shape in shapes if shape is not None)
 
 
-def stated_link(
-    node: Node,
-    name: str,
-    element: Node | None,
-    inertial: StatedInertial | None,
-    shapes: tuple[StatedShape, ...],
-    moves: bool,
-    findings: Sequence[Finding],
-) -> StatedLink:
+def stated_link(node: Node, element: Node | None, findings: Sequence[Finding], **values: Any) -> StatedLink:
     """Return a link with its places. element: that of its inertial, which a repair replaces if it is in the file."""
     span = None if element is None or element.start == NOWHERE else (element.start, element.end)
-    return StatedLink(name, inertial, shapes, span, moves, tuple(findings), None, node.place, (element or node).place)
+    places = {"place": node.place, "inertial_place": (element or node).place}
+    return StatedLink(span=span, findings=tuple(findings), **places, **values)
 
 
 def _unreadable(node: Node, error: Exception) -> Finding:
