@@ -159,7 +159,7 @@ def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
 
 
 def _edges_of_sides(
-    start: NDArray[np.integer], stop: NDArray[np.integer], diagonals: NDArray[np.intp] = NO_SIDES
+    start: NDArray[np.integer], stop: NDArray[np.integer], diagonals: NDArray[np.integer] = NO_SIDES
 ) -> Edges:
     """Return the edges of sides from these vertices to those; each of the diagonals is an edge with the next side."""
     low, high = np.minimum(start, stop), np.maximum(start, stop)

@@ -177,7 +177,8 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
     """Yield the findings about an assembly: first about the whole, then about its members, with their names."""
     yield from whole.findings
     members = list(whole.walk())
-    named = {MEMBERS_NOT_MEASURED: [part.member.name for part in members if part.refusal is not None]}
+    refused = [part.member.name for part in members if part.refusal is not None]
+    named: dict[str, list[str]] = {MEMBERS_NOT_MEASURED: refused}
     for part in members:
         if part.member.left_out is not None:
             named.setdefault(_LEFT_OUT.get(part.member.left_out.code, MEMBERS_EXCLUDED), []).append(part.member.name)
