@@ -21,6 +21,7 @@ from ....core.measurement.builder import Extent, add_extents, extent_of, measure
 from ....core.measurement.findings import DENSITY_FROM_MEMBERS
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
 from ....core.measurement.settings import fingerprint
+from ....core.measurement.trust import open_body_caveats
 from ....core.moments.affine_maps import are_similarities
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Measure, Moments, sum_moments
@@ -28,7 +29,6 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ....core.verdict.verdict import open_body_caveats
 from ...read.assembly import Member, MemberKind, Root, members_key, members_of, settings_of, structure_hash
 from ...read.findings import (
     BOOLEAN_OPERAND,
@@ -177,9 +177,8 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
     """Yield the findings about an assembly: first about the whole, then about its members, with their names."""
     yield from whole.findings
     members = list(whole.walk())
-    named: dict[str, list[str]] = {
-        MEMBERS_NOT_MEASURED: [part.member.name for part in members if part.refusal is not None]
-    }
+    refused = [part.member.name for part in members if part.refusal is not None]
+    named: dict[str, list[str]] = {MEMBERS_NOT_MEASURED: refused}
     for part in members:
         if part.member.left_out is not None:
             named.setdefault(_LEFT_OUT.get(part.member.left_out.code, MEMBERS_EXCLUDED), []).append(part.member.name)
