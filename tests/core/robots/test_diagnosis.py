@@ -3,7 +3,7 @@
 """Each mistake that a robot description may have is made, found, named and repaired; from both sides of each limit."""
 
 from dataclasses import replace
-from itertools import permutations, product
+from itertools import compress, permutations, product
 from math import degrees, radians
 
 import numpy as np
@@ -89,49 +89,40 @@ def mistakes():
         yield "order", values, along(turn, np.eye(3), quaternion=wrong)
     yield "transposed", {"part": "rotation of the inertial"}, along(turn, turn.T)
     yield "frame_not_meant", {}, replace(TRUTH, rotation=turn)
+    own = along(turn, turn)
     for signs in list(product((1.0, -1.0), repeat=3))[1:]:
-        products = [name for name, sign in zip(("xy", "xz", "yz"), signs) if sign < 0.0]
-        yield "sign", {"part": "products of inertia", "axes": products}, of_inertia(with_products(signs, INERTIA))
-        own = along(turn, turn)
+        is_wrong = np.array(signs) < 0.0
+        names = [*compress(("xy", "xz", "yz"), is_wrong)]
+        values, along_link = {"part": "products of inertia", "axes": names}, with_products(signs, INERTIA)
+        yield "sign", values, of_inertia(along_link)
+        for tensor in (with_products(signs, own.tensor), turn.T @ along_link @ turn):
+            yield "sign", values, replace(own, tensor=tensor)
         yield (
             "sign",
-            {"part": "products of inertia", "axes": products},
-            replace(own, tensor=with_products(signs, own.tensor)),
+            {"part": "center of mass", "axes": [*compress("xyz", is_wrong)]},
+            of_inertia(INERTIA, CENTER * signs),
         )
-        wrong = turn.T @ with_products(signs, INERTIA) @ turn
-        yield "sign", {"part": "products of inertia", "axes": products}, replace(own, tensor=wrong)
-        axes = [axis for axis, sign in zip("xyz", signs) if sign < 0.0]
-        yield "sign", {"part": "center of mass", "axes": axes}, of_inertia(INERTIA, CENTER * signs)
-    for axis in range(3):
-        mirror = np.eye(3)
-        mirror[axis, axis] = -1.0
-        yield "mirrored", {"axis": "xyz"[axis]}, of_inertia(mirror @ INERTIA @ mirror, mirror @ CENTER)
-        for way in (np.pi / 2.0, -np.pi / 2.0):
-            turned = rotation_of_angles(*way * np.eye(3)[axis])
-            yield (
-                "turned",
-                {"part": "inertial", "axis": "xyz"[axis]},
-                of_inertia(turned @ INERTIA @ turned.T, turned @ CENTER),
-            )
-            yield "turned", {"part": "inertia", "axis": "xyz"[axis]}, of_inertia(turned @ INERTIA @ turned.T)
+    for axis, way in product(range(3), (np.pi / 2.0, -np.pi / 2.0)):
+        mirror, values = np.diag(1.0 - 2.0 * np.eye(3)[axis]), {"axis": "xyz"[axis]}
+        yield "mirrored", values, of_inertia(mirror @ INERTIA @ mirror, mirror @ CENTER)
+        turned = rotation_of_angles(*way * np.eye(3)[axis])
+        tensor = turned @ INERTIA @ turned.T
+        yield "turned", {"part": "inertial", **values}, of_inertia(tensor, turned @ CENTER)
+        yield "turned", {"part": "inertia", **values}, of_inertia(tensor)
     diagonal = np.diag(np.diag(INERTIA))
     for order in list(permutations(range(3)))[1:]:
         axes, back = "".join("xyz"[axis] for axis in order), np.argsort(order)
         pairs = " ".join("".join(sorted(axes[i] + axes[j])) for i, j in ((0, 1), (0, 2), (1, 2)))
         swapped = INERTIA[np.ix_(back, back)]
-        yield "order", {"part": "axes of the inertia", "order": axes}, of_inertia(swapped)
-        yield "order", {"part": "axes of the center of mass", "order": axes}, of_inertia(INERTIA, CENTER[back])
-        yield "order", {"part": "axes of the inertial", "order": axes}, of_inertia(swapped, CENTER[back])
-        yield (
-            "order",
-            {"part": "diagonal of the inertia", "order": axes},
-            of_inertia(INERTIA - diagonal + np.diag(np.diag(swapped))),
-        )
-        yield (
-            "order",
-            {"part": "products of inertia", "order": pairs},
-            of_inertia(swapped - np.diag(np.diag(swapped)) + diagonal),
-        )
+        other = np.diag(np.diag(swapped))
+        for part, names, stated in (
+            ("axes of the inertia", axes, of_inertia(swapped)),
+            ("axes of the center of mass", axes, of_inertia(INERTIA, CENTER[back])),
+            ("axes of the inertial", axes, of_inertia(swapped, CENTER[back])),
+            ("diagonal of the inertia", axes, of_inertia(INERTIA - diagonal + other)),
+            ("products of inertia", pairs, of_inertia(swapped - other + diagonal)),
+        ):
+            yield "order", {"part": part, "order": names}, stated
     moments, axes = np.linalg.eigh(INERTIA)
     for order, signs in product(permutations(range(3)), ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1))):
         rows = np.diag(signs) @ axes[:, order].T  # the tensor's own axes may then point either way
@@ -223,16 +214,7 @@ def test_mass_unit_is_blamed_only_for_impossible_density():
 @pytest.mark.parametrize("value", [9.0, 0.029])
 def test_a_number_of_a_file_keeps_its_decimals_in_another_unit(value):
     """A thousandth is a division by a thousand, not a product with 0.001, which rounds twice."""
-    for factor, truth in (
-        (1e-3, value / 1000.0),
-        (1e-2, value / 100.0),
-        (1e-6, value / 1e6),
-        (1.0, value),
-        (0.0254, value * 0.0254),
-        (1000.0, value * 1000.0),
-        (1e6, value * 1e6),
-        (1.5, value * 1.5),
-        (0.6, value * 0.6),
-    ):
+    parts = [(1e-3, value / 1000.0), (1e-2, value / 100.0), (1e-6, value / 1e6)]
+    for factor, truth in (*parts, *((whole, value * whole) for whole in (1.0, 0.0254, 1000.0, 1e6, 1.5, 0.6))):
         assert _times([value, -value], factor).tolist() == [truth, -truth]
     assert value * 1e-3 != value / 1000.0
