@@ -101,11 +101,11 @@ class _StoredMesh(_Vertices):
         self.mesh, self.start, self.leans = obj.data, vertex_points(obj.data), not (name or obj.vertex_groups)
         group = obj.vertex_groups.get(name) if name else obj.vertex_groups.active
         weights = np.full(len(self.start), float(self.leans))
-        index = -1 if group is None else group.index
-        for vertex in self.mesh.vertices if index >= 0 else ():  # Blender gives weights one by one only
-            for entry in vertex.groups:
-                if entry.group == index:
-                    weights[vertex.index] = entry.weight
+        if group is not None:
+            for vertex in self.mesh.vertices:  # Blender gives weights one by one only
+                for entry in vertex.groups:
+                    if entry.group == group.index:
+                        weights[vertex.index] = entry.weight
         self.choose(weights)
 
     def set_points(self, points: NDArray[np.float32]) -> None:

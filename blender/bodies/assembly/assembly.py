@@ -21,7 +21,6 @@ from ....core.measurement.builder import Extent, add_extents, extent_of, measure
 from ....core.measurement.findings import DENSITY_FROM_MEMBERS
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
 from ....core.measurement.settings import fingerprint
-from ....core.measurement.trust import open_body_caveats
 from ....core.moments.affine_maps import are_similarities
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Measure, Moments, sum_moments
@@ -29,6 +28,7 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ....core.verdict.verdict import open_body_caveats
 from ...read.assembly import Member, MemberKind, Root, members_key, members_of, settings_of, structure_hash
 from ...read.findings import (
     BOOLEAN_OPERAND,
