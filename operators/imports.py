@@ -5,6 +5,7 @@
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import bpy
 from bpy.props import (
@@ -30,6 +31,15 @@ from . import selection
 from .findings import FILE_EXISTS
 
 
+def _positions(axis: str) -> Any:
+    """Declare the file with the positions of samples along an axis."""
+    return StringProperty(
+        name="{:s} Positions".format(axis.upper()),
+        description=f"A .npy file with the position of each sample along {axis}, ascending. Empty if they are even",
+        subtype="FILE_PATH",
+    )
+
+
 class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, ImportHelper):
     """Import a scan or array of densities as a Volume object. A .vdb file is written beside it"""
 
@@ -48,21 +58,9 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         min=1e-9,
         precision=6,
     )
-    x_positions: StringProperty(
-        name="X Positions",
-        description="A .npy file with the position of each sample along x, ascending. Empty if they are even",
-        subtype="FILE_PATH",
-    )
-    y_positions: StringProperty(
-        name="Y Positions",
-        description="A .npy file with the position of each sample along y, ascending. Empty if they are even",
-        subtype="FILE_PATH",
-    )
-    z_positions: StringProperty(
-        name="Z Positions",
-        description="A .npy file with the position of each sample along z, ascending. Empty if they are even",
-        subtype="FILE_PATH",
-    )
+    x_positions: _positions("x")
+    y_positions: _positions("y")
+    z_positions: _positions("z")
     position_unit: FloatProperty(
         name="Unit of Positions",
         description="Meters per unit of the files of positions",
@@ -182,7 +180,9 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
                 return selection.refuse(self, selection.NO_FILE)
             reports.report(self, *map(reports.refusal, refusals))
             return {"CANCELLED"}
-        _select(context, made)
+        visible = [obj for obj in made if obj.name in context.view_layer.objects]
+        if visible:
+            selection.select_only(context, visible, visible[0])
         for part in [*parts, *(reports.failure(error.subject, error) for error in refusals)]:
             reports.report(self, part)  # one line each: a refused file does not undo the others
         return {"FINISHED"}
@@ -203,16 +203,6 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
         )
         done = reports.phrase(*texts, count=found.patches, order=found.order, file=path.name)
         return found.objects, [done, *found.findings]
-
-
-def _select(context: Context, made: list[Object]) -> None:
-    for previous in context.selected_objects:
-        previous.select_set(False)
-    visible = [obj for obj in made if obj.name in context.view_layer.objects]
-    for obj in visible:
-        obj.select_set(True)
-    if visible:
-        context.view_layer.objects.active = visible[0]
 
 
 CLASSES = (

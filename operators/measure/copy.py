@@ -218,8 +218,7 @@ class OBJECT_OT_body_moments_save_numbers(Operator):
 
 def _active_index(_scene: Scene) -> int:
     objects = bpy.context.view_layer.objects
-    active = objects.active
-    return -1 if active is None else objects.find(active.name)
+    return -1 if objects.active is None else objects.find(objects.active.name)
 
 
 def _select(_scene: Scene, index: int) -> None:
@@ -227,11 +226,7 @@ def _select(_scene: Scene, index: int) -> None:
     layer = bpy.context.view_layer
     if bpy.context.mode != "OBJECT" or not 0 <= index < len(layer.objects):
         return
-    for obj in layer.objects.selected:
-        obj.select_set(False)
-    chosen = layer.objects[index]
-    chosen.select_set(True)
-    layer.objects.active = chosen
+    selection.select_only(bpy.context, [layer.objects[index]], layer.objects[index])
 
 
 def register() -> None:
