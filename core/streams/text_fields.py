@@ -29,7 +29,7 @@ SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
 SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
 _NOT_FINITE = re.compile(rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE)  # forms that C prints
 MAX_POWER = 22  # up to this float64 holds a power of ten
-MAX_DIGITS = 18  # int64 always holds them
+MAX_WHOLE = 1e18  # int64 holds smaller numbers, and replaces larger ones by its largest
 _POWERS = 10.0 ** np.arange(MAX_POWER + 1)
 _SPACE, _NINE, _DOT = b" 9."
 _BLANKS = bytes(letter if _SPACE < letter <= _NINE else _SPACE for letter in range(256))
@@ -117,8 +117,9 @@ def parse_decimals(text: bytes) -> tuple[NDArray[np.float64], NDArray[np.intp], 
         raise ValueError("no decimal numbers")
     last = np.flatnonzero(is_exponent)
     powers[last - 1] += whole[last]
-    is_hard = (digits > MAX_DIGITS) | (np.abs(powers) > 2 * MAX_POWER)
-    values, left = whole.astype(np.float64), np.minimum(np.abs(powers), 2 * MAX_POWER)
+    values, left = whole.astype(np.float64), np.abs(powers)
+    is_hard = (np.abs(values) >= MAX_WHOLE) | (left > 2 * MAX_POWER)
+    left = np.minimum(left, 2 * MAX_POWER)
     while left.any():
         scales = _POWERS[np.minimum(left, MAX_POWER)]
         values = np.where(powers < 0, values / scales, values * scales)
