@@ -22,8 +22,8 @@ from body_moments.core.robots.write.shapes import with_colliders, with_meshes
 from body_moments.core.robots.write.stl import to_stl
 
 from tests import benchmark_colliders
-from tests.core.bodies import box, joined
-from tests.robots.links import ball, rotation
+from tests.core.bodies import box, joined, sphere
+from tests.robots.links import rotation
 
 DENSITY = 700.0
 SLOW = {"helix", "knot", "spiral", "bowl", "goblet", "hook", "dumbbell", "cup", "crescent"}
@@ -32,7 +32,7 @@ LINKS = (
     *("R_SHOULDER_Y", "R_ELBOW_P", "R_ELBOW_Y", "R_WRIST_Y", "R_UTHUMB", "R_LINDEX"),
 )  # of the humanoid JVRC-1, closed meshes
 COLUMNS = ["columns {}".format(number) for number in range(6)]
-SHAPES = {"box": box((-1, -1, -1), (1, 1, 1)), "ball": ball(), **benchmark_colliders.bodies()}
+SHAPES = {"box": box((-1, -1, -1), (1, 1, 1)), "ball": sphere(2), **benchmark_colliders.bodies()}
 BODIES = (*sorted({*SHAPES} - SLOW), "Suzanne", *LINKS, *COLUMNS)
 
 

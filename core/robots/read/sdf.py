@@ -12,7 +12,7 @@ from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding
 from ..model import Pose
 from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
-from .xml import MAX_DEPTH, Node, attempt, number, numbers, read_shapes, stated_link
+from .xml import MAX_DEPTH, NOWHERE, Node, attempt, number, numbers, read_shapes, stated_link
 
 KINDS = ("box", "ellipsoid", "sphere", "cylinder", "capsule")
 OWN = "__model__"  # the name of a model's frame within itself
@@ -44,7 +44,8 @@ class _Scope:
             if node is None or rest and node.tag != "model" or depth > MAX_DEPTH:
                 raise ValueError(name)
             default = {"joint": _text(node, "child"), "frame": node.get("attached_to")}.get(node.tag)
-            pose = self.pose(_relative_to(node) or default or OWN, depth + 1) @ _pose(node)[0]
+            own, _, _, outer = _pose(node)
+            pose = self.pose(outer or default or OWN, depth + 1) @ own
             if node.tag == "model":
                 inner, place = self._scopes[node], node.get("placement_frame") or OWN
                 pose = pose @ inner.pose(place, depth + 1).inverse() @ inner.pose(rest or OWN, depth + 1)
@@ -59,8 +60,7 @@ def _link(node: Node, model: Node, scope: _Scope, several: bool) -> StatedLink:
     inertial = None if is_auto else attempt(findings, element, _inertial)
 
     def pose_of(part: Node) -> tuple[Pose, Angles | None]:
-        pose, angles, _ = _pose(part)
-        frame = _relative_to(part)
+        pose, angles, _, frame = _pose(part)
         if not frame:
             return pose, angles
         try:
@@ -75,12 +75,6 @@ def _link(node: Node, model: Node, scope: _Scope, several: bool) -> StatedLink:
     return stated_link(node, element, findings, name=name, inertial=inertial, shapes=shapes, moves=moves)
 
 
-def _relative_to(node: Node) -> str:
-    """Return the name of the frame that an element's pose is in, "" if it is the usual one."""
-    element = node.find("pose")
-    return "" if element is None else element.get("relative_to")
-
-
 def _text(node: Node, *path: str) -> str:
     found = node.find(*path)
     return "" if found is None else found.text.strip()
@@ -88,7 +82,7 @@ def _text(node: Node, *path: str) -> str:
 
 def _inertial(node: Node) -> StatedInertial:
     """Return an inertial, whose pose is always in its link."""
-    pose, angles, quaternion = _pose(node)
+    pose, angles, quaternion, _ = _pose(node)
     tensor = np.eye(3)
     for name, i, j in ENTRIES:
         tensor[i, j] = tensor[j, i] = number(_text(node, "inertia", name), float(i == j))
@@ -96,16 +90,17 @@ def _inertial(node: Node) -> StatedInertial:
     return StatedInertial(mass, pose.position, tensor, pose.rotation, angles, quaternion)
 
 
-def _pose(node: Node) -> tuple[Pose, Angles | None, tuple[float, ...] | None]:
-    element = node.find("pose")
-    text = "" if element is None else element.text
-    if element is not None and element.get("rotation_format") == "quat_xyzw":
+def _pose(node: Node) -> tuple[Pose, Angles | None, tuple[float, ...] | None, str]:
+    """Return a pose, its angles or its quaternion as stated, and the name of the frame that it is in, "" by default."""
+    element = node.find("pose") or Node("pose", {}, NOWHERE)
+    text, frame = element.text, element.get("relative_to")
+    if element.get("rotation_format") == "quat_xyzw":
         x, y, z, qx, qy, qz, qw = numbers(text, 7, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)).tolist()
         if not any((qx, qy, qz, qw)):
             raise ValueError(text)
-        return Pose(np.array([x, y, z]), rotation_matrix([qw, qx, qy, qz])), None, (qw, qx, qy, qz)
+        return Pose(np.array([x, y, z]), rotation_matrix([qw, qx, qy, qz])), None, (qw, qx, qy, qz), frame
     values = numbers(text, 6, (0.0,) * 6)
     roll, pitch, yaw = values[3:].tolist()
-    if element is not None and element.get("degrees") in ("true", "1"):
+    if element.get("degrees") in ("true", "1"):
         roll, pitch, yaw = radians(roll), radians(pitch), radians(yaw)
-    return Pose(values[:3], rotation_of_angles(roll, pitch, yaw)), (roll, pitch, yaw), None
+    return Pose(values[:3], rotation_of_angles(roll, pitch, yaw)), (roll, pitch, yaw), None, frame
