@@ -180,6 +180,7 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
                 return selection.refuse(self, selection.NO_FILE)
             reports.report(self, *map(reports.refusal, refusals))
             return {"CANCELLED"}
+        context.view_layer.update()  # it takes in the new objects
         visible = [obj for obj in made if obj.name in context.view_layer.objects]
         if visible:
             selection.select_only(context, visible, visible[0])
