@@ -80,11 +80,8 @@ class OBJECT_OT_body_moments_remedy(_OnActive, Operator):
     @classmethod
     def description(cls, _context: Context, values) -> str:
         text = localized("{:s}, and measure the object again").format(localized(REMEDIES[values.remedy].description))
-        return (
-            text
-            if values.remedy not in EDITS
-            else text + ". " + localized("Other objects that use the mesh change too")
-        )
+        others = ". " + localized("Other objects that use the mesh change too")
+        return text + others if values.remedy in EDITS else text
 
     def draw(self, _context: Context) -> None:
         if self.remedy == SHELL:

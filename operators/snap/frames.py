@@ -130,9 +130,7 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
         def align(obj: Object) -> bool:
             return scene.align_to_world(context, obj, self.order, self.pivot == "ORIGIN", self.strict)
 
-        moved, failures = selection.apply_to_all(
-            objects, align
-        )  # one after the other, for a child moves with its parent
+        moved, failures = selection.apply_to_all(objects, align)  # in turn: a child moves with its parent
         session.remeasure(context, moved)
         done = reports.phrase(
             "Aligned {count} object to the world axes", "Aligned {count} objects to the world axes", count=len(moved)

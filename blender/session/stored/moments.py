@@ -194,13 +194,8 @@ def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree
                 parts = (one.value.real, one.value.imag) if one.is_complex else (one.value.real,)
                 noise = one.rounding_error
                 texts = [number(0.0 if abs(part) <= noise else part) for part in parts]
-                rows.append(
-                    (
-                        one.name,
-                        " + ".join(texts).replace("+ −", "− ") + " i" * one.is_complex,
-                        " ".join(map(repr, parts)),
-                    )
-                )
+                text = " + ".join(texts).replace("+ −", "− ") + " i" * one.is_complex
+                rows.append((one.name, text, " ".join(map(repr, parts))))
         yield Degree(degree, "", tuple(rows))
 
 
@@ -302,11 +297,8 @@ def as_csv(computed: ComputedMoments, of: str, about: str, frame: str, reference
         moments = in_frame(computed, of, about, frame, computed.order, reference)
         values = np.stack([moments.raw, moments.rounding_error, moments.input_error], axis=1)
         if of == "FLAT":
-            heading, columns, powers = (
-                _flat_heading(computed, about, frame),
-                ["p", "q"],
-                multi_indices(2, moments.order),
-            )
+            heading, columns = _flat_heading(computed, about, frame), ["p", "q"]
+            powers = multi_indices(2, moments.order)
             values = values[plane_positions(moments.order)]
         else:
             heading, columns, powers = _heading(of, about, frame), ["p", "q", "r"], monomials(computed.order)
