@@ -17,7 +17,6 @@ import zlib
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import Any
-from urllib.parse import unquote
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +38,6 @@ _FBX_NUMBERS = re.compile(rb"(?:[\s,]*+%b(?=[\s,}]|\Z))*+[\s,]*+" % SHORT)
 _FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
 _GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _GLTF_TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-_GLTF_COMPRESSIONS = {"EXT_meshopt_compression", "KHR_meshopt_compression"}
 _OF_NODES = ("matrix", "translation", "rotation", "scale")
 
 
@@ -138,6 +136,12 @@ def _bad_in_accessor(buffers: Buffers, accessor: dict[str, Any]) -> tuple[int, i
     return count, first
 
 
+def unquote(uri: str) -> str:
+    """Return a glTF's reference with escapes such as %20 replaced by their characters."""
+    data = re.sub(rb"%([0-9a-fA-F]{2})", lambda match: bytes.fromhex(match[1].decode()), uri.encode())
+    return data.decode("utf-8", "surrogateescape")
+
+
 class Buffers:
     """The document of a glTF file, and its buffers, including external files."""
 
@@ -159,7 +163,7 @@ class Buffers:
         """Return the (n, k) numbers of an accessor without sparse ones; none if an extension has compressed them."""
         kind, width = np.dtype(_GLTF_TYPES[accessor["componentType"]]), _GLTF_WIDTHS[accessor["type"]]
         view = self.document["bufferViews"][accessor["bufferView"]] if "bufferView" in accessor else None
-        if view is None or _GLTF_COMPRESSIONS & view.get("extensions", {}).keys():
+        if view is None or any("meshopt_compression" in name for name in view.get("extensions", {})):
             return np.empty((0, width), kind)
         data, start = self._buffer(view["buffer"])
         start += view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
@@ -180,7 +184,7 @@ class Buffers:
         elif uri.startswith("data:"):
             name, data, start = "data:", base64.b64decode(uri.partition(",")[2]), 0
         else:
-            name = unquote(uri, errors="surrogateescape")
+            name = unquote(uri)
             try:
                 data, start = map_file(os.path.join(self.folder, name)), 0
             except (OSError, ValueError) as error:  # ValueError: it is empty

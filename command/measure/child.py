@@ -13,13 +13,12 @@ from contextlib import redirect_stderr, suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
-from urllib.parse import unquote
 
 from ...core.scans.nrrd import data_file, read_header
 from ...core.scans.scan_files import scan_limits
 from ...core.streams.text_fields import map_file
 from ...core.verdict.finding import MeasureError
-from ..files.finite import MALFORMED, Buffers
+from ..files.finite import MALFORMED, Buffers, unquote
 from ..interruption import Progress
 from ..options.arguments import parse
 from ..options.checks import prepare
@@ -90,7 +89,7 @@ def _of_nrrd(path: Path) -> Iterator[str]:
 
 def _of_gltf(path: Path) -> Iterator[str]:
     uris = [buffer.get("uri") for buffer in Buffers(map_file(str(path)), str(path)).document.get("buffers", ())]
-    yield from (unquote(uri, errors="surrogateescape") for uri in uris if uri and not uri.startswith("data:"))
+    yield from (unquote(uri) for uri in uris if uri and not uri.startswith("data:"))
 
 
 def _of_usd(path: Path) -> Iterator[str]:

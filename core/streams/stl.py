@@ -80,16 +80,13 @@ class StlFile:
     def sampled_box(self) -> Box:
         """Return the box of a sample of the triangles (of a text, the first ones), of all if a sample is not finite."""
         with open(self._path, "rb") as file:
-            blocks = [self._samples(file)] if self._binary else list(islice(self._text_corners(file), 1))
+            blocks = [self._samples()] if self._binary else list(islice(self._text_corners(file), 1))
         is_finite = all(np.isfinite(block).all() for block in blocks)
         return box_of_blocks(blocks, "triangle") if is_finite else self.box()
 
-    def _samples(self, file: BinaryIO) -> NDArray[np.float32]:
-        samples = []
-        for number in range(0, self.face_count, max(1, self.face_count // SAMPLES)):
-            file.seek(HEAD + RECORD * number)
-            samples.append(file.read(RECORD))
-        return np.frombuffer(b"".join(samples), CORNERS)["at"].astype(np.float32)
+    def _samples(self) -> NDArray[np.float32]:
+        records = np.frombuffer(map_file(self._path), CORNERS, self.face_count, HEAD)
+        return records["at"][:: max(1, self.face_count // SAMPLES)].astype(np.float32)
 
     def box(self) -> Box:
         """Return the least and the largest coordinates. Raises FileError if some are not finite."""
