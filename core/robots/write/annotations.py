@@ -7,16 +7,17 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import string
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
-from urllib.parse import quote
 
 from ...verdict.catalog import declared
 from .marker import AUDIT_COMMANDS, SARIF_SCHEMA
 
 _COMMANDS = {"error": "error", "warning": "warning", "note": "notice"}
 _ESCAPES = (("%", "%25"), ("\r", "%0D"), ("\n", "%0A"))
+_PLAIN = frozenset(string.ascii_letters + string.digits + "/-._~")  # characters of a URI
 _IN_PROPERTIES = ((":", "%3A"), (",", "%2C"))
 
 
@@ -41,7 +42,8 @@ def _uri(file: str) -> str:
     name = _relative(file)
     if os.path.isabs(name):
         return Path(file).as_uri()
-    return quote(name.encode("utf-8", "surrogateescape"))
+    data = name.encode("utf-8", "surrogateescape")
+    return "".join(chr(one) if chr(one) in _PLAIN else "%{:02X}".format(one) for one in data)
 
 
 def to_sarif(documents: Sequence[dict[str, Any]]) -> str:
