@@ -9,7 +9,7 @@ object does.
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from typing import TYPE_CHECKING
 
 import bpy
@@ -58,15 +58,12 @@ COLLISION_SHAPES = {"BOX": "BOX", "ELLIPSOID": "CONVEX_HULL", "CAPSULE": "CONVEX
 
 
 class _Making(selection.OnSelectionInObjectMode, ModalSteps):
-    """Base of operators that make colliders: what is `_wanted`, for each object that passes `_check`."""
+    """Base of operators that make colliders: `_wanted` returns the fields of `Wanted`, for all that pass `_check`."""
 
     PROGRESS = "Making colliders: {share:.0%}. Esc to cancel"
     CANCELED = "Making colliders canceled; nothing was changed"
     tolerance, correct, engine = "LENGTH", "NONE", "NONE"
-
-    def _wanted(self) -> tuple[str, float, float, int, int]:
-        """Return the fields of `Wanted`."""
-        raise NotImplementedError
+    _wanted: Callable[[], tuple[str, float, float, int, int]]
 
     def _check(self, obj: Object) -> None:
         """Raise MeasureError for an object that cannot have the colliders."""
@@ -96,14 +93,10 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
 
 
 class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
-    """Make colliders of the selected objects, or renew them, and compare their physics with the exact one"""
+    """Make or renew colliders of each selected object, as its children, and compare their physics with the exact one"""
 
     bl_idname = "object.body_moments_make_colliders"
     bl_label = "Make Colliders"
-    bl_description = (
-        "Make colliders for each selected object as its children, in place of earlier ones, and compare the mass, "
-        "center and inertia that an engine computes from them with the exact ones"
-    )
 
     shape: EnumProperty(name="Shape", description="What collides in place of the object", items=SHAPES)
     tolerance: EnumProperty(
