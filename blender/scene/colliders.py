@@ -146,6 +146,7 @@ def read_colliders(colliders: Iterable[Object], rotation: NDArray[np.float64], u
 
 
 def _draw_primitive(mesh: Mesh, shape: Shape, unit: float) -> None:
+    """Fill a mesh with the faces of a primitive."""
     made, size = bmesh.new(), [length / unit for length in shape.size]
     if shape.kind == "box":
         bmesh.ops.create_cube(made, size=1.0, matrix=Matrix.Diagonal((*size, 1.0)))

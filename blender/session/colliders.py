@@ -150,8 +150,7 @@ def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
     chosen = [obj for obj in objects if obj in by_body or COLLIDERS in obj]
     scene.remove_colliders([*orphans, *(collider for obj in chosen for collider in by_body.get(obj, ()))])
     for obj in chosen:
-        if COLLIDERS in obj:
-            del obj[COLLIDERS]
+        obj.pop(COLLIDERS, None)
     return len(chosen) + len(orphans)
 
 

@@ -181,7 +181,8 @@ def _gains(
     piece: Piece, planes: NDArray[np.float64], measure: Callable[..., NDArray[np.float64]] = hull_volumes
 ) -> NDArray[np.float64]:
     """Return by how much each plane reduces the volume of the hulls of connected parts, for each part it adds."""
-    points, edges = piece.points, piece.edges()
+    points = piece.points
+    edges = np.unique(np.sort(np.stack([piece.start, piece.end], axis=1), axis=1), axis=0)
     height = points @ planes[:, :3].T - planes[:, 3]  # (n, k)
     height[np.abs(height) <= ON_PLANE_RTOL * np.ptp(points, axis=0).max()] = 0.0
     a, b = height[edges[:, 0]], height[edges[:, 1]]

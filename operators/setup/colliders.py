@@ -39,11 +39,7 @@ SHAPES = (
     ("PIECES", "Convex Pieces", "Several convex hulls, cut where the object is concave"),
     ("EQUAL_BOX", "Equal-Inertia Box", "The box of the same mass, center and inertia"),
     ("EQUAL_ELLIPSOID", "Equal-Inertia Ellipsoid", "The ellipsoid of the same mass, center and inertia"),
-    (
-        "EQUAL_CAPSULE",
-        "Equal-Inertia Capsule",
-        "The capsule of the same mass and center, and of the inertia that comes nearest",
-    ),
+    ("EQUAL_CAPSULE", "Equal-Inertia Capsule", "The capsule of the same mass and center, and of the nearest inertia"),
 )
 HULLS = {"AUTOMATIC", "HULL", "PIECES"}  # shapes with tolerances and limits
 ENGINES = (
@@ -54,7 +50,6 @@ ENGINES = (
     ("UNITY", "Unity", "One child for each collider, to which its Collider component is added"),
 )
 MAX_SHOWN_NAMES = 4
-COLLISION_SHAPES = {"BOX": "BOX", "ELLIPSOID": "CONVEX_HULL", "CAPSULE": "CONVEX_HULL"}
 
 
 class _Making(selection.OnSelectionInObjectMode, ModalSteps):
@@ -210,7 +205,7 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
             matrix = new.matrix_world.copy()
             new.parent, new.matrix_world = None, matrix
             del new[COLLIDER], plan.obj[COLLIDERS]
-            new.rigid_body.collision_shape = COLLISION_SHAPES[self.kind]
+            new.rigid_body.collision_shape = "BOX" if self.kind == "BOX" else "CONVEX_HULL"
             new.rigid_body.mass = plan.shapes[0].mass
             plan.obj.parent, plan.obj.matrix_parent_inverse = new, matrix.inverted()
         return result
