@@ -18,6 +18,11 @@ from .places import in_both_places
 # Ratios to numbers that are zero are not stored.
 KEYS = {"shape", "engine", "correct", "count", "center_shift", "axes_turn", "outward", "inward", "distance_bound"}
 SLIGHT = 0.01  # parts by which an engine may be off without a warning
+REMEDIES = {  # by the kind of correction that did not suffice
+    "none": "An engine would simulate another body. Choose Masses or Vertices for Correct.",
+    "masses": "An engine would simulate another body. Choose Convex Pieces, and more of them.",
+    "vertices": "An engine would simulate another body. Increase Outward and Inward, or choose Convex Pieces.",
+}
 
 
 class CollidersPanel:
@@ -49,7 +54,7 @@ class CollidersPanel:
         shift = dist(stored["center_shift"], (0.0, 0.0, 0.0))
         changes = abs(stored.get("mass_ratio", 1.0) - 1.0), stored.get("inertia_change", 0.0), shift / (size or 1.0)
         if max(changes) > SLIGHT:
-            rows.remark(column, "An engine would simulate another body.", icon="ERROR")
+            rows.remark(column, REMEDIES.get(stored["correct"], REMEDIES["none"]), icon="ERROR")
         else:
             rows.remark(column, "An engine simulates the body within 1%.", icon="CHECKMARK")
         rows.title(layout, "Of the Object's")
@@ -62,10 +67,9 @@ class CollidersPanel:
         )
         rows.title(layout, "Off by")
         column = layout.column(align=True)
+        labels = ("Center", "Outward", "Inward", "Uncertain by")
         lengths = shift, *(stored[name] for name in ("outward", "inward", "distance_bound"))
-        rows.values(
-            column, ("Center", "Outward", "Inward", "Uncertain by"), "length", lengths, size
-        )  # rounding is shown as 0
+        rows.values(column, labels, "length", lengths, size)  # Rounding is shown as 0.
         turn = degrees(stored["axes_turn"])
         rows.table(column, [("Axes", "{:.3f}°".format(turn), repr(turn), "")])
 

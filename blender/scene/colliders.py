@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from math import copysign
 
 import bmesh
 import bpy
@@ -39,14 +40,6 @@ NAMES = {
 }
 
 
-def collider_names(engine: str, name: str, kinds: Sequence[str]) -> list[str]:
-    """Return the names by which an engine knows the colliders of the object with a name."""
-    return [
-        NAMES[engine].format(name=name, number=number, prefix=PREFIXES.get(kind, "UCX"))
-        for number, kind in enumerate(kinds, 1)
-    ]
-
-
 def colliders_by_body(objects: Iterable[Object]) -> dict[Object, list[Object]]:
     """Return the colliders of each body that has any, by name."""
     found: dict[Object, list[Object]] = {}
@@ -74,12 +67,15 @@ def _local_points(shape: Shape, stretch: NDArray[np.float64], unit: float) -> ND
     return (np.linalg.solve(stretch, points.T).T / unit).astype(np.float32).astype(np.float64)
 
 
-def collider_meshes(name: str, shapes: Sequence[Shape], stretch: NDArray[np.float64], unit: float) -> list[Mesh]:
-    """Return a mesh for each shape in the frame of an object, in Blender units."""
-    return [
-        _shape_mesh(name, shape, unit) if shape.surface is None else _hull_mesh(name, shape, stretch, unit)
-        for shape in shapes
-    ]
+def collider_mesh(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Mesh:
+    """Return the mesh of a hull in its body's own coordinates, or of a primitive in its own frame, in Blender units."""
+    mesh = bpy.data.meshes.new("Collider")
+    if shape.surface is None:
+        _draw_primitive(mesh, shape, unit)
+    else:
+        corners = shape.surface.all_triangles()[0][:, :: -1 if np.linalg.det(stretch) < 0.0 else 1]
+        mesh.from_pydata(_local_points(shape, stretch, unit), [], corners)
+    return mesh
 
 
 def place_colliders(
@@ -108,8 +104,9 @@ def place_colliders(
         collider.location, collider.rotation_quaternion = pose.position / unit, quaternion(pose.rotation)
         collider[COLLIDER] = {"kind": shape.kind, "size": [float(size) for size in shape.size], "mass": shape.mass}
         collider.body_moments.mass_from, collider.body_moments.mass = "MASS", shape.mass
-    for collider, name in zip(kept, collider_names(engine, obj.name, [shape.kind for shape in shapes])):
-        collider.name = collider.data.name = name
+    for number, (collider, shape) in enumerate(zip(kept, shapes), 1):
+        names = {"name": obj.name, "number": number, "prefix": PREFIXES.get(shape.kind, "UCX")}
+        collider.name = collider.data.name = NAMES[engine].format(**names)
     bpy.data.batch_remove([mesh for mesh in replaced if not mesh.users])
     return kept
 
@@ -130,8 +127,8 @@ def read_colliders(colliders: Iterable[Object], rotation: NDArray[np.float64], u
     for collider in colliders:
         stored, relative = collider[COLLIDER], float64_matrix(collider.matrix_parent_inverse)
         relative = relative @ float64_matrix(collider.matrix_basis)
-        to_frame = unit * stretch_of(collider.parent, rotation) @ relative[:3, :3]
-        place = unit * stretch_of(collider.parent, rotation) @ relative[:3, 3]
+        place = unit * stretch_of(collider.parent, rotation) @ relative[:3]
+        to_frame, place = place[:, :3], place[:, 3]
         kind, size, mass = str(stored["kind"]), np.array(stored["size"]), float(stored["mass"])
         if kind == HULL:
             surface = mesh_surface(collider.data, edges=False).transform(to_frame, place)
@@ -148,32 +145,18 @@ def read_colliders(colliders: Iterable[Object], rotation: NDArray[np.float64], u
     return shapes
 
 
-def _hull_mesh(name: str, shape: Shape, stretch: NDArray[np.float64], unit: float) -> Mesh:
-    """Return the mesh of a hull in the own coordinates of its body."""
-    assert shape.surface is not None
-    corners = shape.surface.all_triangles()[0][:, :: -1 if np.linalg.det(stretch) < 0.0 else 1]
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(_local_points(shape, stretch, unit), [], corners)
-    return mesh
-
-
-def _shape_mesh(name: str, shape: Shape, unit: float) -> Mesh:
-    """Return a mesh of a primitive in Blender units, in the shape's own frame."""
-    made = bmesh.new()
+def _draw_primitive(mesh: Mesh, shape: Shape, unit: float) -> None:
+    """Fill a mesh with the faces of a primitive."""
+    made, size = bmesh.new(), [length / unit for length in shape.size]
     if shape.kind == "box":
-        bmesh.ops.create_cube(made, size=1.0)
+        bmesh.ops.create_cube(made, size=1.0, matrix=Matrix.Diagonal((*size, 1.0)))
     elif shape.kind == CYLINDER:
-        bmesh.ops.create_cone(made, cap_ends=True, segments=SEGMENTS, radius1=1.0, radius2=1.0, depth=1.0)
+        radius, depth = size
+        bmesh.ops.create_cone(made, cap_ends=True, segments=SEGMENTS, radius1=radius, radius2=radius, depth=depth)
     else:
-        bmesh.ops.create_uvsphere(made, u_segments=SEGMENTS, v_segments=RINGS, radius=1.0)
-    size = shape.size * 3 if shape.kind == "sphere" else shape.size
-    if shape.kind in ("capsule", CYLINDER):
-        size = size[0], size[0], size[0] if shape.kind == "capsule" else size[1]
-    half = shape.size[1] / 2.0 if shape.kind == "capsule" else 0.0
-    for vertex in made.verts:
-        x, y, z = (value * length / unit for value, length in zip(vertex.co, size))
-        vertex.co = x, y, z + (half if z > 0.0 else -half) / unit
-    mesh = bpy.data.meshes.new(name)
+        scale = Matrix.Diagonal((*(size if shape.kind == "ellipsoid" else 3 * size[:1]), 1.0))
+        bmesh.ops.create_uvsphere(made, u_segments=SEGMENTS, v_segments=RINGS, radius=1.0, matrix=scale)
+    for vertex in made.verts if shape.kind == "capsule" else ():
+        vertex.co.z += copysign(size[1] / 2.0, vertex.co.z)
     made.to_mesh(mesh)
     made.free()
-    return mesh

@@ -19,11 +19,12 @@ from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import digest
 from ...core.mesh.hulls import convex_hull
 from ...core.mesh.surface import Surface, join_surfaces
+from ...core.moments.affine_maps import are_singular
 from ...core.numerics.float32 import shortest_decimal
 from ...core.robots.model import Pose, Shape
 from ...core.verdict.finding import ReadError
 from ..bodies.measure_object import Measured, measure_body
-from ..read.findings import OBJECT_WITHOUT_GEOMETRY
+from ..read.findings import OBJECT_WITHOUT_GEOMETRY, SCALE_ZERO_AXIS
 from ..read.fingerprint import colliders_digest
 from ..scene import colliders as scene
 from ..scene.changes import require_storable_data
@@ -60,6 +61,8 @@ def plan_colliders(
     measurement, unit = measured.measurement, shortest_decimal(depsgraph.scene.unit_settings.scale_length)
     surface = _surface(obj, measured)
     stretch = scene.stretch_of(obj, measurement.rotation)
+    if are_singular(stretch[None])[0]:
+        raise ReadError(SCALE_ZERO_AXIS)
     body = measurement.in_object_frame()
     key = _mesh_key(obj, measured)
     if key in known:
@@ -79,22 +82,15 @@ def plan_colliders(
     elif correct == "VERTICES" or wanted.shape.startswith("equal_"):
         masses = [mass * body.mass / sum(masses) for mass in masses]
     shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
-    outward, inward, bound = distances(surface, shapes, hull)
-    record = {
-        "shape": wanted.shape,
-        "correct": correct.lower(),
-        "count": len(shapes),
-        "outward": outward,
-        "inward": inward,
-        "distance_bound": bound,
-        **effect(body, shapes, measurement.volume).as_record(),
-    }
+    record = {"shape": wanted.shape, "correct": correct.lower(), "count": len(shapes)}
+    record |= zip(("outward", "inward", "distance_bound"), distances(surface, shapes, hull))
+    record |= effect(body, shapes, measurement.volume).as_record()
     known[key] = Plan(obj, tuple(shapes), stretch, plain(record), measurement.fingerprint, key)
     return known[key]
 
 
 def _mesh_key(obj: Object, measured: Measured) -> str:
-    """Return a key that is equal for objects with the same meshes in the same places of their frames."""
+    """Return a key that is equal for objects with the same settings and meshes in the same places of their frames."""
     measurement, parts = measured.measurement, []
     to_frame = Pose(measurement.location, measurement.rotation).inverse()
     for solid, matrices in getattr(measured.body, "solids", ()):
@@ -105,7 +101,9 @@ def _mesh_key(obj: Object, measured: Measured) -> str:
         parts += [solid.given_surface.points, solid.given_surface.all_triangles()[0], *steps]
     if not parts:
         return str(obj.session_uid)
-    return digest(b"".join(np.ascontiguousarray(part).tobytes() for part in (*parts, np.float64(measurement.density))))
+    settings = stamps.Stamp.parse(measurement.fingerprint).settings.encode()
+    parts.append(np.float64(measurement.density))
+    return digest(settings + b"".join(np.ascontiguousarray(part).tobytes() for part in parts))
 
 
 def _surface(obj: Object, measured: Measured) -> Surface:
@@ -127,7 +125,7 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
     made = []
     for plan in plans:
         if plan.key not in meshes:
-            meshes[plan.key] = scene.collider_meshes(plan.obj.name, plan.shapes, plan.stretch, unit)
+            meshes[plan.key] = [scene.collider_mesh(shape, plan.stretch, unit) for shape in plan.shapes]
         made += scene.place_colliders(
             *(context, plan.obj, earlier.get(plan.obj, ()), plan.shapes, meshes[plan.key], plan.stretch, unit, engine)
         )
@@ -152,8 +150,7 @@ def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
     chosen = [obj for obj in objects if obj in by_body or COLLIDERS in obj]
     scene.remove_colliders([*orphans, *(collider for obj in chosen for collider in by_body.get(obj, ()))])
     for obj in chosen:
-        if COLLIDERS in obj:
-            del obj[COLLIDERS]
+        obj.pop(COLLIDERS, None)
     return len(chosen) + len(orphans)
 
 
@@ -166,5 +163,5 @@ def collider_record(obj: Object, measurement: Measurement, context: Context) -> 
     reason = staleness.stale_reason(obj, context.scene, stamps.of_colliders)
     if reason is None and stamps.Stamp.parse(measurement.fingerprint).geometry != stamp.geometry:
         reason = stamps.Stale.GEOMETRY
-    inner = {"fingerprint", "digest"}
-    return {**{key: value for key, value in stored.items() if key not in inner}, "out_of_date": reason and str(reason)}
+    shown = stored.keys() - {"fingerprint", "digest"}
+    return {**{key: stored[key] for key in stored if key in shown}, "out_of_date": reason and str(reason)}

@@ -106,10 +106,15 @@ def _is_near_hull(piece: Piece, limit: float) -> bool:
     fans = piece.points[np.stack([piece.first()[piece.face], piece.start, piece.end], axis=1)]
     samples = np.stack([corners.mean(axis=1), (corners[:, 0] + corners[:, 1]) / 2.0], axis=1).reshape(-1, 3)
     for block in np.array_split(samples, np.arange(4, len(samples), SAMPLES_PER_BLOCK)):
-        pairs = block.repeat(len(fans), axis=0), np.tile(fans, (len(block), 1, 1))
-        if triangle_distances(*pairs).reshape(len(block), -1).min(axis=1).max() > limit:
+        if distances_from_triangles(block, fans).max() > limit:
             return False
     return True
+
+
+def distances_from_triangles(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the (n,) distances of points from the nearest of some (m, 3, 3) triangles."""
+    pairs = points.repeat(len(corners), axis=0), np.tile(corners, (len(points), 1, 1))
+    return triangle_distances(*pairs).reshape(-1, len(corners)).min(axis=1)
 
 
 def _coarse(piece: Piece) -> Piece:
@@ -176,7 +181,8 @@ def _gains(
     piece: Piece, planes: NDArray[np.float64], measure: Callable[..., NDArray[np.float64]] = hull_volumes
 ) -> NDArray[np.float64]:
     """Return by how much each plane reduces the volume of the hulls of connected parts, for each part it adds."""
-    points, edges = piece.points, piece.edges()
+    points = piece.points
+    edges = np.unique(np.sort(np.stack([piece.start, piece.end], axis=1), axis=1), axis=0)
     height = points @ planes[:, :3].T - planes[:, 3]  # (n, k)
     height[np.abs(height) <= ON_PLANE_RTOL * np.ptp(points, axis=0).max()] = 0.0
     a, b = height[edges[:, 0]], height[edges[:, 1]]

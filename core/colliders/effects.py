@@ -177,7 +177,7 @@ def correct_vertices(
     hulls = _Hulls(body, volume, parts, fixed)
     points, off = _solve(hulls, min(outward, inward) / hulls.size)
     if off > NEAR:
-        hulls = _Hulls(body, volume, parts, fixed, is_density_free=True)
+        hulls.is_density_free = True
         points, _ = _solve(hulls, min(outward, inward) / hulls.size)
     result = list(shapes)
     for place, hull in zip(meshes, hulls.take(points)):
@@ -192,10 +192,9 @@ class _Hulls:
     Lengths are in radii of gyration of the body, `size`, from its center. start: (n, 3) corners before they move.
     """
 
-    def __init__(
-        self, body: MassProperties, volume: float, parts: list[NDArray], fixed: list[Moments], is_density_free=False
-    ) -> None:
-        self.is_density_free = is_density_free
+    is_density_free = False
+
+    def __init__(self, body: MassProperties, volume: float, parts: list[NDArray], fixed: list[Moments]) -> None:
         second = (body.inertia.trace() / 2.0 * np.eye(3) - body.inertia) / body.mass
         self.size = sqrt(float(second.trace()))
         self.start = (np.concatenate(parts) - body.center) / self.size
@@ -259,11 +258,7 @@ def _solve(hulls: _Hulls, limit: float) -> tuple[NDArray[np.float64], float]:
 
 
 def _least_moves(
-    rows: NDArray[np.float64],
-    wanted: NDArray[np.float64],
-    areas: NDArray[np.float64],
-    middle: NDArray[np.float64],
-    reach: NDArray[np.float64],
+    rows: NDArray, wanted: NDArray, areas: NDArray, middle: NDArray, reach: NDArray
 ) -> NDArray[np.float64]:
     """Return the (n, 3) moves with the least Σ areas |move|² that give Σ rows · moves = wanted, each within its ball.
 

@@ -19,13 +19,12 @@ from numpy.typing import NDArray
 from ..inertia.mass_properties import MassProperties
 from ..mesh.bvh import Bvh, sort_components
 from ..mesh.hulls import ConvexHull, convex_hull
-from ..mesh.point_triangle import triangle_distances
 from ..mesh.surface import Surface, normals, triangle_areas
 from ..numerics.quadrature import spread_directions
 from ..polyhedron.integration import volume_and_center
 from ..robots.model import Inertial, Pose, Shape
 from ..robots.primitives import equal_inertia_shape, primitive_moments
-from .convex_pieces import cut_into_pieces
+from .convex_pieces import cut_into_pieces, distances_from_triangles
 
 AXES_CORNERS = 48  # of the hull whose faces and edges give the directions of boxes
 BALL_RTOL = 1e-12  # points outside a ball by less are on it
@@ -121,8 +120,7 @@ class _Fits:
         if shape == "sphere":
             center, radius = enclosing_ball(self.points)
             return Shape("sphere", (radius,), Pose(center))
-        fit = _capsule if shape == "capsule" else _cylinder
-        return min((fit(self.points, *circle) for circle in self.circles), key=_volume)
+        return min((_round_shape(shape, self.points, *circle) for circle in self.circles), key=_volume)
 
 
 def _hull_shape(hull: ConvexHull) -> Shape:
@@ -163,21 +161,14 @@ def _units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     return vectors / np.linalg.norm(vectors, axis=1)[:, None]
 
 
-def _cylinder(points: NDArray[np.float64], axes: NDArray[np.float64], middle: NDArray, radius: float) -> Shape:
-    """Return the cylinder around points along the third axis."""
-    along = points @ axes
-    low, high = along[:, 2].min(), along[:, 2].max()
-    center = axes @ np.append(middle, (low + high) / 2.0)
-    return Shape("cylinder", (radius, float(high - low)), Pose(center, axes))
-
-
-def _capsule(points: NDArray[np.float64], axes: NDArray[np.float64], middle: NDArray, radius: float) -> Shape:
-    """Return the capsule around points along the third axis, as thin as the cylinder."""
-    along = points @ axes
-    caps = np.sqrt(np.maximum(radius**2 - ((along[:, :2] - middle) ** 2).sum(axis=1), 0.0))
+def _round_shape(kind: str, points: NDArray, axes: NDArray[np.float64], middle: NDArray, radius: float) -> Shape:
+    """Return the cylinder around points along the third axis, or the capsule, which is as thin."""
+    along, caps = points @ axes, np.zeros(len(points))
+    if kind == "capsule":
+        caps = np.sqrt(np.maximum(radius**2 - ((along[:, :2] - middle) ** 2).sum(axis=1), 0.0))
     high, low = (along[:, 2] - caps).max(), (along[:, 2] + caps).min()
     center = axes @ np.append(middle, (low + high) / 2.0)
-    return Shape("capsule", (radius, max(float(high - low), 0.0)), Pose(center, axes))
+    return Shape(kind, (radius, max(float(high - low), 0.0)), Pose(center, axes))
 
 
 def enclosing_ball(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
@@ -258,17 +249,15 @@ def _farthest_outside(tree: Bvh, places: NDArray[np.float64], size: float, enoug
 
     Most places are on the body or near to it, and short searches leave few for the long one.
     """
-    farthest, is_sorted = 0.0, False
-    for within in (ON_BODY_RTOL * size, min(NEAR_BODY * size, enough), enough):
-        distance = tree.distances(places, np.zeros(len(places), np.intp), within)
+    farthest, component = 0.0, np.zeros(len(places), np.intp)
+    for step, within in enumerate((ON_BODY_RTOL * size, min(NEAR_BODY * size, enough), enough)):
+        distance = tree.distances(places, component[: len(places)], within)
         farthest = float(distance[distance < inf].max(initial=farthest))
         places = places[distance == inf]
-        if not is_sorted:
-            winding, sure = tree.winding_numbers(places, np.zeros(len(places), np.intp), INSIDE_RTOL * size)
-            places, is_sorted = places[~((winding != 0) & sure)], True
-        if not len(places):
-            return farthest
-    return inf
+        if step == 0:
+            winding, sure = tree.winding_numbers(places, component[: len(places)], INSIDE_RTOL * size)
+            places = places[~((winding != 0) & sure)]
+    return inf if len(places) else farthest
 
 
 def _outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> tuple[NDArray[np.float64], float]:
@@ -367,10 +356,7 @@ def _distances_from_hull(points: NDArray, hull: ConvexHull, nearest: NDArray, si
         farther = np.flatnonzero((height > INSIDE_RTOL * size) & (height < nearest[begin : begin + rows]))
         feet = part[farther] - height[farther, None] * normal[face[farther]]
         farther = farther[_heights(feet, hull).max(axis=1, initial=-np.inf) > INSIDE_RTOL * size]
-        if len(farther):
-            places = part[farther].repeat(len(hull.triangles), axis=0)
-            corners = np.tile(hull.points[hull.triangles], (len(farther), 1, 1))
-            distance[begin + farther] = triangle_distances(places, corners).reshape(len(farther), -1).min(axis=1)
+        distance[begin + farther] = distances_from_triangles(part[farther], hull.points[hull.triangles])
     return distance
 
 

@@ -52,10 +52,6 @@ class Piece:
         start, end = ends.reshape(2, -1)
         return Piece(self.points[ids], face, start, end, self.normals[faces])
 
-    def edges(self) -> NDArray[np.intp]:
-        """Return the (k, 2) different edges without a direction."""
-        return np.unique(np.sort(np.stack([self.start, self.end], axis=1), axis=1), axis=0)
-
 
 def piece_from_surface(surface: Surface) -> Piece:
     triangles = surface.all_triangles()[0].astype(np.intp)

@@ -9,7 +9,7 @@ object does.
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from typing import TYPE_CHECKING
 
 import bpy
@@ -39,11 +39,7 @@ SHAPES = (
     ("PIECES", "Convex Pieces", "Several convex hulls, cut where the object is concave"),
     ("EQUAL_BOX", "Equal-Inertia Box", "The box of the same mass, center and inertia"),
     ("EQUAL_ELLIPSOID", "Equal-Inertia Ellipsoid", "The ellipsoid of the same mass, center and inertia"),
-    (
-        "EQUAL_CAPSULE",
-        "Equal-Inertia Capsule",
-        "The capsule of the same mass and center, and of the inertia that comes nearest",
-    ),
+    ("EQUAL_CAPSULE", "Equal-Inertia Capsule", "The capsule of the same mass and center, and of the nearest inertia"),
 )
 HULLS = {"AUTOMATIC", "HULL", "PIECES"}  # shapes with tolerances and limits
 ENGINES = (
@@ -54,19 +50,15 @@ ENGINES = (
     ("UNITY", "Unity", "One child for each collider, to which its Collider component is added"),
 )
 MAX_SHOWN_NAMES = 4
-COLLISION_SHAPES = {"BOX": "BOX", "ELLIPSOID": "CONVEX_HULL", "CAPSULE": "CONVEX_HULL"}
 
 
 class _Making(selection.OnSelectionInObjectMode, ModalSteps):
-    """Base of operators that make colliders: what is `_wanted`, for each object that passes `_check`."""
+    """Base of operators that make colliders: `_wanted` returns the fields of `Wanted`, for all that pass `_check`."""
 
     PROGRESS = "Making colliders: {share:.0%}. Esc to cancel"
     CANCELED = "Making colliders canceled; nothing was changed"
     tolerance, correct, engine = "LENGTH", "NONE", "NONE"
-
-    def _wanted(self) -> tuple[str, float, float, int, int]:
-        """Return the fields of `Wanted`."""
-        raise NotImplementedError
+    _wanted: Callable[[], tuple[str, float, float, int, int]]
 
     def _check(self, obj: Object) -> None:
         """Raise MeasureError for an object that cannot have the colliders."""
@@ -96,14 +88,10 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
 
 
 class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
-    """Make colliders of the selected objects, or renew them, and compare their physics with the exact one"""
+    """Make or renew colliders of each selected object, as its children, and compare their physics with the exact one"""
 
     bl_idname = "object.body_moments_make_colliders"
     bl_label = "Make Colliders"
-    bl_description = (
-        "Make colliders for each selected object as its children, in place of earlier ones, and compare the mass, "
-        "center and inertia that an engine computes from them with the exact ones"
-    )
 
     shape: EnumProperty(name="Shape", description="What collides in place of the object", items=SHAPES)
     tolerance: EnumProperty(
@@ -217,7 +205,7 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
             matrix = new.matrix_world.copy()
             new.parent, new.matrix_world = None, matrix
             del new[COLLIDER], plan.obj[COLLIDERS]
-            new.rigid_body.collision_shape = COLLISION_SHAPES[self.kind]
+            new.rigid_body.collision_shape = "BOX" if self.kind == "BOX" else "CONVEX_HULL"
             new.rigid_body.mass = plan.shapes[0].mass
             plan.obj.parent, plan.obj.matrix_parent_inverse = new, matrix.inverted()
         return result

@@ -46,7 +46,10 @@ def test_primitive_has_its_size_in_scaled_body(shape):
     assert make(shape=shape) == {"FINISHED"}
     (collider,) = colliders(body)
     assert np.abs(np.array(collider.matrix_world.to_scale()) - 1.0).max() < 1e-5
-    assert collider[COLLIDER]["kind"] == shape.lower()
+    kind, size = collider[COLLIDER]["kind"], np.array(collider[COLLIDER]["size"])
+    height = {"SPHERE": 2 * size[0], "CAPSULE": size[-1] + 2 * size[0]}.get(shape, size[-1])
+    assert kind == shape.lower() and collider.dimensions.z == pytest.approx(height, rel=1e-5)
+    assert collider.dimensions.x == pytest.approx(size[0] * (1 if shape == "BOX" else 2), rel=0.01)
 
 
 @pytest.mark.parametrize(
@@ -90,10 +93,12 @@ def test_linked_meshes_share_the_meshes_of_colliders():
     mesh = mesh_body()
     first = add(mesh, "First", (1, 2, 3), (0.3, 0.4, 0.5))
     second, third = add(mesh, "Second", (-7, 5, 0), (1.3, -0.4, 2.5)), add(mesh, "Third", (0, 0, 9), scale=(1, 2, 1))
-    only(first, second, third)
-    make(shape="PIECES")
-    meshes = [[obj.data for obj in colliders(body)] for body in (first, second, third)]
-    assert meshes[0] == meshes[1] and set(meshes[0]).isdisjoint(meshes[2])
+    shell = add(mesh, "Shell")
+    shell.body_moments.kind = "SHELL"
+    only(first, second, third, shell)
+    make(shape="HULL")
+    meshes = [[obj.data for obj in colliders(body)] for body in (first, second, third, shell)]
+    assert meshes[0] == meshes[1] and set(meshes[0]).isdisjoint(meshes[2] + meshes[3])
 
 
 def test_stored_effect_goes_out_of_date():
@@ -128,8 +133,9 @@ def test_refused_objects_are_named_and_the_others_go_on(reported):
     flat = add(bpy.data.meshes.new("Flat"), "Flat")
     flat.data.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
     zero = add(mesh_body(), "Zero", scale=(1, 0, 1))
+    zero.body_moments.kind = "SHELL"
     only(body, armature, flat, zero)
-    assert make(shape="HULL") == {"FINISHED"}
+    assert make(shape="SPHERE") == {"FINISHED"}
     assert len(colliders(body)) == 1
     assert {"Rig", "Flat", "Zero"} == {one.values["object"] for one in reported if one.code == "failure"}
     assert not any(colliders(obj) for obj in (armature, flat, zero))
@@ -170,15 +176,6 @@ def test_rigid_body_is_a_compound_of_its_colliders():
     assert all(np.abs(seen(obj) - points).max() < 1e-5 for obj, points in zip(made, before))
 
 
-def test_measure_leaves_colliders_out():
-    body = add(mesh_body(), "Body")
-    make(shape="HULL")
-    (collider,) = colliders(body)
-    only(body, collider)
-    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
-    assert "body_mass" in body and "body_mass" not in collider
-
-
 def test_instancer_gets_colliders_around_its_instances():
     body = add(mesh_body(), "Body", (1, 0, 0))
     source = bpy.data.collections.new("Source")
@@ -203,6 +200,9 @@ def test_colliders_are_left_out_of_measuring():
     chosen, left_out, _ = objects_to_measure(None, False, {})
     assert [obj for _, obj in chosen] == [body]
     assert [entry["name"] for entry in left_out] == [obj.name for obj in made]
+    only(body, *made)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    assert "body_mass" in body and not any("body_mass" in obj for obj in made)
 
 
 def test_record_states_effect_of_colliders():
