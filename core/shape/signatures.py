@@ -91,8 +91,9 @@ class Signature:
         """Read a signature from JSON. FileError if the record is not a signature."""
         try:
             arrays = [np.array(record[name], np.float64).reshape(-1) for name in ARRAYS]
+            invariants, zernike, fourier, chirality = arrays
             dimension = record.get("dimension", 3)
-            result = cls(float(record["size"]), *arrays, dimension=dimension)
+            result = cls(float(record["size"]), invariants, zernike, fourier, chirality, dimension=dimension)
             lengths = _lengths(dimension)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError(SIGNATURE_UNRECOGNIZED) from error

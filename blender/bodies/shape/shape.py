@@ -63,7 +63,6 @@ EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are
 NOISE_FACTORS = 0.5, 1.0, 2.0  # factors on the level of noise: a unique frame is the same for all of them
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is not called unique
-ROUND_GROUPS = "K", "∞v", "∞h"  # the ends of their symbols
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
 MAX_MISFIT = 0.02  # relative to the size: coordinates with a larger misfit tell no group
 COARSE_NOISE = 1e-4, 1e-3  # noise in the moments of a ball with facets
@@ -152,7 +151,7 @@ class Shape:
                     axes, unique, factors = nearest_frame(alike, axes), len(alike.frames) == 1, ()
             pose = self._point_group()
         angle = alike.tilt if EQUAL_AXES[body.principal.symmetry] else body.axes_bound(MATRIX_STRAIN)
-        if alike.revolution_axes and not str(pose["symmetry"]).endswith(ROUND_GROUPS):
+        if alike.revolution_axes and not str(pose["symmetry"]).endswith(("K", "∞v", "∞h")):
             angle = np.pi  # noise hides the axes that the body has
         position = body.rounding_error["center"] + body.input_error["center"]
         unique = unique and max(angle, position / self.size) <= MAX_POSE_BOUND
