@@ -187,6 +187,8 @@ class CharacterMotion(BalanceGroup):
         assert carrier is not None
         character.keep(self.armature, *self._found)
         targets = np.einsum("fij,fj->fi", moves, np.insert(self.centers, 3, 1.0, axis=1))[:, :3]
+        if (empty := balance_groups.find(context.scene, self.objects)) is not None:  # its path is of the earlier motion
+            balance_groups.store(empty, np.zeros(0), np.zeros((0, 3)), {}, (), ())
         with tracking_paused():
             carrier.key(moves, self.times, turns, self.is_layered)
             self.clear()

@@ -234,8 +234,8 @@ def test_floaty_jump_is_listed_and_its_parabola_is_not(scene):
     assert unexplained[:, 1].sum() == last - first + 1
     (margin,), zero = signal("margin"), signal("zero_moment_point")
     assert margin[:, 0].tolist() == [*range(1, TAKE_OFF + 1), *range(LANDING, END + 1)] and len(zero) == 3
-    assert PARABOLA() == {"FINISHED"} and BAKE() == {"FINISHED"}
-    assert "body_balance_spans" not in balance()
+    assert PARABOLA() == {"FINISHED"} and "body_balance_momentum" not in balance()
+    assert BAKE() == {"FINISHED"} and "body_balance_spans" not in balance()
     assert TRACE() == {"FINISHED"}
     assert "body_balance_momentum" not in balance() and "body_balance_contact" in balance()
 
