@@ -94,7 +94,7 @@ def report(operator: Operator, *parts: Finding | str, level: Severity = Severity
 
 
 def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: Any) -> set[str]:
-    """Report the reason why an operator does nothing; return the result of `execute`. values: fill an English text."""
+    """Report why an operator does nothing, and return what its `execute` has to return. values: of an English text."""
     if isinstance(reason, str):
         report(operator, reports.phrase(reason, **values), level=Severity.ERROR)
     else:

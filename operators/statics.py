@@ -135,7 +135,7 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
     )
     reach: FloatProperty(
         name="Contact Distance",
-        description="What is that near to the ground touches it. 0 for 1% of the size of the contact objects",
+        description="Points that are no higher above the ground touch it. 0 for 1% of the size of the contact objects",
         default=0.0,
         min=0.0,
         unit="LENGTH",

@@ -95,7 +95,7 @@ def _fill(spline, patch: Patch, values: NDArray[np.float32]) -> None:
 
 
 def _grids(name: str, shapes: Sequence[tuple[int, int]]) -> Curve:
-    """Return surface data with a spline of (count_v, count_u) points for each shape, in order."""
+    """Return surface data with one spline, a grid of (count_v, count_u) points, for each of these pairs, in order."""
     with _temporary_scene() as scene:
         models = {shape: _grid(scene, shape) for shape in dict.fromkeys(shapes)}
         objects = [bpy.data.objects.new(name, models[shape]) for shape in shapes]

@@ -94,7 +94,7 @@ class BodyMomentsReferenceSettings(PropertyGroup):
 
 
 class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
-    """Display settings of the scene's numbers, and initial settings of its objects."""
+    """The scene's settings: the display of numbers, and the initial settings of objects."""
 
     overlay: PointerProperty(name="Overlay", type=BodyMomentsOverlaySettings)
     has_defaults: BoolProperty(

@@ -31,7 +31,7 @@ class Contents:
 
     @contextmanager
     def attempt(self, name: str) -> Iterator[None]:
-        """End the block at an error about the object with this name, and add the entry about it."""
+        """Turn an error in the block into an entry about the object of this name."""
         try:
             yield
         except MeasureError as refusal:

@@ -54,7 +54,7 @@ class Entry:
     def reason_to_measure(
         self, key: dict[str, Any], options: dict[str, Any], limits: dict[str, Any], retry_failed: bool = False
     ) -> str | None:
-        """Return why measuring the file again may give another result, as part of a sentence, or None."""
+        """Return the reason for measuring the file again, as a part of a sentence, or None if there is none."""
         changed = {name for name in key if self.head["key"].get(name) != key[name]}
         if "options" in changed:
             names = [name for name in {**self.options, **options} if self.options.get(name) != options.get(name)]

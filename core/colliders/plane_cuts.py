@@ -40,13 +40,13 @@ class Piece:
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
 
     def first(self) -> NDArray[np.intp]:
-        """Return (f,) a point of each face."""
+        """Return the index of one point of each face, (f,)."""
         first = np.zeros(len(self.normals), np.intp)
         first[self.face[::-1]] = self.start[::-1]
         return first
 
     def take(self, chosen: NDArray[np.bool_]) -> Piece:
-        """Return the piece of some of the edges, with only the points and faces that they use."""
+        """Return a piece of the chosen edges alone, with the points and faces that these use."""
         ids, ends = np.unique(np.stack([self.start[chosen], self.end[chosen]]), return_inverse=True)
         faces, face = np.unique(self.face[chosen], return_inverse=True)
         start, end = ends.reshape(2, -1)

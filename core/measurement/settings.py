@@ -53,7 +53,7 @@ class Settings(RequestedResults):
 
     @property
     def digest(self) -> str:
-        """Digest of the settings behind stored results; settings without use for the kind do not count."""
+        """Digest of the settings behind stored results, without those that have no effect on this kind of body."""
         is_shell = self.kind == "shell"
         density = None if self.varying else self.density
         # Blender's properties hold values with the shortest decimals.

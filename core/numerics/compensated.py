@@ -18,7 +18,7 @@ def two_sum(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def two_product(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray]:
-    """Return the rounded product and its error: together exactly a b, for products between 1e-290 and 1e290."""
+    """Return the rounded product and its error; their sum is exactly `a * b`, for products from 1e-290 to 1e290."""
     product = a * b
     (ah, al), (bh, bl) = _split(a), _split(b)
     return product, al * bl - (((product - ah * bh) - al * bh) - ah * bl)

@@ -222,7 +222,7 @@ class Patch:
         return tuple((self.side(axis, end), forward) for axis, end, forward in SIDES)
 
     def samples(self, each: int) -> NDArray[np.float64]:
-        """Return a grid of points at `each` equal steps in every span of both directions, ends included."""
+        """Return a grid of points that divide every span of both directions into `each` equal steps, ends included."""
         return self.apply_weights(*(_sample_table(space, each) for space in self.spaces))
 
 

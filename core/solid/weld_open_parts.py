@@ -91,7 +91,7 @@ def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMe
 def _find_open_parts(
     surface: Surface, triangles: NDArray[np.intp], face: NDArray[np.intp]
 ) -> tuple[Edges | None, OpenParts | None]:
-    """Return the edges of the triangles with three different vertices, if known, and the parts to weld."""
+    """Return the edges of the triangles that have three different vertices, and the parts to weld; each may be None."""
     rows = np.flatnonzero(has_distinct_vertices(triangles))
     if not len(rows):
         return None, None

@@ -45,7 +45,7 @@ def count() -> int:
 
 
 def shown_by(obj: Object) -> Iterator[ID]:
-    """Yield objects and collections that an original object shows as instances: their shape and place matter."""
+    """Yield objects and collections that an original object shows as instances, and whose changes change its result."""
     kind = obj.instance_type
     if kind == "COLLECTION":
         if obj.instance_collection is not None:
