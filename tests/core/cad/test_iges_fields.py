@@ -154,6 +154,7 @@ def test_weights_are_uneven_by_their_shares_of_the_largest(tmp_path, scale, shar
     with pytest.raises(FileError) as caught:
         obj(tmp_path, "\n".join(lines))
     (cause,) = caught.value.finding.values["causes"]
+    assert cause["code"] == "surface_points"
     assert cause["values"]["cause"] == finding("non_positive_weights").as_record()
 
 
