@@ -20,6 +20,8 @@ from body_moments.tests.core.scan_files import NIFTI_CODES, NRRD_NAMES, nifti, n
 
 from tests.close import close
 
+MILLIMETERS = 'space units: "mm" "mm" "mm"'
+
 
 def values(dtype="f4", shape=(3, 4, 5)):
     return np.arange(np.prod(shape)).reshape(shape).astype(dtype)
@@ -145,18 +147,8 @@ def test_nifti_scales_and_has_a_fourth_dimension_of_one(tmp_path):
 
 
 def test_nrrd_placement_is_read(tmp_path):
-    scan = read_scan(
-        written(
-            tmp_path / "a.nrrd",
-            nrrd(
-                values(),
-                "space: left-posterior-superior",
-                "space directions: (0.5,0,0) (0.25,-2,0) (0,0.125,3)",
-                "space origin: (-9,8,7)",
-                'space units: "mm" "mm" "mm"',
-            ),
-        )
-    )
+    lines = "space: left-posterior-superior", "space directions: (0.5,0,0) (0.25,-2,0) (0,0.125,3)"
+    scan = read_scan(written(tmp_path / "a.nrrd", nrrd(values(), *lines, "space origin: (-9,8,7)", MILLIMETERS)))
     assert np.array_equal(scan.matrix[:3], [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]])
     assert scan.is_placed and scan.unit == 1e-3
     for spacings in ("0.5 -2 3", "0.5 -2 3 nan"):
@@ -473,9 +465,6 @@ def test_first_volume_of_an_archive_is_taken(tmp_path):
     np.savez(tmp_path / "a.npz", first=values(), density=np.eye(3))
     scan = read_scan(tmp_path / "a.npz")
     assert np.array_equal(scan.samples, values()) and scan.findings == ()
-
-
-def test_an_archive_without_a_volume(tmp_path):
     np.savez(tmp_path / "a.npz", table=np.eye(3))
     assert refusal(read_scan, tmp_path / "a.npz") == "scan_size"
 
@@ -498,13 +487,7 @@ def test_an_archive_cannot_promise_more_than_it_holds(tmp_path, shape):
 SEEDS = {
     ".npy": npy_bytes(),
     ".npz": npz_bytes(),
-    ".nrrd": nrrd(
-        values(),
-        "space directions: (1,0,0) (0,1,0) (0,0,1)",
-        "space origin: (0,0,0)",
-        "byte skip: 0",
-        'space units: "mm" "mm" "mm"',
-    ),
+    ".nrrd": nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0,1)", "byte skip: 0", MILLIMETERS),
     ".nrrd gzip": nrrd(values(), "spacings: 1 1 1", encoding="gzip"),
     ".nii": nifti(values(), quaternion=(0, 0, 0.5, 1, 2, 3)),
     ".nii.gz": gzip.compress(nifti(values())),

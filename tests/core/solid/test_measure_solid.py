@@ -393,28 +393,14 @@ def test_bowl_is_closed_by_its_rim_and_curved_hole_by_a_cone():
     assert close(result.volume.total, expected, rel=1e-14)
 
 
-def test_concave_hole_has_its_true_share_of_the_area():
+@pytest.mark.parametrize("cells", [((1, 1), (1, 2), (2, 1)), ((1, 1), (2, 2))], ids=["concave", "meeting in a vertex"])
+def test_holes_have_their_true_share_of_the_area(cells):
     points, triangles = moved(grid(4), None, (0, 0, 1))
-    sides = without(CUBE, *TOP)
-    columns = {
-        2 * (4 * i + j) + k
-        for i in range(1, 4)
-        for j in range(1, 4)
-        for k in (0, 1)
-        if (i, j) in ((1, 1), (1, 2), (2, 1))
-    }
-    top = points, np.delete(triangles, sorted(columns), axis=0)
-    result = verdict(joined(sides, top))
-    check_unit_cube(result, [0.5] * 3, "capped")
-    assert close(result.health.cap_area_share, 3 / 16 / (6 - 3 / 16), rel=1e-12)
-
-
-def test_holes_meeting_in_a_vertex_are_capped():
-    points, triangles = moved(grid(4), None, (0, 0, 1))
-    holes = [2 * (4 * i + i) + k for i in (1, 2) for k in (0, 1)]
+    holes = [2 * (4 * i + j) + k for i, j in cells for k in (0, 1)]
     result = verdict(joined(without(CUBE, *TOP), (points, np.delete(triangles, holes, axis=0))))
     check_unit_cube(result, [0.5] * 3, "capped")
-    assert close(result.health.cap_area_share, 2 / 16 / (6 - 2 / 16), rel=1e-12)
+    share = len(cells) / 16
+    assert close(result.health.cap_area_share, share / (6 - share), rel=1e-12)
 
 
 @pytest.mark.parametrize("spin, dtype, rel", [(None, np.float64, 1e-14), (7, np.float64, 1e-13), (7, np.float32, 1e-6)])
