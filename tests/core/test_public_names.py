@@ -102,13 +102,20 @@ def test_the_example_of_a_public_name_runs(name):
     assert tried and not failed, "".join(report)
 
 
-def test_library_names_load_nothing_before_use():
-    code = (
-        "import importlib.util, sys\n"
+def run_with_package(code, *arguments):
+    """Run code in a new process where this folder is the package, without anything else of it imported."""
+    load = (
+        "import importlib, importlib.util, sys\n"
         "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + '/__init__.py', "
         "submodule_search_locations=[sys.argv[1]])\n"
         "sys.modules['body_moments'] = module = importlib.util.module_from_spec(spec)\n"
         "spec.loader.exec_module(module)\n"
+    )
+    subprocess.run([sys.executable, "-P", "-c", load + code, str(ROOT), *arguments], check=True, timeout=120)
+
+
+def test_library_names_load_nothing_before_use():
+    run_with_package(
         "import body_moments.core, body_moments.core.verdict\n"
         "assert 'measure_solid' in dir(body_moments.core)\n"
         "assert 'numpy' not in sys.modules\n"
@@ -116,20 +123,11 @@ def test_library_names_load_nothing_before_use():
         "from body_moments.core import *\n"
         "assert Surface.__name__ == 'Surface' and 'numpy' in sys.modules\n"
     )
-    subprocess.run([sys.executable, "-P", "-c", code, str(ROOT)], check=True, timeout=120)
 
 
 @pytest.mark.parametrize("package", PACKAGES[1:])
 def test_every_package_can_be_imported_first(package):
-    code = (
-        "import importlib, importlib.util, sys\n"
-        "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + '/__init__.py', "
-        "submodule_search_locations=[sys.argv[1]])\n"
-        "sys.modules['body_moments'] = module = importlib.util.module_from_spec(spec)\n"
-        "spec.loader.exec_module(module)\n"
-        "importlib.import_module('body_moments.core' + sys.argv[2])\n"
-    )
-    subprocess.run([sys.executable, "-P", "-c", code, str(ROOT), package], check=True, timeout=120)
+    run_with_package("importlib.import_module('body_moments.core' + sys.argv[2])\n", package)
 
 
 def readme_example() -> str:

@@ -297,8 +297,6 @@ def test_volume_without_file_is_refused_after_saving(tmp_path):
 
 def test_unmeasurable_volumes_are_refused_with_reason(tmp_path):
     empty = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
-    with refused("volume_without_grids"):
-        measure(empty)
     with refused("volume_without_grids", "Empty"), volume_reading(empty, bpy.context.evaluated_depsgraph_get()):
         pass
     missing = linked(bpy.data.objects.new("Missing", bpy.data.volumes.new("Missing")))
@@ -311,10 +309,6 @@ def test_unmeasurable_volumes_are_refused_with_reason(tmp_path):
         measure(nothing)
     source = vdb.VdbGrid(str(tmp_path / "a.vdb"), "density")
     assert source.low.tolist() == source.shape.tolist() == [0, 0, 0]
-    bad = vdb_grid(np.ones((4, 4, 4), np.float32))
-    bad.getAccessor().setValueOn((1, 1, 1), float("nan"))
-    with refused("density_non_finite"):
-        measure(volume_object(tmp_path / "b.vdb", bad))
     flat = volume_object(tmp_path / "c.vdb", vdb_grid(random_values(np.float32)))
     flat.scale = (1, 0, 1)
     with refused("grid_transform_singular"):

@@ -129,22 +129,8 @@ def polyline(*corners, degree=1):
         [0.0] * degree + [float(i) for i in range(len(corners) - degree + 1)] + [float(len(corners) - degree)] * degree
     )
     points = [value for x, y in corners for value in (float(x), float(y), 0.0)]
-    return 126, [
-        len(corners) - 1,
-        degree,
-        1,
-        0,
-        1,
-        0,
-        *knots,
-        *[1.0] * len(corners),
-        *points,
-        knots[0],
-        knots[-1],
-        0,
-        0,
-        1,
-    ]
+    head = [len(corners) - 1, degree, 1, 0, 1, 0]
+    return 126, [*head, *knots, *[1.0] * len(corners), *points, knots[0], knots[-1], 0, 0, 1]
 
 
 SPACE_S, SPACE_T = unrolled(sphere()).spaces

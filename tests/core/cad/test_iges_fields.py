@@ -29,6 +29,13 @@ def read(tmp_path, lines):
     return read_surfaces(path)
 
 
+def torus_beside():
+    """A file with a torus, and the fields of a ball to change and add."""
+    file = IgesFile()
+    file.surface(unrolled(torus()))
+    return file, surface_fields(unrolled(sphere()))
+
+
 def total(file):
     return measure_patches(file.bodies[0].patches).volume.total
 
@@ -76,9 +83,7 @@ def test_blank_fields_of_the_directory_are_zero(tmp_path):
 
 @pytest.mark.parametrize("word", ["1_0.0", "1_0", "nan", "inf", "\xb2", "0x1", "one"])
 def test_python_only_number_syntax_is_refused(tmp_path, word):
-    fields = surface_fields(unrolled(sphere()))
-    file = IgesFile()
-    file.surface(unrolled(torus()))
+    file, fields = torus_beside()
     file.add(128, [*fields[:-5], word, *fields[-4:]], label="WRONG")
     (tmp_path / "a.igs").write_bytes(file.text().encode("latin-1"))
     found = read_surfaces(tmp_path / "a.igs")
@@ -95,9 +100,7 @@ def test_a_boundary_of_no_curves_trims(tmp_path):
 
 @pytest.mark.parametrize("word, code", [("1e38", ""), ("1e39", "surface_points"), ("1e400", "surface_damaged")])
 def test_coordinate_not_a_number_is_damage_and_huge_is_too_far(tmp_path, word, code):
-    fields = surface_fields(unrolled(sphere()))
-    file = IgesFile()
-    file.surface(unrolled(torus()))
+    file, fields = torus_beside()
     file.add(128, [*fields[:-5], word, *fields[-4:]])
     found = read(tmp_path, file.text().splitlines())
     assert [one.code for one in found.refused] == [code] * bool(code)
@@ -105,9 +108,7 @@ def test_coordinate_not_a_number_is_damage_and_huge_is_too_far(tmp_path, word, c
 
 @pytest.mark.parametrize("degrees", [(0, 2), (2, 0), (-1, 2), (2, 3), (9, 9)])
 def test_degrees_not_fitting_the_control_points_are_damage(tmp_path, degrees):
-    fields = surface_fields(unrolled(sphere()))
-    file = IgesFile()
-    file.surface(unrolled(torus()))
+    file, fields = torus_beside()
     file.add(128, [*fields[:2], *degrees, *fields[4:]], label="WRONG")
     (found,) = read(tmp_path, file.text().splitlines()).refused
     assert found.values["names"] == ["WRONG"] and found.code in ("surface_damaged", "surface_order")
@@ -115,9 +116,7 @@ def test_degrees_not_fitting_the_control_points_are_damage(tmp_path, degrees):
 
 @pytest.mark.parametrize("last", [-1, -2, -9, 0])
 def test_impossible_control_point_count_is_damage(tmp_path, last):
-    fields = surface_fields(unrolled(sphere()))
-    file = IgesFile()
-    file.surface(unrolled(torus()))
+    file, fields = torus_beside()
     for place in (0, 1):
         file.add(128, [*fields[:place], last, *fields[place + 1 :]], label="WRONG")
     file.add(128, [last, last, *fields[2:]], label="WRONG")
@@ -154,6 +153,7 @@ def test_weights_are_uneven_by_their_shares_of_the_largest(tmp_path, scale, shar
     with pytest.raises(FileError) as caught:
         obj(tmp_path, "\n".join(lines))
     (cause,) = caught.value.finding.values["causes"]
+    assert cause["code"] == "surface_points"
     assert cause["values"]["cause"] == finding("non_positive_weights").as_record()
 
 

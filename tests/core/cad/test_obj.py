@@ -160,21 +160,6 @@ def test_knots_not_fitting_the_control_points_are_damage(tmp_path, kind, count, 
         assert cause(tmp_path, text.format(kind, *words)) == "surface_damaged"
 
 
-@pytest.mark.parametrize("weight, is_kept", [("1e-29", True), ("1e-31", False)])
-def test_weights_beyond_float32_are_refused(tmp_path, weight, is_kept):
-    at = BALL_TEXT.index("\nv ", 20)
-    line = BALL_TEXT[at + 1 :].partition("\n")[0]
-    text = BALL_TEXT.replace(line, line.rpartition(" ")[0] + " " + weight, 1)
-    if is_kept:
-        assert read(tmp_path, text).refused == ()
-        return
-    with pytest.raises(FileError) as caught:
-        read(tmp_path, text)
-    (found,) = caught.value.finding.values["causes"]
-    assert found["code"] == "surface_points"
-    assert found["values"]["cause"] == finding("non_positive_weights").as_record()
-
-
 def test_damaged_files_are_refused_or_read_and_nothing_else(tmp_path):
     path, generator = tmp_path / "a.obj", random.Random(9)
     for _ in range(400):

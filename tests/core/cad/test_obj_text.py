@@ -49,18 +49,8 @@ def test_statements_are_read_as_before():
     joined = WHOLE.replace("v 1 0 0", "v \\\n1 \\\r\n0\\\n0", 1).replace("f 1 2 3\n", "f 1 \\\n2 3\n")
     spaces = WHOLE.replace(" ", "\t ").replace("\nv", "\n \t v").replace("\nf", "\n\tf")
     comments = WHOLE.replace("v 0 0 0", "v 0 0 0#1x").replace("f 1 2 3\n", "f 1 2 3 # f 9\n")
-    for text in (
-        WHOLE,
-        WHOLE.replace("\n", "\r\n"),
-        marked,
-        joined,
-        spaces,
-        comments,
-        WHOLE.rstrip(),
-        "",
-        "\n\n",
-        "v"[1:],
-    ):
+    returns = WHOLE.replace("\n", "\r\n")
+    for text in (WHOLE, returns, marked, joined, spaces, comments, WHOLE.rstrip(), "", "\n\n"):
         check_obj_text(text.encode())
 
 

@@ -211,8 +211,12 @@ def test_section_without_area_is_refused():
     for triangles in ([[0, 1, 2]], np.zeros((0, 3), int)):
         with refused("section_no_area"):
             fit_plane(points, triangles, np.eye(3), np.zeros(3))
-    with refused("section_encloses_nothing"):
-        measure_section(LEVEL, points, np.array([[0, 1], [1, 0]]))
+    for edges in ([[0, 1], [1, 0]], np.zeros((0, 2), np.intp)):
+        with refused("section_encloses_nothing"):
+            measure_section(LEVEL, points, np.array(edges))
+    for outline in ([(0, 0), (1, 1), (3, 3)], [(0, 0), (0, 2), (2, 2), (2, 0)]):  # flat, and an outside
+        with refused("section_encloses_nothing"):
+            measure_section(LEVEL, lifted(np.array(outline, float)), directed_edges([range(len(outline))]))
 
 
 @pytest.mark.parametrize("error, turned", [(0.0, 1), (1e-7, 0)])
@@ -220,20 +224,6 @@ def test_slivers_have_no_side_to_look_to(error, turned):
     points = lifted(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, -1e-7]]))
     triangles = np.array([[0, 1, 2], [0, 1, 3]])
     assert region(LEVEL, points, triangles, np.arange(2), error)[1] == turned
-
-
-def test_a_section_without_edges_is_refused():
-    with refused("section_encloses_nothing"):
-        measure_section(LEVEL, SQUARE[0], np.zeros((0, 2), np.intp))
-
-
-@pytest.mark.parametrize(
-    "outline", [[(0, 0), (1, 1), (3, 3)], [(0, 0), (0, 2), (2, 2), (2, 0)]], ids=["flat", "outside"]
-)
-def test_section_enclosing_nothing_is_refused(outline):
-    points = lifted(np.array(outline, float))
-    with refused("section_encloses_nothing"):
-        measure_section(LEVEL, points, directed_edges([range(len(outline))]))
 
 
 @pytest.mark.parametrize("scale", [2.0**-20, 2.0**15])

@@ -92,18 +92,8 @@ def test_monomial_order_matches_index():
     table = monomials(6)
     assert len(table) == monomial_count(6) == 84
     assert [monomial_index(*row) for row in table.tolist()] == list(range(84))
-    assert table[:10].tolist() == [
-        [0, 0, 0],
-        [1, 0, 0],
-        [0, 1, 0],
-        [0, 0, 1],
-        [2, 0, 0],
-        [1, 1, 0],
-        [1, 0, 1],
-        [0, 2, 0],
-        [0, 1, 1],
-        [0, 0, 2],
-    ]
+    expected = ["000", "100", "010", "001", "200", "110", "101", "020", "011", "002"]
+    assert ["{}{}{}".format(*row) for row in table[:10].tolist()] == expected
 
 
 MAPS = {
@@ -377,11 +367,6 @@ def test_numpy_numbers_on_the_left_scale_moments():
         assert np.array_equal((factor * moments).raw, 2.0 * moments.raw)
 
 
-def test_moments_do_not_add_to_numbers():
-    with pytest.raises(TypeError, match="unsupported operand"):
-        Moments(np.ones(4), np.zeros(3)) + 1.0
-
-
 @pytest.mark.parametrize(
     "matrix",
     [
@@ -428,12 +413,11 @@ def test_flattening_maps_leave_no_volume():
         assert Moments(np.ones(4), np.zeros(3)).transform(flat).total == 0.0
 
 
-def test_sum_of_no_bodies_is_refused():
+def test_only_bodies_of_one_measure_add():
+    with pytest.raises(TypeError, match="unsupported operand"):
+        Moments(np.ones(4), np.zeros(3)) + 1.0
     with pytest.raises(ValueError, match="parts must not be empty"):
         sum_moments([])
-
-
-def test_different_measures_do_not_add():
     with pytest.raises(ValueError, match="different measures"):
         sum_moments([Moments(np.ones(1), np.zeros(3)), Moments(np.ones(1), np.zeros(3), "area")])
 

@@ -273,44 +273,6 @@ def test_moments_scale_exactly_with_powers_of_two(exponent):
     assert (scaled.rounding_error >= difference).all()
 
 
-def test_a_mirrored_surface_has_the_opposite_sign(path):
-    points, quads = grid_torus(noise=0.05)
-    triangles = Surface(points, quads=quads).all_triangles()[0]
-    plain = polyhedron_moments(Surface(points, triangles))[0]
-    inverted = polyhedron_moments(Surface(points, triangles[:, ::-1]))[0]
-    mirrored = polyhedron_moments(Surface(points * [-1.0, 1.0, 1.0], triangles))[0]
-    odd = np.array([(-1.0) ** m[0] for m in MONOMIALS])
-    assert (np.abs(inverted.raw + plain.raw) <= inverted.rounding_error + plain.rounding_error).all()
-    assert (np.abs(mirrored.raw + odd * plain.raw) <= mirrored.rounding_error + plain.rounding_error).all()
-
-
-def test_a_sheared_surface_has_the_mapped_moments(path):
-    points, quads = grid_torus(noise=0.05)
-    triangles = Surface(points, quads=quads).all_triangles()[0]
-    matrix = np.eye(4)
-    matrix[:3, :3] = [[2.0, 0.5, 0.25], [0.0, 1.0, -0.75], [0.0, 0.0, 0.5]]
-    matrix[:3, 3] = [5.0, -7.0, 11.0]
-    sheared = polyhedron_moments(Surface(points @ matrix[:3, :3].T + matrix[:3, 3], triangles), exact=True)[0]
-    mapped = polyhedron_moments(Surface(points, triangles), exact=True)[0].transform(matrix).about_point(sheared.about)
-    assert np.abs(sheared.raw - mapped.raw).max() < 1e-13 * np.abs(mapped.raw).max()
-
-
-def test_degenerate_faces_change_nothing(path):
-    points, quads = grid_torus(noise=0.05)
-    triangles = Surface(points, quads=quads).all_triangles()[0]
-    zero = np.array([[3, 3, 3], [5, 5, 9], [7, 2, 7]])
-    plain = polyhedron_moments(Surface(points, triangles))[0]
-    more = polyhedron_moments(Surface(points, np.concatenate([zero, triangles, zero])))[0]
-    assert (np.abs(more.raw - plain.raw) <= plain.rounding_error).all()
-
-
-def test_open_surface_is_closed_from_the_middle_of_its_box(path):
-    points = np.array(exact.box((0, 0, 0), (1, 1, 1)), float)
-    triangles = np.array(exact.fan(exact.BOX_QUADS[:5]))  # without the face z = 1
-    moments = polyhedron_moments(Surface(points, triangles))[0]
-    assert close(moments.total, 5 / 6, rel=1e-14)
-
-
 @pytest.mark.parametrize("shell", [False, True])
 def test_empty_surfaces_have_no_moments(shell):
     for points in (np.empty((0, 3)), np.ones((4, 3), np.float32)):

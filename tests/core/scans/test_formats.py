@@ -20,6 +20,8 @@ from body_moments.tests.core.scan_files import NIFTI_CODES, NRRD_NAMES, nifti, n
 
 from tests.close import close
 
+MILLIMETERS = 'space units: "mm" "mm" "mm"'
+
 
 def values(dtype="f4", shape=(3, 4, 5)):
     return np.arange(np.prod(shape)).reshape(shape).astype(dtype)
@@ -145,18 +147,8 @@ def test_nifti_scales_and_has_a_fourth_dimension_of_one(tmp_path):
 
 
 def test_nrrd_placement_is_read(tmp_path):
-    scan = read_scan(
-        written(
-            tmp_path / "a.nrrd",
-            nrrd(
-                values(),
-                "space: left-posterior-superior",
-                "space directions: (0.5,0,0) (0.25,-2,0) (0,0.125,3)",
-                "space origin: (-9,8,7)",
-                'space units: "mm" "mm" "mm"',
-            ),
-        )
-    )
+    lines = "space: left-posterior-superior", "space directions: (0.5,0,0) (0.25,-2,0) (0,0.125,3)"
+    scan = read_scan(written(tmp_path / "a.nrrd", nrrd(values(), *lines, "space origin: (-9,8,7)", MILLIMETERS)))
     assert np.array_equal(scan.matrix[:3], [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]])
     assert scan.is_placed and scan.unit == 1e-3
     for spacings in ("0.5 -2 3", "0.5 -2 3 nan"):
@@ -296,26 +288,6 @@ def test_archive_of_python_objects_is_refused_and_runs_nothing(tmp_path):
     assert not (tmp_path / "made").exists()
 
 
-def test_given_placement_replaces_the_header(tmp_path):
-    path = written(tmp_path / "a.nii", nifti(values(), spacing=(2, 2, 2)))
-    matrix, findings = sample_matrix(read_scan(path), None, None, None)
-    assert np.allclose(matrix, np.diag([0.002, 0.002, 0.002, 1]))
-    assert findings == ()
-    matrix, findings = sample_matrix(read_scan(path), (0.1, 0.2, 0.3), (1, 2, 3), None)
-    assert np.array_equal(matrix[:3], [[0.1, 0, 0, 1], [0, 0.2, 0, 2], [0, 0, 0.3, 3]])
-    assert findings == (finding("scan_placement_overridden", fields=["spacing", "origin"]),)
-    matrix, findings = sample_matrix(read_scan(path), None, None, 5.0)
-    assert matrix[0, 0] == pytest.approx(0.002)
-    assert findings == (finding("scan_own_unit"),)
-    np.save(tmp_path / "a.npy", values())
-    matrix, findings = sample_matrix(read_scan(tmp_path / "a.npy"), None, None, None)
-    assert np.array_equal(matrix, np.eye(4))
-    assert findings == (finding("scan_unstated", part="spacing", option="spacing"),)
-    matrix, findings = sample_matrix(read_scan(tmp_path / "a.npy"), (1, 2, 3), None, 0.001)
-    assert np.allclose(np.diag(matrix), [0.001, 0.002, 0.003, 1])
-    assert findings == ()
-
-
 @pytest.mark.parametrize("given", list(itertools.product((False, True), repeat=5)))
 def test_placement_decision_is_reported(given):
     """Every combination of the file's and the user's values."""
@@ -340,15 +312,23 @@ def test_placement_decision_is_reported(given):
 
 
 def damage(code, **values):
-    return {"file": "", "cause": {"code": code, "values": values}}
+    return "file_damaged", {"file": "", "cause": {"code": code, "values": values}}
 
 
 def field(name, wanted, text, form="NRRD"):
-    return {"format": form, "field": name, "wanted": wanted, "text": text}
+    return "header_field", {"format": form, "field": name, "wanted": wanted, "text": text}
 
 
 def nifti_field(name, wanted, text):
     return field(name, wanted, text, "NIfTI")
+
+
+def offset(text):
+    return nifti_field("vox_offset", "a whole number behind the header", text)
+
+
+def spacings(text, name="spacings", form="NRRD"):
+    return field(name, "three spacings that are not zero", text, form)
 
 
 def scaling(text):
@@ -363,80 +343,16 @@ def rotation(text):
     return nifti_field("quatern", "a rotation", text)
 
 
+def directions(text, shown=None):
+    """A header with these directions, and its refusal for their count, or for the one that is shown."""
+    wanted = "vectors of three numbers" if shown else "three vectors"
+    return nrrd(values(), "space directions: " + text), field("space directions", wanted, shown or text)
+
+
 def nifti_with(offset: int, form: str, *numbers) -> bytes:
     data = bytearray(nifti(values()))
     struct.pack_into("<" + form, data, offset, *numbers)
     return bytes(data)
-
-
-@pytest.mark.parametrize(
-    "data, code, values_said",
-    [
-        (b"", "file_damaged", damage("damage_cut_short", part="header")),
-        (b"x" * 400, "file_unrecognized", {"format": "NIfTI-1"}),
-        (nifti(values())[:-1], "file_damaged", damage("damage_size", bytes=239, total=240)),
-        (nifti_with(344, "4s", b"n+2\0"), "file_unrecognized", {"format": "NIfTI-1"}),
-        (nifti_with(0, "i", 349), "file_unrecognized", {"format": "NIfTI-1"}),
-        (nifti_with(344, "4s", b"ni1\0"), "scan_in_several_files", {"suffix": ".nii"}),
-        (nifti_with(40, "h", 8), "header_field", nifti_field("dim", "1 to 7 dimensions", "8")),
-        (nifti_with(40, "h", 1), "scan_size", {"samples": [3]}),
-        (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), "scan_size", {"samples": [3, 4, 5, 2]}),
-        (nifti_with(42, "h", -3), "scan_size", {"samples": [-3, 4, 5]}),
-        (
-            nifti_with(42, "3h", 32767, 32767, 32767),
-            "file_damaged",
-            damage("damage_size", bytes=240, total=140724603846652),
-        ),
-        (nifti_with(70, "h", 32), "scan_sample_type", {"type": "NIfTI 32"}),
-        (nifti_with(72, "h", 7), "header_field", nifti_field("bitpix", "the size of its data type", "7")),
-        (
-            nifti_with(108, "f", float("nan")),
-            "header_field",
-            nifti_field("vox_offset", "a whole number behind the header", "nan"),
-        ),
-        (
-            nifti_with(108, "f", 347.0),
-            "header_field",
-            nifti_field("vox_offset", "a whole number behind the header", "347"),
-        ),
-        (
-            nifti_with(108, "f", 352.5),
-            "header_field",
-            nifti_field("vox_offset", "a whole number behind the header", "352.5"),
-        ),
-        (nifti_with(108, "f", 356.0), "file_damaged", damage("damage_size", bytes=236, total=240)),
-        (nifti_with(40, "h", 0), "header_field", nifti_field("dim", "1 to 7 dimensions", "0")),
-        (
-            nifti_with(84, "f", np.inf),
-            "header_field",
-            nifti_field("pixdim", "three spacings that are not zero", "1 inf 1"),
-        ),
-        (nifti(values(), quaternion=(0.6, 0.8, 0.01, 0, 0, 0)), "header_field", rotation("0.6 0.8 0.01 0 0 0")),
-        (nifti(values(), quaternion=(0, 0, 0, 0, np.inf, 0)), "header_field", rotation("0 0 0 0 inf 0")),
-        (nifti_with(112, "f", float("inf")), "header_field", scaling("inf 0")),
-        (nifti_with(112, "2f", 1.0, float("inf")), "header_field", scaling("1 inf")),
-        (
-            nifti(values(), spacing=(0, 0, 0), quaternion=(0, 0, 0, 1, 2, 3)),
-            "header_field",
-            nifti_field("pixdim", "three spacings that are not zero", "0 0 0"),
-        ),
-        (nifti_with(80, "f", 0.0), "header_field", nifti_field("pixdim", "three spacings that are not zero", "0 1 1")),
-        (nifti(values(), sform=np.zeros((3, 4))), "header_field", placement(" ".join("0" * 12))),
-        (nifti(values(), sform=np.full((3, 4), np.nan)), "header_field", placement(" ".join(["nan"] * 12))),
-        (
-            nifti(values(), sform=np.eye(3, 4) + [0, 0, 0, np.inf]),
-            "header_field",
-            placement("1 0 0 inf 0 1 0 inf 0 0 1 inf"),
-        ),
-        (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "header_field", rotation("1 1 1 0 0 0")),
-    ],
-)
-def test_damaged_nifti_file_is_refused_with_its_damage(tmp_path, data, code, values_said):
-    with pytest.raises(FileError) as caught:
-        read_scan(written(tmp_path / "a.nii", data))
-    found = caught.value.finding
-    assert found.code == code and repr({**found.values, "file": 0}) == repr({**values_said, "file": 0})
-    assert found.values.get("file", "a.nii") in ("a.nii", "nowhere.raw") and caught.value.reason.endswith(".")
 
 
 def nrrd_with(old: str, new: str) -> bytes:
@@ -445,88 +361,94 @@ def nrrd_with(old: str, new: str) -> bytes:
     return data.replace(old.encode(), new.encode())
 
 
+FAR_SFORM = np.eye(3, 4) + [0, 0, 0, np.inf]
+FLAT_DIRECTIONS = nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)")
+NEGATIVE_SKIP = nrrd(values(), "byte skip: -1", encoding="gzip")
+NOT_GZIP = damage("damage_incomplete", kind="gzip stream", error="incorrect header check")
+DAMAGED_NIFTI = [
+    (b"", damage("damage_cut_short", part="header")),
+    (b"x" * 400, ("file_unrecognized", {"format": "NIfTI-1"})),
+    (nifti(values())[:-1], damage("damage_size", bytes=239, total=240)),
+    (nifti_with(344, "4s", b"n+2\0"), ("file_unrecognized", {"format": "NIfTI-1"})),
+    (nifti_with(0, "i", 349), ("file_unrecognized", {"format": "NIfTI-1"})),
+    (nifti_with(344, "4s", b"ni1\0"), ("scan_in_several_files", {"suffix": ".nii"})),
+    (nifti_with(40, "h", 8), nifti_field("dim", "1 to 7 dimensions", "8")),
+    (nifti_with(40, "h", 1), ("scan_size", {"samples": [3]})),
+    (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), ("scan_size", {"samples": [3, 4, 5, 2]})),
+    (nifti_with(42, "h", -3), ("scan_size", {"samples": [-3, 4, 5]})),
+    (nifti_with(42, "3h", 32767, 32767, 32767), damage("damage_size", bytes=240, total=140724603846652)),
+    (nifti_with(70, "h", 32), ("scan_sample_type", {"type": "NIfTI 32"})),
+    (nifti_with(72, "h", 7), nifti_field("bitpix", "the size of its data type", "7")),
+    (nifti_with(108, "f", float("nan")), offset("nan")),
+    (nifti_with(108, "f", 347.0), offset("347")),
+    (nifti_with(108, "f", 352.5), offset("352.5")),
+    (nifti_with(108, "f", 356.0), damage("damage_size", bytes=236, total=240)),
+    (nifti_with(40, "h", 0), nifti_field("dim", "1 to 7 dimensions", "0")),
+    (nifti_with(84, "f", np.inf), spacings("1 inf 1", "pixdim", "NIfTI")),
+    (nifti(values(), quaternion=(0.6, 0.8, 0.01, 0, 0, 0)), rotation("0.6 0.8 0.01 0 0 0")),
+    (nifti(values(), quaternion=(0, 0, 0, 0, np.inf, 0)), rotation("0 0 0 0 inf 0")),
+    (nifti_with(112, "f", float("inf")), scaling("inf 0")),
+    (nifti_with(112, "2f", 1.0, float("inf")), scaling("1 inf")),
+    (nifti(values(), spacing=(0, 0, 0), quaternion=(0, 0, 0, 1, 2, 3)), spacings("0 0 0", "pixdim", "NIfTI")),
+    (nifti_with(80, "f", 0.0), spacings("0 1 1", "pixdim", "NIfTI")),
+    (nifti(values(), sform=np.zeros((3, 4))), placement(" ".join("0" * 12))),
+    (nifti(values(), sform=np.full((3, 4), np.nan)), placement(" ".join(["nan"] * 12))),
+    (nifti(values(), sform=FAR_SFORM), placement("1 0 0 inf 0 1 0 inf 0 0 1 inf")),
+    (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), rotation("1 1 1 0 0 0")),
+]
+DAMAGED_NRRD = [
+    (b"", ("file_unrecognized", {"format": "NRRD"})),
+    (nrrd(values())[:-1], damage("damage_size", bytes=239, total=240)),
+    (nrrd(values())[:60], field("dimension", "the count of “sizes”", "3")),
+    (nrrd_with("type: float\n", ""), ("scan_sample_type", {"type": "“”"})),
+    (nrrd_with("sizes: 3 4 5\n", ""), field("sizes", "three numbers", "")),
+    (nrrd_with("dimension: 3\n", ""), field("dimension", "the count of “sizes”", "")),
+    (nrrd_with("encoding: raw\n", ""), field("encoding", "raw or gzip", "")),
+    (nrrd_with("type: float", "type: block"), ("scan_sample_type", {"type": "block"})),
+    (nrrd_with("sizes: 3 4 5", "sizes: 3 4"), field("dimension", "the count of “sizes”", "3")),
+    (nrrd_with("sizes: 3 4 5", "sizes: 3 4 x"), field("sizes", "a list of numbers", "3 4 x")),
+    (nrrd_with("sizes: 3 4 5", "sizes: 3 4 0_5"), field("sizes", "a list of numbers", "3 4 0_5")),
+    (nrrd(values(), "spacings: 1 2_0 1"), field("spacings", "a list of numbers", "1 2_0 1")),
+    (nrrd_with("sizes: 3 4 5", "sizes: 3 4 -5"), ("scan_size", {"samples": [3, 4, -5]})),
+    (nrrd_with("sizes: 3 4 5", "sizes: 3 4 5000000000000"), ("scan_size", {"samples": [3, 4, 5000000000000]})),
+    (nrrd_with("dimension: 3", "dimension: 4"), field("dimension", "the count of “sizes”", "4")),
+    (nrrd_with("encoding: raw", "encoding: bzip2"), field("encoding", "raw or gzip", "bzip2")),
+    (nrrd_with("encoding: raw", "encoding: gzip"), NOT_GZIP),
+    (NEGATIVE_SKIP, field("byte skip", "one number, not negative", "-1")),
+    (nrrd_with("endian: little\n", ""), field("endian", "little or big", "")),
+    *((nrrd(values(), "spacings: " + text), spacings(text)) for text in ("1 0 1", "1 2", "nan nan nan")),
+    (FLAT_DIRECTIONS, placement("1 2 0 0 0 0 0 0 0 0 1 0", ".nrrd")),
+    directions("(1,0,0) (0,1,0)"),
+    directions("(1,0,0) (0,1,0) (0,0)", "(0,0)"),
+    directions("(1,0,0) (0,1_0,0) (0,0,1)", "(0,1_0,0)"),
+    *(
+        (nrrd(values(), "data file: " + name), ("named_file_missing", {"file": name, "content": "samples"}))
+        for name in ("nowhere.raw", "a b c")
+    ),
+    *(
+        (nrrd(values(), "data file: " + name), ("scan_in_several_files", {"suffix": ".nrrd"}))
+        for name in ("slice%03d.raw 1 9 1", "slice%03d.raw", "LIST", "list 2", "a b c d")
+    ),
+    (nrrd(values(), "byte skip: a"), field("byte skip", "a list of numbers", "a")),
+    (nrrd(values(), "byte skip: -7"), field("byte skip", "one number, not negative", "-7")),
+    (nrrd(values(), "byte skip: 1 2"), field("byte skip", "one number, not negative", "1 2")),
+    (nrrd(values(), "line skip:"), field("line skip", "one number, not negative", "")),
+    (nrrd(values(), "line skip: 9999"), damage("damage_cut_short", part="skipped lines")),
+]
+
+
 @pytest.mark.parametrize(
-    "data, code, values_said",
-    [
-        (b"", "file_unrecognized", {"format": "NRRD"}),
-        (nrrd(values())[:-1], "file_damaged", damage("damage_size", bytes=239, total=240)),
-        (nrrd(values())[:60], "header_field", field("dimension", "the count of “sizes”", "3")),
-        (nrrd_with("type: float\n", ""), "scan_sample_type", {"type": "“”"}),
-        (nrrd_with("sizes: 3 4 5\n", ""), "header_field", field("sizes", "three numbers", "")),
-        (nrrd_with("dimension: 3\n", ""), "header_field", field("dimension", "the count of “sizes”", "")),
-        (nrrd_with("encoding: raw\n", ""), "header_field", field("encoding", "raw or gzip", "")),
-        (nrrd_with("type: float", "type: block"), "scan_sample_type", {"type": "block"}),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4"), "header_field", field("dimension", "the count of “sizes”", "3")),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 x"), "header_field", field("sizes", "a list of numbers", "3 4 x")),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 0_5"), "header_field", field("sizes", "a list of numbers", "3 4 0_5")),
-        (nrrd(values(), "spacings: 1 2_0 1"), "header_field", field("spacings", "a list of numbers", "1 2_0 1")),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 -5"), "scan_size", {"samples": [3, 4, -5]}),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 5000000000000"), "scan_size", {"samples": [3, 4, 5000000000000]}),
-        (nrrd_with("dimension: 3", "dimension: 4"), "header_field", field("dimension", "the count of “sizes”", "4")),
-        (nrrd_with("encoding: raw", "encoding: bzip2"), "header_field", field("encoding", "raw or gzip", "bzip2")),
-        (
-            nrrd_with("encoding: raw", "encoding: gzip"),
-            "file_damaged",
-            damage("damage_incomplete", kind="gzip stream", error="incorrect header check"),
-        ),
-        (
-            nrrd(values(), "byte skip: -1", encoding="gzip"),
-            "header_field",
-            field("byte skip", "one number, not negative", "-1"),
-        ),
-        (nrrd_with("endian: little\n", ""), "header_field", field("endian", "little or big", "")),
-        (
-            nrrd(values(), "spacings: 1 0 1"),
-            "header_field",
-            field("spacings", "three spacings that are not zero", "1 0 1"),
-        ),
-        (nrrd(values(), "spacings: 1 2"), "header_field", field("spacings", "three spacings that are not zero", "1 2")),
-        (
-            nrrd(values(), "spacings: nan nan nan"),
-            "header_field",
-            field("spacings", "three spacings that are not zero", "nan nan nan"),
-        ),
-        (
-            nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)"),
-            "header_field",
-            placement("1 2 0 0 0 0 0 0 0 0 1 0", ".nrrd"),
-        ),
-        (
-            nrrd(values(), "space directions: (1,0,0) (0,1,0)"),
-            "header_field",
-            field("space directions", "three vectors", "(1,0,0) (0,1,0)"),
-        ),
-        (
-            nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0)"),
-            "header_field",
-            field("space directions", "vectors of three numbers", "(0,0)"),
-        ),
-        (
-            nrrd(values(), "space directions: (1,0,0) (0,1_0,0) (0,0,1)"),
-            "header_field",
-            field("space directions", "vectors of three numbers", "(0,1_0,0)"),
-        ),
-        (nrrd(values(), "data file: nowhere.raw"), "named_file_missing", {"file": "nowhere.raw", "content": "samples"}),
-        *(
-            (nrrd(values(), "data file: " + name), "scan_in_several_files", {"suffix": ".nrrd"})
-            for name in ("slice%03d.raw 1 9 1", "slice%03d.raw", "LIST", "list 2", "a b c d")
-        ),
-        (nrrd(values(), "data file: a b c"), "named_file_missing", {"file": "a b c", "content": "samples"}),
-        (nrrd(values(), "byte skip: a"), "header_field", field("byte skip", "a list of numbers", "a")),
-        (nrrd(values(), "byte skip: -7"), "header_field", field("byte skip", "one number, not negative", "-7")),
-        (nrrd(values(), "byte skip: 1 2"), "header_field", field("byte skip", "one number, not negative", "1 2")),
-        (nrrd(values(), "line skip:"), "header_field", field("line skip", "one number, not negative", "")),
-        (nrrd(values(), "line skip: 9999"), "file_damaged", damage("damage_cut_short", part="skipped lines")),
-    ],
+    "suffix, data, expected",
+    [*((".nii", *case) for case in DAMAGED_NIFTI), *((".nrrd", *case) for case in DAMAGED_NRRD)],
 )
-def test_damaged_nrrd_file_is_refused_with_its_damage(tmp_path, data, code, values_said):
+def test_damaged_file_is_refused_with_its_damage(tmp_path, suffix, data, expected):
+    code, said = expected
     with pytest.raises(FileError) as caught:
-        read_scan(written(tmp_path / "a.nrrd", data))
+        read_scan(written(tmp_path / ("a" + suffix), data))
     found = caught.value.finding
-    assert found.code == code and repr({**found.values, "file": 0}) == repr({**values_said, "file": 0})
-    assert found.values.get("file", "a.nrrd") in ("a.nrrd", "nowhere.raw", "a b c") and caught.value.reason.endswith(
-        "."
-    )
+    assert found.code == code and repr({**found.values, "file": 0}) == repr({**said, "file": 0})
+    assert found.values.get("file", "a" + suffix) in ("a" + suffix, "nowhere.raw", "a b c")
+    assert caught.value.reason.endswith(".")
 
 
 def npy_bytes(array=None) -> bytes:
@@ -543,9 +465,6 @@ def test_first_volume_of_an_archive_is_taken(tmp_path):
     np.savez(tmp_path / "a.npz", first=values(), density=np.eye(3))
     scan = read_scan(tmp_path / "a.npz")
     assert np.array_equal(scan.samples, values()) and scan.findings == ()
-
-
-def test_an_archive_without_a_volume(tmp_path):
     np.savez(tmp_path / "a.npz", table=np.eye(3))
     assert refusal(read_scan, tmp_path / "a.npz") == "scan_size"
 
@@ -568,13 +487,7 @@ def test_an_archive_cannot_promise_more_than_it_holds(tmp_path, shape):
 SEEDS = {
     ".npy": npy_bytes(),
     ".npz": npz_bytes(),
-    ".nrrd": nrrd(
-        values(),
-        "space directions: (1,0,0) (0,1,0) (0,0,1)",
-        "space origin: (0,0,0)",
-        "byte skip: 0",
-        'space units: "mm" "mm" "mm"',
-    ),
+    ".nrrd": nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0,1)", "byte skip: 0", MILLIMETERS),
     ".nrrd gzip": nrrd(values(), "spacings: 1 1 1", encoding="gzip"),
     ".nii": nifti(values(), quaternion=(0, 0, 0.5, 1, 2, 3)),
     ".nii.gz": gzip.compress(nifti(values())),

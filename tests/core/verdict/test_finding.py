@@ -7,7 +7,6 @@ import json
 import string
 import subprocess
 import sys
-from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -18,11 +17,9 @@ from body_moments.core.verdict.finding import (
     MeasureError,
     ReadError,
     finding,
-    system_reason,
     truncate_findings,
     unique,
 )
-from body_moments.core.verdict.health import DefectiveElements, MeshHealth
 from body_moments.core.verdict.method import Method, Procedure, Source, least_trusted
 from body_moments.core.verdict.sentences import sentence, truncate_list
 
@@ -47,25 +44,6 @@ def test_values_come_back_from_json_and_equal_findings_are_one():
     assert unique([first, other, again]) == (first, other)
     assert first != finding("holes_closed", **first.values) and first != first.as_record()
     assert Finding("no_faces") == finding("no_faces")
-
-
-def test_why_the_system_refused_is_a_part_of_a_sentence():
-    assert system_reason(OSError(13, "Permission denied.")) == "Permission denied"
-    assert system_reason(OSError("No such device.")) == "No such device"
-
-
-def test_mesh_without_findings_is_sound():
-    counts = "boundary_edges non_manifold_edges inconsistent_edges inverted_components nested_components cavities"
-    counts += " overlapping_components duplicate_faces degenerate_faces non_planar_faces"
-    record = MeshHealth(True).as_record()
-    assert record == {
-        **{"closed": True, "welded": False, "components": 1, **dict.fromkeys(counts.split(), 0)},
-        **{"volume_spread": 0.0, "cap_area_share": 0.0, "self_intersection": "not_checked", "flipped_faces": []},
-    }
-    turned = MeshHealth(False, defective_elements=DefectiveElements(flipped_faces=np.array([2, 5])))
-    assert turned.as_record() == {**record, "closed": False, "flipped_faces": [2, 5]}
-    for entry in fields(DefectiveElements):
-        assert getattr(DefectiveElements(), entry.name).shape == ((0, 2) if "edges" in entry.name else (0,))
 
 
 def test_combined_verdict_is_the_worst_of_the_solids():

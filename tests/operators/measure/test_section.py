@@ -170,15 +170,12 @@ def test_outlines_that_cross_or_coincide_are_refused(outlines, code):
     assert refused(add(curve_of(*outlines)), code)
 
 
-@pytest.mark.parametrize(
-    "setting, code",
-    [("extrude", "section_extruded"), ("bevel_depth", "section_extruded"), ("offset", "section_extruded")],
-)
+@pytest.mark.parametrize("setting", ["extrude", "bevel_depth", "offset"])
 @pytest.mark.parametrize("data", [lambda: curve_of(I_BEAM), lambda: text_of("A")])
-def test_extruded_or_offset_outline_is_refused(data, setting, code):
+def test_extruded_or_offset_outline_is_refused(data, setting):
     obj = add(data())
     setattr(obj.data, setting, 0.1)
-    assert refused(obj, code)
+    assert refused(obj, "section_extruded")
     setattr(obj.data, setting, 0.0)
     obj.data.bevel_object = add(curve_of(square(0, 0, 1)), "Profile")
     obj.data.bevel_mode = "ROUND"
@@ -285,21 +282,8 @@ def test_stored_section_is_read_back_exactly():
     assert bpy.ops.object.body_moments_measure_section() == {"FINISHED"}
     found = stored(obj)
     assert (found.description, found.findings) == (what, findings)
-    for name in (
-        "area",
-        "perimeter",
-        "angle",
-        "principal",
-        "polar",
-        "outlines",
-        "holes",
-        "rounding_error",
-        "input_error",
-        "axes_undetermined",
-    ):
-        assert getattr(found.section, name) == getattr(truth, name)
-    for name in ("second", "centroid", "center", "radii", "moduli"):
-        assert np.array_equal(getattr(found.section, name), getattr(truth, name))
+    for name, value in vars(truth).items():
+        assert name == "plane" or np.array_equal(getattr(found.section, name), value), name
     assert np.array_equal(found.section.plane.axes, truth.plane.axes)
 
 
