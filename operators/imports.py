@@ -31,11 +31,11 @@ from . import selection
 from .findings import FILE_EXISTS
 
 
-def _positions(axis: str) -> Any:
+def _positions(name: str) -> Any:
     """Declare the file with the positions of samples along an axis."""
     return StringProperty(
-        name="{:s} Positions".format(axis.upper()),
-        description=f"A .npy file with the position of each sample along {axis}, ascending. Empty if they are even",
+        name=name,
+        description="A .npy file with the position of each sample along the axis, ascending. Empty if they are even",
         subtype="FILE_PATH",
     )
 
@@ -58,9 +58,9 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         min=1e-9,
         precision=6,
     )
-    x_positions: _positions("x")
-    y_positions: _positions("y")
-    z_positions: _positions("z")
+    x_positions: _positions("X Positions")
+    y_positions: _positions("Y Positions")
+    z_positions: _positions("Z Positions")
     position_unit: FloatProperty(
         name="Unit of Positions",
         description="Meters per unit of the files of positions",

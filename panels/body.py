@@ -112,10 +112,10 @@ def _verdict(layout: UILayout, text: str, icon: str, verdict: Verdict | None) ->
     """Draw a translated name, and the verdict on its numbers at the right end."""
     row = layout.row(align=True)
     row.label(text=text, icon=icon, translate=False)
-    verdict = row.row(align=True)
-    verdict.alignment = "RIGHT"
+    end = row.row(align=True)
+    end.alignment = "RIGHT"
     icon, word = rows.VERDICTS[verdict]
-    verdict.label(text=word, icon=icon)
+    end.label(text=word, icon=icon)
 
 
 def _answer(

@@ -23,7 +23,7 @@ class BODY_MOMENTS_UL_measured(UIList):
         items=(
             (SortBy.NAME, "Name", "By name"),
             (SortBy.MASS, "Mass", "The heaviest first"),
-            (SortBy.VERDICT, "Procedure", "The least trustworthy first"),
+            (SortBy.VERDICT, "Verdict", "The least trustworthy first"),
         ),
         default=SortBy.NAME,
     )

@@ -75,7 +75,7 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     if "method" in entry:
         walled = any(found["code"] == WALL_MEASURED for found in entry.get("findings", ()))
         _, explanation = METHODS.get(method_key(Method.parse(entry["method"]), walled), ("", ""))
-        yield report_line("Procedure", ": ".join(filter(None, (entry["method"], explanation))))
+        yield report_line("Verdict", ": ".join(filter(None, (entry["method"], explanation))))
         counts = list(_counts(entry.get("health", {})))
         if counts:
             yield report_line("Found", ", ".join(counts))

@@ -25,7 +25,7 @@ from .plain_text import counted, visible
 _PICTURE = re.compile(r"data:image/png;base64,[A-Za-z0-9+/=]+")
 _COLUMNS = (
     *(("picture", ""), ("file", "File"), ("name", "Name"), ("status", "Status")),
-    *(("verdict", "Procedure"), ("method", "Method")),
+    *(("verdict", "Verdict"), ("method", "Method")),
     *(("mass", "Mass, kg"), ("volume", "Volume, m³"), ("area", "Area, m²"), ("size", "Gyration, m")),
     *(("bound", "Bound, of volume"), ("remarks", "Remarks")),
 )

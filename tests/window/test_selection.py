@@ -52,7 +52,7 @@ FILTERS = {  # Pixels from the left of the sidebar and above that button.
     "opened": (31, 27),
     "Name": (58, 31),
     "Mass": (133, 31),
-    "Procedure": (209, 31),
+    "Verdict": (209, 31),
     "warnings first": (217, 54),
     "reversed": (242, 54),
 }
@@ -135,7 +135,7 @@ def test_columns_sort_and_warnings_come_first_on_request(three):
     window.buttons.clear()
     button = center(window, button_name)
     assert lines(window, button) == "ABC"
-    for column, order in (("Mass", "CBA"), ("Procedure", "BAC"), ("Name", "ABC")):
+    for column, order in (("Mass", "CBA"), ("Verdict", "BAC"), ("Name", "ABC")):
         click_filter(window, column, button)
         assert lines(window, button) == order, column
         window.picture("list-by-" + column.lower())

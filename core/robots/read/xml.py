@@ -190,7 +190,8 @@ def read_shapes(
 
 def stated_link(node: Node, element: Node | None, findings: Sequence[Finding], **values: Any) -> StatedLink:
     """Return a link with the places of its values in the file. element: the inertial's, which a repair replaces."""
-    span = None if element is None or element.start == NOWHERE else (element.start, element.end)
+    is_fixed = element is None or values["inertial"] is None or element.start == NOWHERE
+    span = None if element is None or is_fixed else (element.start, element.end)
     places = {"place": node.place, "inertial_place": (element or node).place}
     return StatedLink(span=span, findings=tuple(findings), **places, **values)
 
