@@ -17,6 +17,7 @@ from ...core.measurement.findings import DENSITY_FROM_MEMBERS, NO_VOLUME, ZERO_Q
 from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ...core.measurement.settings import digest, fingerprint
 from ...core.mesh.surface import Surface
+from ...core.moments.affine_maps import are_similarities
 from ...core.moments.exponents import KNOWN_ORDER
 from ...core.moments.moments import Measure, Moments, sum_moments
 from ...core.numerics.float32 import shortest_decimal
@@ -309,4 +310,6 @@ class _Measuring:
 
 def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
     """Return the area moments of a sheet mapped to its place in the world."""
+    if are_similarities(metric[None, :3, :3])[0]:  # the mapped points would be rounded once more
+        return polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1].transform(metric)
     return polyhedron_moments(sheet.transform(metric[:3, :3], metric[:3, 3]), 0, area_order=order, allow_open=True)[1]

@@ -143,9 +143,7 @@ def reference_text(name: str, choice: ReferenceChoice, result: ReferredInertia) 
         "axes (columns, world) {!r}".format(axes),
         "mass (kg) {!r}".format(result.mass),
         "center of mass (m, from the origin, along the axes) {!r}".format(list(result.center)),
-        "inertia (kg·m², about the origin, along the axes, Ixy = −∫xy dm) {!r}".format(
-            list(map(list, tensor_rows(result.inertia)))
-        ),
+        "inertia (kg·m², about the origin, along the axes, Ixy = −∫xy dm) {!r}".format(inertia),
     ]
     if choice.about == "AXIS":
         lines.append("about the axis (kg·m²) {!r}".format(result.about_z))
