@@ -121,7 +121,6 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
             ("ORIGIN", "World Origin", "Move the center of mass to the world origin"),
         ),
     )
-
     strict: STRICT_PROPERTY
 
     def execute(self, context: Context) -> set[str]:
@@ -208,7 +207,6 @@ class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operat
         description="Parent the empty to the object, so that it moves along",
         default=True,
     )
-
     display: EnumProperty(
         name="Display As",
         description="How a new empty is drawn",
