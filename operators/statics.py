@@ -170,8 +170,9 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
         layout.prop(self, "frame_step")
 
     def _begin(self, context: Context) -> int:
-        frames = range(self.frame_start, max(self.frame_start, self.frame_end) + 1)
-        frames = (_scene_frames(context.scene) if self.use_scene_range else frames)[:: self.frame_step]
+        scene, own = context.scene, (self.frame_start, max(self.frame_start, self.frame_end))
+        first, last = (scene.frame_start, scene.frame_end) if self.use_scene_range else own
+        frames = range(first, last + 1, self.frame_step)
         self._group = session.BalanceGroup(context, self.collection, self.contacts, self.ground, self.reach)
         self._steps = self._group.follow(context.scene, frames)
         return len(frames)

@@ -101,11 +101,13 @@ def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
     _buttons(layout, context)
     if is_rest:
         rows.remark(layout, "The mass is that of the rest pose")
+        rows.stale_row(layout, posed.reason)
     unmeasured = shown.missing if shown.count else ()  # of none the verdict says it
     for names, text in ((unmeasured, "Not measured: {objects}"), (shown.stale, "Out of date: {objects}")):
         if names and not is_rest:
             rows.remark(layout, text, icon="FILE_REFRESH", objects=names)
-    remedies.lines(layout, context, [*(Group(found) for found in shown.findings), *shown.groups])
+    findings, groups = (posed.findings, ()) if is_rest else (shown.findings, shown.groups)
+    remedies.lines(layout, context, [*map(Group, findings), *groups])
 
 
 def _verdict(layout: UILayout, text: str, icon: str, verdict: Verdict | None) -> None:

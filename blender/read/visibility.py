@@ -91,7 +91,7 @@ def metaball_families(view_layer) -> list[list]:
 
 def require_kind(obj) -> None:
     """Raise ReadError for an object of a kind that shows no surface."""
-    if has_shape(obj):
+    if obj.type in GEOMETRY_TYPES or obj.instance_type == "COLLECTION":
         return
     if obj.type == "EMPTY":
         raise ReadError(EMPTY_WITHOUT_INSTANCES, subject=obj.name)

@@ -96,8 +96,9 @@ def _mesh_key(obj: Object, measured: Measured) -> str:
     for solid, matrices in getattr(measured.body, "solids", ()):
         linear = to_frame.rotation @ matrices[:, :3, :3]
         places = matrices[:, :3, 3] @ to_frame.rotation.T + to_frame.position
-        reach = np.abs(linear).max() * np.abs(solid.given_surface.points).max()
-        steps = [np.round(one) + 0.0 for one in (linear / (SAME * np.abs(linear).max()), places / (SAME * reach))]
+        scale = np.abs(linear).max()
+        places = places / (scale * np.abs(solid.given_surface.points).max())
+        steps = [np.round(one / SAME) + 0.0 for one in (linear / scale, places, np.log(scale))]
         parts += [solid.given_surface.points, solid.given_surface.all_triangles()[0], *steps]
     if not parts:
         return str(obj.session_uid)

@@ -61,7 +61,7 @@ def report(operator: Operator, *parts: Finding | str, level: Severity = Severity
 
     level: the severity of the texts.
     """
-    worst = max(level, *map(_rank, parts), key=[*Severity].index)
+    worst = max([level, *map(_rank, parts)], key=[*Severity].index)
     operator.report({LEVELS[worst]}, text(*parts))
     return {"FINISHED"}
 

@@ -29,7 +29,7 @@ from ..modal import ModalSteps
 AS_SET = "AS_SET"
 
 
-class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
+class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator):
     """Compute the exact mass properties of the selected objects and store them as custom properties"""
 
     bl_idname = "object.body_moments_measure"
@@ -67,14 +67,11 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return bool(context.selected_objects) or reports.unavailable(cls, "Select objects")
-
     def _begin(self, context: bpy.types.Context) -> int:
         """Apply the settings of the redo panel and prepare the steps; return the number of selected objects."""
         copy_defaults(context.scene)
-        subjects = armatures.subjects(context.selected_objects)
+        if not (subjects := armatures.subjects(context.selected_objects)):
+            raise reports.Refused("Nothing selected can be measured")
         self._objects = objects = [obj for obj in subjects if has_shape(obj)] or subjects
         for obj in objects:
             self._change_settings(obj)
@@ -114,8 +111,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             live.character.store_rest(context, armature)
         refusals = {**self._refusals, **failed}
         self._failures = [reports.failure(obj.name_full, refusals[obj]) for obj in self._objects if obj in refusals]
-        count = len(self._results) - len(failed)
-        return self._report(count)
+        return self._report(len(self._results) - len(failed))
 
     def _report(self, count: int) -> set[str]:
         warnings = [
@@ -129,9 +125,8 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             text = "Measured {object}, with warnings" if warnings else "Measured {object}"
             done = [reports.phrase(text, object=self._results[0][0].name)]
         else:
-            done = (
-                [reports.phrase("Measured {count} of {total} objects", count=count, total=tried)] if tried > 1 else []
-            )
+            text = reports.phrase("Measured {count} of {total} objects", count=count, total=tried)
+            done = [text] if tried > 1 else []
             if warnings:
                 done.append(reports.phrase("{count} with warnings: {objects}", count=len(names), objects=names))
         level = Severity.WARNING if warnings else Severity.NOTE
@@ -198,16 +193,18 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
+        selected = context.view_layer.objects.selected  # of a posed armature also the meshes, which Measure measures
         objects = [
             obj
-            for obj in context.view_layer.objects.selected
+            for obj in dict.fromkeys((*selected, *armatures.subjects(selected)))
             if any(key in obj for key in (*properties.DESCRIPTIONS, write.section.KEY)) or stamps.of_symmetry(obj)
         ]
 
         def remove(obj: Object) -> bool:
             require_editable(obj)
             staleness.note_edits(obj)
-            removed = "MASS" in self.kinds and properties.clear(obj)
+            clear = session.stored.results.clear_rig if obj.type == "ARMATURE" else properties.clear
+            removed = "MASS" in self.kinds and clear(obj)
             removed |= "SECTION" in self.kinds and write.section.clear(obj)
             if "SYMMETRY" in self.kinds and stamps.of_symmetry(obj):
                 obj.property_unset("body_moments_symmetry")

@@ -151,7 +151,7 @@ class Shape:
                     axes, unique, factors = nearest_frame(alike, axes), len(alike.frames) == 1, ()
             pose = self._point_group()
         angle = alike.tilt if EQUAL_AXES[body.principal.symmetry] else body.axes_bound(MATRIX_STRAIN)
-        if alike.revolution_axes and not str(pose["symmetry"]).endswith(("K", "∞v", "∞h")):
+        if constant and alike.revolution_axes and not str(pose["symmetry"]).endswith(("K", "∞v", "∞h")):
             angle = np.pi  # noise hides the axes that the body has
         position = body.rounding_error["center"] + body.input_error["center"]
         unique = unique and max(angle, position / self.size) <= MAX_POSE_BOUND

@@ -113,13 +113,13 @@ class _Frame(NamedTuple):
 
     def enter(self, node: Node) -> _Frame:
         """Return the frame of an element `frame` in this one, or that of a `body`, scaled as this one."""
-        turn, position = _rotation(node.attributes, self.model)[0], numbers(node.get("pos"), 3, (0.0, 0.0, 0.0))
-        text = node.get("scale")
+        turn, values = _rotation(node.attributes, self.model)[0], node.attributes if node.tag == "frame" else {}
+        position, text = numbers(values.get("pos", ""), 3, (0.0, 0.0, 0.0)), values.get("scale", "")
         own = numbers(text, 3) if len(text.split()) > 1 else np.full(3, number(text, 1.0))
         if not ((own >= LEAST) & (own <= MOST)).all():
             raise ValueError(text)
         scale = self.scale_along(turn, text or node.get("name")) * own
-        mass = self.mass * number(node.get("massscale"), float(own.prod()))
+        mass = self.mass * number(values.get("massscale", ""), float(own.prod()))
         pose = Pose() if node.tag == "body" else self.place(position, turn)
         return self._replace(pose=pose, scale=scale, mass=mass, defaults=node.get("childclass") or self.defaults)
 

@@ -358,6 +358,8 @@ def test_mjcf_frames_place_and_scale_what_is_in_them(tmp_path):
         assert found.inertial.mass == mass and found.span is None
         assert near(np.diag(found.inertial.inertia), inertia, 1e-14)
     assert near(found.shapes[0].shape.size, (0.2, 0.8, 1.8), 1e-15) and found.inertial.center.tolist() == [0, 0, 1.5]
+    found = link(own + '<body name="d" pos="1" scale="2">{}</body>'.format(own + geom))  # no frame: it has no scale
+    assert found.inertial.mass == 2 and found.span is not None and not found.findings
     for wrong in ("<frame scale='0'>{}</frame>", "<frame scale='1 2 3'><frame euler='0 0 30'>{}</frame></frame>"):
         found = link(own + wrong.format(geom))
         assert [one.code for one in found.findings] == ["description_number"] and not found.shapes

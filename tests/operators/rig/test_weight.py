@@ -89,6 +89,8 @@ def test_measured_poses_have_the_mass_at_rest(scene):
         masses.append((displayed(rig, scene).world.mass, body["body_mass"]))
     assert masses[0][0] == masses[1][0] == pytest.approx(sum(bone.get("body_mass", 0.0) for bone in rig.pose.bones))
     assert masses[0][1] < 0.995 * masses[1][1] < masses[0][0]
+    assert bpy.ops.object.body_moments_clear() == {"FINISHED"}
+    assert not any("body_mass" in owner for owner in (rig, body, *rig.pose.bones))
 
 
 def test_balance_keys_the_bone_with_auto_keying(scene):
@@ -190,3 +192,13 @@ def test_override_is_measured_and_balanced(scene, tmp_path):
     assert "body_mass" not in rig
     assert BALANCE() == {"FINISHED"}
     assert np.abs((weight(rig).parts.center - weight(rig).support.target(None))[:2]).max() < 1e-4 * HEIGHT
+
+
+def test_posed_armature_without_meshes_is_refused(scene):
+    rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+    bpy.context.collection.objects.link(rig)
+    bpy.context.view_layer.objects.active = rig
+    rig.select_set(True)
+    bpy.ops.object.mode_set(mode="POSE")
+    with pytest.raises(RuntimeError, match="Nothing selected can be measured"):
+        bpy.ops.object.body_moments_measure()
