@@ -174,7 +174,7 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
         first, last = (scene.frame_start, scene.frame_end) if self.use_scene_range else own
         frames = range(first, last + 1, self.frame_step)
         self._group = session.BalanceGroup(context, self.collection, self.contacts, self.ground, self.reach)
-        self._steps = self._group.follow(context.scene, frames)
+        self._steps = self._group.follow(scene, frames)
         return len(frames)
 
     def _finish(self, context: Context) -> set[str]:

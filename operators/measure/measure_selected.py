@@ -193,7 +193,7 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
-        selected = context.view_layer.objects.selected  # of a posed armature also the meshes, which Measure measures
+        selected = context.view_layer.objects.selected  # Measure stored results on the meshes of a posed armature, too
         objects = [
             obj
             for obj in dict.fromkeys((*selected, *armatures.subjects(selected)))

@@ -156,6 +156,10 @@ def test_axes_hidden_by_coarse_coordinates_have_no_bound():
     mesh.from_pydata((points + 200.0).tolist(), [], faces.tolist())
     pose = shape(add(mesh)).pose()
     assert (pose["symmetry"], pose["unique"], pose["angle_bound"]) == ("I", False, np.pi)
+    bpy.ops.mesh.primitive_cylinder_add(vertices=32)
+    settings = bpy.context.object.body_moments
+    settings.density_from, settings.density_polynomial = "POLYNOMIAL", "1000 + 100*z"
+    assert shape(bpy.context.object).pose()["angle_bound"] < 1e-3  # its axis is known
 
 
 @pytest.mark.parametrize("corners", range(3, 10))

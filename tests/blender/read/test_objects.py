@@ -196,6 +196,9 @@ def test_an_empty_without_instances_is_refused():
     assert not measurable(obj)
     obj.instance_type, obj.instance_collection = "COLLECTION", collection("Hollow")
     assert refused(obj, "empty_without_instances")
+    point = link("Point")
+    point.body_moments.mass_from, point.body_moments.mass = "MASS", 2.0
+    assert refused(point, "empty_without_instances")
 
 
 def test_objects_without_faces_are_refused_with_their_content():

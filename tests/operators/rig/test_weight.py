@@ -8,6 +8,7 @@ import pytest
 
 from tests.blender.figure import figure
 from tests.blender.session.test_character import HEIGHT, boxes, weight
+from tests.panels.drawing import shown
 
 SHOW, BALANCE = bpy.ops.pose.body_moments_show_weight, bpy.ops.pose.body_moments_balance_pose
 FREE = ("spine", "head", "arm.L", "arm.R", "forearm.L")
@@ -89,6 +90,12 @@ def test_measured_poses_have_the_mass_at_rest(scene):
         masses.append((displayed(rig, scene).world.mass, body["body_mass"]))
     assert masses[0][0] == masses[1][0] == pytest.approx(sum(bone.get("body_mass", 0.0) for bone in rig.pose.bones))
     assert masses[0][1] < 0.995 * masses[1][1] < masses[0][0]
+    body.body_moments.density = 500.0
+    bpy.context.view_layer.update()
+    assert "Out of date" in str(shown())  # the panel gives the reason for its verdict
+    body.body_moments.property_unset("density")
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"} and displayed(rig, scene).verdict == "doubtful"
+    assert "density" in str(shown(without=["weight", "bones", "density"])).lower()
     assert bpy.ops.object.body_moments_clear() == {"FINISHED"}
     assert not any("body_mass" in owner for owner in (rig, body, *rig.pose.bones))
 
