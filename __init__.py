@@ -15,7 +15,9 @@ def __getattr__(name: str) -> Any:
     """Return `describe`, which needs Blender, or a public name of the core."""
     if name == "describe":
         return import_module(__name__ + ".blender.session.describe").describe
-    is_alone = "__path__" not in globals()  # pytest loads this file alone if the folder's name is no identifier
+    is_alone = (
+        "__path__" not in globals()
+    )  # pytest loads this file alone if the folder's name is no identifier
     core = None if name.startswith("_") or is_alone else import_module(__name__ + ".core")
     if core is None or name not in core.__all__:
         raise AttributeError("module {!r} has no attribute {!r}".format(__name__, name))
@@ -24,7 +26,13 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     """Return the public names of the package."""
-    return [*import_module(__name__ + ".core").__all__, "core", "describe", "register", "unregister"]
+    return [
+        *import_module(__name__ + ".core").__all__,
+        "core",
+        "describe",
+        "register",
+        "unregister",
+    ]
 
 
 def register() -> None:

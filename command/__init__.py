@@ -12,4 +12,6 @@ if TYPE_CHECKING:
     from .results import gather as gather
     from .results import similar as similar
 
-__getattr__, __dir__, __all__ = lazy_names(__name__, gather="results.gather", similar="results.similar")
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__, gather="results.gather", similar="results.similar"
+)

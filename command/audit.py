@@ -56,22 +56,63 @@ def parse(argv: list[str]) -> argparse.Namespace:
     for name, told in (("--package-path", where), ("--root", argparse.SUPPRESS)):
         add(name, dest="root", action="append", type=Path, default=[], metavar="FOLDER", help=told)
     add("--allow-outside", action="store_true", help="meshes may be anywhere (refused)")
-    add("--repair", type=Path, metavar="FOLDER", help="write repaired copies there, of what has a repair")
+    add(
+        "--repair",
+        type=Path,
+        metavar="FOLDER",
+        help="write repaired copies there, of what has a repair",
+    )
     formats = "{" + ",".join(audit_report.FORMATS) + "}"
-    add("--format", choices=tuple(audit_report.FORMATS), default="json", metavar=formats, help="(json)")
+    add(
+        "--format",
+        choices=tuple(audit_report.FORMATS),
+        default="json",
+        metavar=formats,
+        help="(json)",
+    )
     add("--output", type=Path, metavar="PATH", help="(standard output)")
     levels = tuple(audit_gate.FAILING)
     metavar = "{" + ",".join(levels) + "}"
     add(
-        "--fail-on", choices=levels, default="warning", metavar=metavar, help="findings that give exit code 1 (warning)"
+        "--fail-on",
+        choices=levels,
+        default="warning",
+        metavar=metavar,
+        help="findings that give exit code 1 (warning)",
     )
-    add("--ignore", action="append", default=[], metavar="CODE", help="leave out findings of this code; repeatable")
+    add(
+        "--ignore",
+        action="append",
+        default=[],
+        metavar="CODE",
+        help="leave out findings of this code; repeatable",
+    )
     add("--light-links", type=option_types.positive, default=0.0, metavar="KG",
         help="findings of links of this mass or less are notes (0)")  # fmt: skip
-    add("--baseline", type=Path, metavar="FILE", help="only findings that are not in this file count")
-    add("--write-baseline", type=Path, metavar="FILE", help="write the present findings, for --baseline")
-    add("--jobs", type=option_types.count, default=1, metavar="N", help="files that are audited at a time (1)")
-    add("--force", action="store_true", help="replace any file at --output and in --repair (only results)")
+    add(
+        "--baseline",
+        type=Path,
+        metavar="FILE",
+        help="only findings that are not in this file count",
+    )
+    add(
+        "--write-baseline",
+        type=Path,
+        metavar="FILE",
+        help="write the present findings, for --baseline",
+    )
+    add(
+        "--jobs",
+        type=option_types.count,
+        default=1,
+        metavar="N",
+        help="files that are audited at a time (1)",
+    )
+    add(
+        "--force",
+        action="store_true",
+        help="replace any file at --output and in --repair (only results)",
+    )
     options = parser.parse_intermixed_args(argv)
     unknown = audit_gate.unknown_codes(options.ignore)
     if unknown:
@@ -79,7 +120,9 @@ def parse(argv: list[str]) -> argparse.Namespace:
     options.names = dict(_find_files(options.files))
     options.root = [*options.root, *(path for path in options.files if path.is_dir())]
     if not options.names:
-        parser.error("there is no robot description in {}".format(", ".join(map(str, options.files))))
+        parser.error(
+            "there is no robot description in {}".format(", ".join(map(str, options.files)))
+        )
     options.known = None
     if options.baseline is not None:
         try:
@@ -97,9 +140,15 @@ def _check_repair(options: argparse.Namespace, parser: Parser) -> None:
         parser.error("--repair: {} is no folder".format(options.repair))
     here = os.path.realpath(options.repair)
     if any(os.path.realpath(path.parent) == here for path in options.names):
-        parser.error("--repair: {} is the folder of a file that is read. Choose another one".format(options.repair))
+        parser.error(
+            "--repair: {} is the folder of a file that is read. Choose another one".format(
+                options.repair
+            )
+        )
     if len({*options.names.values()}) < len(options.names):
-        parser.error("--repair: two files have one name. Audit them one at a time, or choose other folders")
+        parser.error(
+            "--repair: two files have one name. Audit them one at a time, or choose other folders"
+        )
 
 
 def _find_files(paths: list[Path]) -> Iterator[tuple[Path, Path]]:
@@ -118,20 +167,26 @@ def _find_files(paths: list[Path]) -> Iterator[tuple[Path, Path]]:
 
 def answer(options: argparse.Namespace) -> tuple[list[str], int]:
     """Return the report, and the exit code: 1 after findings or unread files, 70 after an internal error."""
-    documents, internal = [], False
+    documents = []
+    internal = False
     listed = {path for path in options.files if not path.is_dir()}
     progress = Progress(len(options.names))
     for path, document in zip(options.names, _documents(options)):
         codes = {reason["code"] for reason in document["errors"]}
         internal |= internal_error.CODE in codes
-        if path not in listed and codes & (OTHER_FILES if path.suffix == ".xml" else OTHER_FILES - {XML_ENTITIES}):
+        if path not in listed and codes & (
+            OTHER_FILES if path.suffix == ".xml" else OTHER_FILES - {XML_ENTITIES}
+        ):
             continue  # A folder holds other files of these types, too.
         documents.append(document)
         for reason in document["errors"]:
             print_message(path, reason["message"])
         if not document["errors"]:
             counts = audit_report.count_findings(document)
-            print_message(path, ", ".join(counted(count, name.removesuffix("s")) for name, count in counts.items()))
+            print_message(
+                path,
+                ", ".join(counted(count, name.removesuffix("s")) for name, count in counts.items()),
+            )
         progress.count_file(document["status"])
         progress.show()
     progress.finish()
@@ -170,7 +225,8 @@ def _audit_file(task: tuple[Path, Path, argparse.Namespace]) -> dict[str, Any]:
 
 
 def _write_copy(name: Path, audit: Audit, options: argparse.Namespace) -> str | None:
-    repairs, folder = audit.repairs(), options.repair
+    repairs = audit.repairs()
+    folder = options.repair
     if folder is None or not repairs:
         return None
     target = folder / name

@@ -36,7 +36,9 @@ def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
     """Return the document of a file after `--ignore`, `--light-links` and `--baseline`."""
     links = []
     for link in document["links"]:
-        is_light = options.light_links and link["mass"] is not None and link["mass"] <= options.light_links
+        is_light = (
+            options.light_links and link["mass"] is not None and link["mass"] <= options.light_links
+        )
         findings = []
         for found in link["findings"]:
             if found["code"] in options.ignore:
@@ -53,7 +55,10 @@ def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
 def fails(documents: Iterable[dict[str, Any]], level: str) -> bool:
     """Return whether a file could not be read, or has a finding of this level or above that is not known."""
     counted = [str(severity) + "s" for severity in FAILING[level]]
-    return any(one["errors"] or any(audit_report.count_findings(one)[name] for name in counted) for one in documents)
+    return any(
+        one["errors"] or any(audit_report.count_findings(one)[name] for name in counted)
+        for one in documents
+    )
 
 
 def read_baseline(path: Path) -> set[Key]:
@@ -70,8 +75,16 @@ def read_baseline(path: Path) -> set[Key]:
 def write_baseline(path: Path, documents: Sequence[dict[str, Any]]) -> None:
     """Write all findings but notes, with files relative to the baseline's folder. Raises OSError."""
     links = [link for one in documents for link in one["links"]]
-    told = [(found, link) for link in links for found in link["findings"] if found["severity"] != Severity.NOTE]
-    findings = [dict(zip(("file", "link", "code"), key)) for key in sorted({_key(*one, path) for one in told})]
+    told = [
+        (found, link)
+        for link in links
+        for found in link["findings"]
+        if found["severity"] != Severity.NOTE
+    ]
+    findings = [
+        dict(zip(("file", "link", "code"), key))
+        for key in sorted({_key(*one, path) for one in told})
+    ]
     text = json.dumps({"schema": SCHEMA, "findings": findings}, ensure_ascii=False, indent=1)
     with whole_file(path) as file:
         file.write((text + "\n").encode("utf-8", "backslashreplace"))

@@ -10,10 +10,12 @@ SOLID_OPERAND_MEASURED = warning(
     "off its rendering, if it is no part.",
 )
 SIGNATURE_OF_DISPLAY_MESH = warning(
-    "signature_of_display_mesh", "The signature is that of the display mesh. Raise Resolution Preview for accuracy."
+    "signature_of_display_mesh",
+    "The signature is that of the display mesh. Raise Resolution Preview for accuracy.",
 )
 FOURIER_OBJECT_COUNT = error(
-    "fourier_object_count", "--fourier needs one object that is no array, and there are {count}. Use --object."
+    "fourier_object_count",
+    "--fourier needs one object that is no array, and there are {count}. Use --object.",
 )
 NO_MEASURABLE_OBJECT = error(
     "no_measurable_object", "Nothing was measured: there is no object with a surface or volume."
@@ -34,7 +36,8 @@ USD_CAGE = warning(
     "subdivided, or with the subdivisionScheme “none”.",
 )
 USD_UNREAD = error(
-    "usd_unread", "Blender does not import these shapes of the USD file: {names}. Export them as meshes."
+    "usd_unread",
+    "Blender does not import these shapes of the USD file: {names}. Export them as meshes.",
 )
 DRIVER_BLOCKED = warning(
     "driver_blocked",
@@ -42,7 +45,8 @@ DRIVER_BLOCKED = warning(
     "with simple expressions.",
 )
 SCRIPT_BLOCKED = note(
-    "script_blocked", "A script in the file did not run, as the scripts of files are disabled: {script}."
+    "script_blocked",
+    "A script in the file did not run, as the scripts of files are disabled: {script}.",
 )
 SCRIPTS_ALLOWED = warning(
     "scripts_allowed",
@@ -61,14 +65,19 @@ ASSETS_NOT_MEASURED = warning(
 )
 PART_UNAVAILABLE = error("part_unavailable", "No {part}: {cause}")
 OPTIONS_UNUSED = warning(
-    "options_unused", "Options that do not apply to this body, or to how its file is read, were not used: {options}."
+    "options_unused",
+    "Options that do not apply to this body, or to how its file is read, were not used: {options}.",
 )
 STREAM_OPTIONS = error(
-    "stream_options", "A mesh that is read in blocks cannot be measured with {options}. Use --stream never."
+    "stream_options",
+    "A mesh that is read in blocks cannot be measured with {options}. Use --stream never.",
 )
-UNIT_ASSUMED = warning("unit_assumed", "The file has no unit: 1 unit was taken as 1 m. Use --unit-scale.")
+UNIT_ASSUMED = warning(
+    "unit_assumed", "The file has no unit: 1 unit was taken as 1 m. Use --unit-scale."
+)
 RESULTS_NEED_BLEND = error(
-    "results_need_blend", "Results can only be stored in a .blend file that was saved before; --write did nothing."
+    "results_need_blend",
+    "Results can only be stored in a .blend file that was saved before; --write did nothing.",
 )
 FILE_CRASHED = error(
     "file_crashed",

@@ -55,12 +55,19 @@ def check_interruption() -> None:
 class Progress:
     """A counter of the "samples" or "faces" read from a file, reported with the file's name every `PERIOD` seconds."""
 
-    def __init__(self, file: str, what: str, report: Callable[[str, str], None] = print_message) -> None:
-        self._file, self._what, self._report = file, what, report
-        self._count, self._due = 0, time.monotonic() + PERIOD
+    def __init__(
+        self, file: str, what: str, report: Callable[[str, str], None] = print_message
+    ) -> None:
+        self._file = file
+        self._what = what
+        self._report = report
+        self._count = 0
+        self._due = time.monotonic() + PERIOD
 
     def __call__(self, count: int) -> None:
         self._count += count
         if time.monotonic() >= self._due:
             self._due = time.monotonic() + PERIOD
-            self._report(self._file, "{:.3g} {} read. Ctrl+C ends it".format(self._count, self._what))
+            self._report(
+                self._file, "{:.3g} {} read. Ctrl+C ends it".format(self._count, self._what)
+            )

@@ -27,7 +27,16 @@ COMMANDS = {
 def list_commands() -> str:
     """Return the help without a command: all commands, one line each."""
     lines = ["  {:<9} {}".format(*command) for command in COMMANDS.items()]
-    return "\n".join(["usage: body_moments COMMAND [options] …", "", *lines, "", "COMMAND --help explains one.", ""])
+    return "\n".join(
+        [
+            "usage: body_moments COMMAND [options] …",
+            "",
+            *lines,
+            "",
+            "COMMAND --help explains one.",
+            "",
+        ]
+    )
 
 
 class UsageError(Exception):
@@ -45,7 +54,9 @@ class Parser(argparse.ArgumentParser):
         """Add an option without a value, and its help."""
         self.add_argument(name, action="store_true", help=text)
 
-    def value(self, name: str, kind: Callable[[str], Any], metavar: str, text: str, **more: Any) -> None:
+    def value(
+        self, name: str, kind: Callable[[str], Any], metavar: str, text: str, **more: Any
+    ) -> None:
         """Add an option with a value of a kind, the value's name, and its help."""
         self.add_argument(name, type=kind, metavar=metavar, help=text, **more)
 

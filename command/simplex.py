@@ -71,10 +71,14 @@ def _measure(options: argparse.Namespace) -> dict[str, Any]:
     points, simplices, signs = _read(options.file)
     dimension = points.shape[1]
     if comb(dimension + options.order, dimension) > MAX_MOMENTS:
-        raise UsageError("These are more than {} moments. Choose a lower --order".format(MAX_MOMENTS))
+        raise UsageError(
+            "These are more than {} moments. Choose a lower --order".format(MAX_MOMENTS)
+        )
     about = np.zeros(dimension) if options.about is None else np.array(options.about)
     if len(about) != dimension:
-        raise UsageError("--about has {} coordinates, and the points {}".format(len(about), dimension))
+        raise UsageError(
+            "--about has {} coordinates, and the points {}".format(len(about), dimension)
+        )
     facets = simplices
     if simplices.shape[1] == dimension + 1:
         facets, turned = facets_of(points, simplices)
@@ -91,7 +95,9 @@ def _measure(options: argparse.Namespace) -> dict[str, Any]:
         "closed": is_closed,
         "order": options.order,
         "about": about.tolist(),
-        **_as_record(enclosed_moments(points, facets, options.order, about, signs, allow_open=True)),
+        **_as_record(
+            enclosed_moments(points, facets, options.order, about, signs, allow_open=True)
+        ),
         **described(findings),
     }
     if options.boundary:
@@ -105,7 +111,9 @@ def _point(text: str) -> list[float]:
 
 
 def _as_record(moments: SimplexMoments) -> dict[str, dict[str, float]]:
-    keys = [",".join(map(str, row)) for row in multi_indices(len(moments.about), moments.order).tolist()]
+    keys = [
+        ",".join(map(str, row)) for row in multi_indices(len(moments.about), moments.order).tolist()
+    ]
     return {
         "moments": dict(zip(keys, moments.raw.tolist())),
         "error": dict(zip(keys, moments.rounding_error.tolist())),
@@ -116,13 +124,31 @@ def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray
     arrays = read_arrays(path, ("points", "simplices", "signs"), scan_limits())
     if not {"points", "simplices"} <= arrays.keys():
         raise UsageError("The file is no .npz archive with the arrays “points” and “simplices”")
-    points, simplices, signs = arrays["points"], arrays["simplices"], arrays.get("signs")
+    points = arrays["points"]
+    simplices = arrays["simplices"]
+    signs = arrays.get("signs")
     dimension = points.shape[1] if points.ndim == 2 else 0
-    if points.dtype.kind not in "iuf" or not 1 <= dimension <= MAX_DIMENSION or not np.isfinite(points).all():
-        raise UsageError("“points” must be rows of 1 to {} finite coordinates".format(MAX_DIMENSION))
-    is_table = simplices.ndim == 2 and simplices.dtype.kind in "iu" and simplices.shape[1] in (dimension, dimension + 1)
+    if (
+        points.dtype.kind not in "iuf"
+        or not 1 <= dimension <= MAX_DIMENSION
+        or not np.isfinite(points).all()
+    ):
+        raise UsageError(
+            "“points” must be rows of 1 to {} finite coordinates".format(MAX_DIMENSION)
+        )
+    is_table = (
+        simplices.ndim == 2
+        and simplices.dtype.kind in "iu"
+        and simplices.shape[1] in (dimension, dimension + 1)
+    )
     if not is_table or not len(simplices) or simplices.min() < 0 or simplices.max() >= len(points):
-        raise UsageError("“simplices” must be rows of {} or one more numbers of points, from 0 on".format(dimension))
-    if signs is not None and (signs.shape != (len(simplices),) or not np.isin(signs, (-1, 1)).all()):
+        raise UsageError(
+            "“simplices” must be rows of {} or one more numbers of points, from 0 on".format(
+                dimension
+            )
+        )
+    if signs is not None and (
+        signs.shape != (len(simplices),) or not np.isin(signs, (-1, 1)).all()
+    ):
         raise UsageError("“signs” must be 1 or -1 for each of the simplices")
     return points.astype(np.float64), simplices.astype(np.int64), signs

@@ -9,7 +9,9 @@ from types import ModuleType
 from typing import Any
 
 
-def lazy_names(package: str, **modules: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
+def lazy_names(
+    package: str, **modules: str
+) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
     """Return `__getattr__`, `__dir__` and `__all__` of a package. modules: the module of each public name."""
     names = sorted(modules)
 

@@ -6,7 +6,10 @@
 MODULES = (
     *("setup." + name for name in ("presets", "remedies", "rigid_bodies", "colliders")),
     *("imports", "assembly"),
-    *("measure." + name for name in ("measure_selected", "moments", "select_faults", "copy", "library", "fourier")),
+    *(
+        "measure." + name
+        for name in ("measure_selected", "moments", "select_faults", "copy", "library", "fourier")
+    ),
     *("snap.frames", "snap.sculpt_balance"),
     "statics",
     *("export." + name for name in ("robot", "audit")),

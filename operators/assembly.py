@@ -36,7 +36,11 @@ TARGET = EnumProperty(
     items=(
         ("COLLECTION", "Collection", "The active collection with its nested collections"),
         ("OBJECT", "Empty", "The active empty with its children"),
-        ("OF_OBJECT", "Collection of Object", "The collection of the active object, or the empty itself"),
+        (
+            "OF_OBJECT",
+            "Collection of Object",
+            "The collection of the active object, or the empty itself",
+        ),
     ),
 )
 
@@ -112,7 +116,11 @@ class OBJECT_OT_body_moments_clear_assembly(Operator):
 def report_cleared(operator: Operator, context: Context, is_cleared: bool) -> set[str]:
     """Report that results were removed, or that there were none; return the result of `execute`."""
     texts = ("Removed the results of {count} object", "Removed the results of {count} objects")
-    done = reports.phrase(*texts, count=1) if is_cleared else reports.phrase("The selected objects have no results")
+    done = (
+        reports.phrase(*texts, count=1)
+        if is_cleared
+        else reports.phrase("The selected objects have no results")
+    )
     selection.report(operator, done)
     return {"FINISHED"} if is_cleared else {"CANCELLED"}
 
@@ -144,14 +152,19 @@ class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
     bl_idname = "view3d.body_moments_cursor_to_assembly"
     bl_label = "Cursor to Center of Assembly"
 
-    rotate: BoolProperty(name="Rotate to Principal Axes", description="Align the 3D cursor with the principal axes")
+    rotate: BoolProperty(
+        name="Rotate to Principal Axes", description="Align the 3D cursor with the principal axes"
+    )
 
     def _place(self, context: Context, assembly: "Assembly", center: list[float]) -> str:
         context.scene.cursor.location = center
         if self.rotate:
-            turn_cursor(context.scene.cursor, assembly.measurement.mass_properties.principal.axes.tolist())
+            turn_cursor(
+                context.scene.cursor, assembly.measurement.mass_properties.principal.axes.tolist()
+            )
         return reports.phrase(
-            "Moved the 3D cursor to the center of mass of “{assembly}”", assembly=assembly.measurement.name
+            "Moved the 3D cursor to the center of mass of “{assembly}”",
+            assembly=assembly.measurement.name,
         )
 
 
@@ -162,12 +175,17 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
     bl_label = "Add Empty at Assembly"
 
     def _place(self, context: Context, assembly: "Assembly", center: list[float]) -> str:
-        root, body = assembly.root.member.data, assembly.measurement.mass_properties
-        owner = context.scene if root == context.scene.collection else root  # nothing else can point to it
+        root = assembly.root.member.data
+        body = assembly.measurement.mass_properties
+        owner = (
+            context.scene if root == context.scene.collection else root
+        )  # nothing else can point to it
         empty = next((obj for obj in context.scene.objects if obj.get(FRAME_OF) == owner), None)
         if empty is None:
             empty = bpy.data.objects.new("{:s} Principal Frame".format(root.name), None)
-            empty.empty_display_type, empty.show_in_front, empty.rotation_mode = "ARROWS", True, "QUATERNION"
+            empty.empty_display_type = "ARROWS"
+            empty.show_in_front = True
+            empty.rotation_mode = "QUATERNION"
             empty[FRAME_OF] = owner
             context.scene.collection.objects.link(empty)
         require_editable(empty)
@@ -176,7 +194,9 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
         frame = Matrix(body.principal.axes.tolist()).to_4x4()
         frame.translation = center
         empty.matrix_world = frame
-        return reports.phrase("Placed an empty at the principal frame of “{assembly}”", assembly=root.name)
+        return reports.phrase(
+            "Placed an empty at the principal frame of “{assembly}”", assembly=root.name
+        )
 
 
 class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
@@ -194,11 +214,15 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
         if isinstance(root, bpy.types.Collection):
             require_editable(root)
             root.instance_offset = center
-            return reports.phrase("Instances of “{assembly}” are placed by its center of mass", assembly=root.name)
+            return reports.phrase(
+                "Instances of “{assembly}” are placed by its center of mass", assembly=root.name
+            )
         scene.move_parent(context, root, center)
         if properties.is_stored(root):
             stored.assembly.store(context, measured_assembly(context, "OBJECT"))
-        return reports.phrase("Moved “{assembly}” to the center of mass; its children stay", assembly=root.name)
+        return reports.phrase(
+            "Moved “{assembly}” to the center of mass; its children stay", assembly=root.name
+        )
 
 
 class OBJECT_OT_body_moments_export_bill(Operator):
@@ -227,7 +251,10 @@ class OBJECT_OT_body_moments_export_bill(Operator):
         path = Path(bpy.path.abspath(self.filepath))
         lines = session.bill_csv(assembly.root, assembly.measurement.mass_properties.mass)
         selection.write_file(path, lines)
-        texts = ("Wrote the masses of {count} member to “{file}”", "Wrote the masses of {count} members to “{file}”")
+        texts = (
+            "Wrote the masses of {count} member to “{file}”",
+            "Wrote the masses of {count} members to “{file}”",
+        )
         return selection.report(self, reports.phrase(*texts, count=len(lines) - 2, file=path.name))
 
 

@@ -29,7 +29,11 @@ if TYPE_CHECKING:
     from importlib.machinery import ModuleSpec
 
 PACKAGE = "body_moments"  # the add-on's name when this file is run as a script
-ALL_MEASURED, SOME_FAILED, WRONG_USAGE, INTERRUPTED, INTERNAL_ERROR = 0, 1, 2, 3, 70
+ALL_MEASURED = 0
+SOME_FAILED = 1
+WRONG_USAGE = 2
+INTERRUPTED = 3
+INTERNAL_ERROR = 70
 
 _command = None
 
@@ -69,7 +73,11 @@ def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
             return _serve(channel)
         if word in ("-h", "--help"):
             raise HelpRequested(list_commands())
-        return _print(word, argv, channel) if word in _PRINTING else _measure(argv, channel, file_needed)
+        return (
+            _print(word, argv, channel)
+            if word in _PRINTING
+            else _measure(argv, channel, file_needed)
+        )
     except HelpRequested as asked:
         return ALL_MEASURED if output.write_result(asked.args, None, channel) else SOME_FAILED
     except (UsageError, MeasureError) as error:
@@ -146,7 +154,9 @@ def _print(word: str, argv: list[str], channel: int) -> int:
 
 # The modules of `command`, each with `parse` and `answer`, which returns the text in pieces and the exit code.
 _PRINTING = {word: word for word in ("similar", "audit", "simplex")}
-_PRINTING |= dict.fromkeys(("manifest", "merge", "to-csv", "summary", "compare", "report"), "gather")
+_PRINTING |= dict.fromkeys(
+    ("manifest", "merge", "to-csv", "summary", "compare", "report"), "gather"
+)
 
 
 def _load_settings() -> None:

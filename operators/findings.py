@@ -5,17 +5,25 @@
 from ..core.verdict.finding import error, warning
 
 NO_ACTIVE_ASSEMBLY = error(
-    "no_active_assembly", "There is no assembly. Click a collection in the Outliner, or select an empty with children."
+    "no_active_assembly",
+    "There is no assembly. Click a collection in the Outliner, or select an empty with children.",
 )
 
-ROBOT_NAMES_ALIKE = error("robot_names_alike", "Blender gives {names} one name in USD. Rename one of them.")
-ROBOT_GEOMETRY_NOT_WRITTEN = error("robot_geometry_not_written", "Blender's exporter failed: {error}.")
-PRIMITIVE_HAS_PARENT = error("primitive_has_parent", "It has a parent, or is linked. Clear the parent to simulate it.")
+ROBOT_NAMES_ALIKE = error(
+    "robot_names_alike", "Blender gives {names} one name in USD. Rename one of them."
+)
+ROBOT_GEOMETRY_NOT_WRITTEN = error(
+    "robot_geometry_not_written", "Blender's exporter failed: {error}."
+)
+PRIMITIVE_HAS_PARENT = error(
+    "primitive_has_parent", "It has a parent, or is linked. Clear the parent to simulate it."
+)
 FILE_EXISTS = error("file_exists", "The file “{file}” exists. Turn on Overwrite.")
 
 OBJECT_WARNINGS = warning("object_warnings", "{object}: {causes}")
 FLAT_AND_BODY = error(
-    "flat_and_body", "A flat shape and a body cannot match. Select objects of one kind, or set Kind to Shell."
+    "flat_and_body",
+    "A flat shape and a body cannot match. Select objects of one kind, or set Kind to Shell.",
 )
 POSE_NOT_A_COPY = warning(
     "pose_not_a_copy",

@@ -122,11 +122,17 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
             low = scene.write_volume(module, placed, unit)
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
             raise FileError(
-                FILE_NOT_WRITTEN, file=target.name, error=getattr(error, "strerror", None) or str(error)
+                FILE_NOT_WRITTEN,
+                file=target.name,
+                error=getattr(error, "strerror", None) or str(error),
             ) from error
         obj = scene.add_volume(context, placed)
         samples = list(placed.scan.samples.shape)
-        texts = [reports.phrase("Imported {samples:size} samples as “{file}”", samples=samples, file=target.name)]
+        texts = [
+            reports.phrase(
+                "Imported {samples:size} samples as “{file}”", samples=samples, file=target.name
+            )
+        ]
         if files:
             text = (
                 "Blender draws samples evenly. They are measured where they stand; the ends along {axes} are in their "
@@ -135,7 +141,9 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
             texts.append(reports.phrase(text, axes=sorted(files)))
         if low < 0.0:
             obj.body_moments.values_from = "TABLE"
-            texts.append(reports.phrase("Negative values are taken as CT numbers, by the transfer table."))
+            texts.append(
+                reports.phrase("Negative values are taken as CT numbers, by the transfer table.")
+            )
         return [*texts, *placed.findings]
 
 

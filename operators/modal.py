@@ -99,7 +99,9 @@ class ModalSteps:
 class ModalDialog(ModalSteps):
     """Base of operators that work in steps after a dialog of their properties."""
 
-    _is_interactive = False  # its dialog has just been confirmed; False in a script, and from the redo panel
+    _is_interactive = (
+        False  # its dialog has just been confirmed; False in a script, and from the redo panel
+    )
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         if context.window is None:
@@ -110,5 +112,6 @@ class ModalDialog(ModalSteps):
     def execute(self, context: Context) -> set[str]:
         copy_defaults(context.scene)
         # The redo panel executes this instance again, which must not become modal.
-        in_window, self._is_interactive = self._is_interactive, False
+        in_window = self._is_interactive
+        self._is_interactive = False
         return reporting(self, self._run, context, in_window)

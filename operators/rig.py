@@ -28,7 +28,9 @@ class OnArmature:
     @classmethod
     def poll(cls, context: Context) -> bool:
         is_armature = context.object is not None and context.object.type == "ARMATURE"
-        return is_armature or reports.unavailable(cls, "The active object is not an armature. Select one.")
+        return is_armature or reports.unavailable(
+            cls, "The active object is not an armature. Select one."
+        )
 
 
 class InPoseMode:
@@ -90,8 +92,12 @@ class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
         rig = bodies.measure_rig(context, read.rig.require_armature(context.object))
         with tracking_paused():
             count, joints = scene.create_physics_rig(context, rig)
-        missing = [found for found in rig.measurement.findings if found.code == BONE_PARTS_IMPOSSIBLE]
-        done = reports.phrase("Rigid bodies created: {count}, joints: {joints}", count=count, joints=joints)
+        missing = [
+            found for found in rig.measurement.findings if found.code == BONE_PARTS_IMPOSSIBLE
+        ]
+        done = reports.phrase(
+            "Rigid bodies created: {count}, joints: {joints}", count=count, joints=joints
+        )
         return selection.report(self, done, *missing)
 
 
@@ -122,13 +128,19 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        armatures = [obj for obj in context.selected_objects if stands_for_meshes(obj)] or [context.object]
+        armatures = [obj for obj in context.selected_objects if stands_for_meshes(obj)] or [
+            context.object
+        ]
         shown = not context.object.body_moments_weight.show
-        rigs = list(filter(None, [live.character.prepare(context, armature) for armature in armatures]))
+        rigs = list(
+            filter(None, [live.character.prepare(context, armature) for armature in armatures])
+        )
         shown = shown or bool(rigs)  # numbers that were out of date are shown anew
         for armature in armatures:
             armature.body_moments_weight.show = shown
-        findings = of_severity([found for rig in rigs for found in rig.measurement.findings], *NOTABLE)
+        findings = of_severity(
+            [found for rig in rigs for found in rig.measurement.findings], *NOTABLE
+        )
         names = ", ".join(armature.name for armature in armatures)
         text = "Showing the weight of {names}" if shown else "Hid the weight of {names}"
         return selection.report(self, reports.phrase(text, names=names), *reports.first(findings))
@@ -154,7 +166,11 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
         default="MIDDLE",
     )
     margin: FloatProperty(
-        name="Margin", description="Distance from the edge of the support polygon", default=0.05, min=0.0, unit="LENGTH"
+        name="Margin",
+        description="Distance from the edge of the support polygon",
+        default=0.05,
+        min=0.0,
+        unit="LENGTH",
     )
 
     @selection.report_refusals

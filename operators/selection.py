@@ -24,7 +24,9 @@ from ..blender.write.findings import FILE_NOT_WRITTEN
 from ..core.verdict.finding import FileError, Finding, MeasureError, Severity, system_reason
 
 NO_FILE = "No file is named. Choose one."
-MAX_OBJECTS_WITHOUT_REDRAW = 4  # limit of objects that are measured before the window is drawn again
+MAX_OBJECTS_WITHOUT_REDRAW = (
+    4  # limit of objects that are measured before the window is drawn again
+)
 
 
 def selected_measurable(context: Context) -> list[Object]:
@@ -33,7 +35,9 @@ def selected_measurable(context: Context) -> list[Object]:
     Works in background too. A scene that is used for the first time gets its defaults.
     """
     copy_defaults(context.scene)
-    objects = [obj for obj in armatures.subjects(context.view_layer.objects.selected) if measurable(obj)]
+    objects = [
+        obj for obj in armatures.subjects(context.view_layer.objects.selected) if measurable(obj)
+    ]
     return sorted(objects, key=lambda obj: len([*ancestors(obj)]))
 
 
@@ -59,7 +63,9 @@ class OnSelection:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return bool(context.view_layer.objects.selected) or reports.unavailable(cls, "Select objects")
+        return bool(context.view_layer.objects.selected) or reports.unavailable(
+            cls, "Select objects"
+        )
 
 
 class OnSelectionInObjectMode(OnSelection):
@@ -102,7 +108,9 @@ def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: A
     return {"CANCELLED"}
 
 
-def report_refusals(execute: Callable[[Operator, Context], set[str]]) -> Callable[[Operator, Context], set[str]]:
+def report_refusals(
+    execute: Callable[[Operator, Context], set[str]],
+) -> Callable[[Operator, Context], set[str]]:
     """Decorate `execute`: a refusal is reported, and cancels the operator."""
 
     @wraps(execute)
@@ -146,7 +154,9 @@ def summarize(
         done = reports.phrase("Nothing to do: {cause}", cause=idle)
     parts = [done] if changed or not failures else []
     if failures:
-        parts.append(reports.phrase("{count} of {total} left unchanged:", count=len(failures), total=total))
+        parts.append(
+            reports.phrase("{count} of {total} left unchanged:", count=len(failures), total=total)
+        )
     return finish(operator, parts, failures, findings, is_changed=bool(changed))
 
 
@@ -159,14 +169,20 @@ def finish(
     is_changed: bool = True,
 ) -> set[str]:
     """Report texts, and the first of the failures and findings, redraw, and return the result of `execute`."""
-    outcome.remember(operator.bl_label, [part for part in (*failures, *findings) if isinstance(part, Finding)])
+    outcome.remember(
+        operator.bl_label, [part for part in (*failures, *findings) if isinstance(part, Finding)]
+    )
     redraw(bpy.context)
-    reports.report(operator, *texts, *reports.first(failures), *reports.first(findings), level=level)
+    reports.report(
+        operator, *texts, *reports.first(failures), *reports.first(findings), level=level
+    )
     return {"FINISHED"} if is_changed else {"CANCELLED"}
 
 
 def iterate_objects(
-    objects: Iterable[Object], action: Callable[[Object], Iterator[float] | None], failures: list[Finding]
+    objects: Iterable[Object],
+    action: Callable[[Object], Iterator[float] | None],
+    failures: list[Finding],
 ) -> Generator[float, None, None]:
     """Run `action` on one object after the other, and yield the number of completed objects.
 
@@ -178,7 +194,9 @@ def iterate_objects(
             for share in action(obj) or ():
                 yield done - 1 + share
         except Exception as error:
-            failures.append(reports.failure(obj.name_full, error))  # objects of two libraries may have one name
+            failures.append(
+                reports.failure(obj.name_full, error)
+            )  # objects of two libraries may have one name
         yield done
 
 
@@ -207,7 +225,9 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
     """Write a file, whole or not at all. FileError if it cannot be written."""
     try:
         with core.whole_file.whole_file(path) as file:
-            file.writelines(piece if isinstance(piece, bytes) else piece.encode() for piece in pieces)
+            file.writelines(
+                piece if isinstance(piece, bytes) else piece.encode() for piece in pieces
+            )
     except OSError as error:
         raise FileError(FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)) from error
 
@@ -215,7 +235,9 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
 def ask_for_table(operator: Operator, context: Context) -> set[str]:
     """Open the file browser, by default for a .csv file beside the .blend file and with its name."""
     if not operator.filepath:
-        operator.filepath = bpy.path.ensure_ext(bpy.data.filepath.removesuffix(".blend") or "masses", ".csv")
+        operator.filepath = bpy.path.ensure_ext(
+            bpy.data.filepath.removesuffix(".blend") or "masses", ".csv"
+        )
     context.window_manager.fileselect_add(operator)
     return {"RUNNING_MODAL"}
 
@@ -225,7 +247,8 @@ def ensure_suffix(operator: Operator, suffix: str, others: Collection[str] = ())
 
     Return whether the path was changed, as `check` does.
     """
-    path, name = operator.filepath, basename(operator.filepath)
+    path = operator.filepath
+    name = basename(operator.filepath)
     if name and splitext(name)[1].lower() not in others:
         operator.filepath = bpy.path.ensure_ext(path, suffix)
     return operator.filepath != path

@@ -43,8 +43,12 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
         known, failures = selection.apply_to_all(objects, check)
         staleness.mark_up_to_date(context, measured)
         supports = {obj: stored.stability.support(obj, context.scene) for obj in objects}
-        standing = [obj for obj, support in supports.items() if support is not None and support.stands]
-        falling = [obj.name for obj in objects if stored.stability.is_known(obj) and obj not in standing]
+        standing = [
+            obj for obj, support in supports.items() if support is not None and support.stands
+        ]
+        falling = [
+            obj.name for obj in objects if stored.stability.is_known(obj) and obj not in standing
+        ]
         if falling:
             notes.insert(0, finding(OBJECTS_TIP, count=len(falling), names=falling))
         texts = ("{count} of {total} object stands", "{count} of {total} objects stand")
@@ -89,7 +93,8 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
             count = len(poses.shares)
             place = (self.pose - 1) % count
             text = localized("Pose {:d} of {:d}: {:.1f}%, tips at {:.1f}°")
-            share, angle = 100.0 * poses.shares[place], degrees(poses.tipping_angles[place])
+            share = 100.0 * poses.shares[place]
+            angle = degrees(poses.tipping_angles[place])
             layout.label(text=text.format(place + 1, count, share, angle), translate=False)
         layout.prop(self, "ground")
 
@@ -100,10 +105,13 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         def lay(obj: Object) -> bool:
             return session.lay_on_ground(context, obj, self.pose, self.ground, notes)
 
-        moved, failures = selection.apply_to_all(objects, lay)  # one after the other, for a child moves with its parent
+        moved, failures = selection.apply_to_all(
+            objects, lay
+        )  # one after the other, for a child moves with its parent
         session.remeasure(context, moved)
         texts = ("Laid {count} object on the ground", "Laid {count} objects on the ground")
-        done, idle = reports.phrase(*texts, count=len(moved)), reports.phrase("already on the ground")
+        done = reports.phrase(*texts, count=len(moved))
+        idle = reports.phrase("already on the ground")
         return selection.summarize(self, len(moved), len(objects), done, failures, notes, idle)
 
 
@@ -148,11 +156,15 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
     )
     frame_start: IntProperty(name="Start", description="First frame", default=1)
     frame_end: IntProperty(name="End", description="Last frame", default=250)
-    frame_step: IntProperty(name="Step", description="Frames from one key to the next", default=1, min=1)
+    frame_step: IntProperty(
+        name="Step", description="Frames from one key to the next", default=1, min=1
+    )
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return context.mode in {"OBJECT", "POSE"} or reports.unavailable(cls, "Switch to Object Mode or Pose Mode")
+        return context.mode in {"OBJECT", "POSE"} or reports.unavailable(
+            cls, "Switch to Object Mode or Pose Mode"
+        )
 
     def draw(self, _context: Context) -> None:
         layout = self.layout
@@ -170,10 +182,13 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
         layout.prop(self, "frame_step")
 
     def _begin(self, context: Context) -> int:
-        scene, own = context.scene, (self.frame_start, max(self.frame_start, self.frame_end))
+        scene = context.scene
+        own = (self.frame_start, max(self.frame_start, self.frame_end))
         first, last = (scene.frame_start, scene.frame_end) if self.use_scene_range else own
         frames = range(first, last + 1, self.frame_step)
-        self._group = session.BalanceGroup(context, self.collection, self.contacts, self.ground, self.reach)
+        self._group = session.BalanceGroup(
+            context, self.collection, self.contacts, self.ground, self.reach
+        )
         self._steps = self._group.follow(scene, frames)
         return len(frames)
 
@@ -208,7 +223,10 @@ class KeyedFlight(ModalDialog, OnArmature):
 
     TURNS = False
     DONE = ""
-    lead, blend, keep = 0, 0, "TIMES"  # properties of subclasses
+    # properties of subclasses
+    lead = 0
+    blend = 0
+    keep = "TIMES"
 
     use_contacts: BoolProperty(
         name="Find by Contacts",
@@ -231,7 +249,8 @@ class KeyedFlight(ModalDialog, OnArmature):
     )
 
     def _begin(self, context: Context) -> int:
-        frames, flight = _scene_frames(context.scene), None
+        frames = _scene_frames(context.scene)
+        flight = None
         if not self.use_contacts:
             flight = self.take_off, self.landing
             if self.landing < self.take_off + 2:
@@ -239,22 +258,34 @@ class KeyedFlight(ModalDialog, OnArmature):
             frames = range(self.take_off - self.lead, self.landing + self.blend + 1)
         followed = session.CharacterMotion(context, frames)
         followed.find_carrier(context, self.bone, self.TURNS, self.use_layer)
-        self._steps = followed.follow_flight(context.scene, flight, self.keep == "HEIGHT", self.lead, self.blend)
+        self._steps = followed.follow_flight(
+            context.scene, flight, self.keep == "HEIGHT", self.lead, self.blend
+        )
         self._followed = followed
         return len(frames)
 
     def _finish(self, context: Context) -> set[str]:
         followed = self._followed
         off = followed.key(context, self.TURNS)
-        texts = [reports.phrase(self.DONE, name=followed.armature.name, start=followed.first, end=followed.last)]
+        texts = [
+            reports.phrase(
+                self.DONE, name=followed.armature.name, start=followed.first, end=followed.last
+            )
+        ]
         if followed.landing != followed.last:
             text = "The landing moves from frame {old} to {new}, as the fall takes {count} frames"
-            values = {"old": followed.last, "new": followed.landing, "count": followed.landing - followed.first}
+            values = {
+                "old": followed.last,
+                "new": followed.landing,
+                "count": followed.landing - followed.first,
+            }
             texts.append(reports.phrase(text, **values))
         if off > 0.0:
             text = "The center is off by up to {off:length}: constraints hold parts in the world"
             texts.append(reports.phrase(text, off=off))
-        return selection.report(self, *texts, level=Severity.WARNING if off > 0.0 else Severity.NOTE)
+        return selection.report(
+            self, *texts, level=Severity.WARNING if off > 0.0 else Severity.NOTE
+        )
 
 
 class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
@@ -269,7 +300,11 @@ class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
         description="What stays as it is",
         items=(
             ("TIMES", "Times", "Take-off and landing stay at their frames, and the height changes"),
-            ("HEIGHT", "Height", "The center rises as high as before; the landing and all later keys move"),
+            (
+                "HEIGHT",
+                "Height",
+                "The center rises as high as before; the landing and all later keys move",
+            ),
         ),
         default="TIMES",
     )
@@ -315,7 +350,9 @@ class KeyedPath(ModalSteps, OnArmature):
         followed = self._followed
         empty, spans = followed.bake(context, self.CURVES)
         text = "Keys of the center of mass on “{empty}”: {count}. Spans with momentum from nothing: {spans}"
-        return selection.report(self, reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans))
+        return selection.report(
+            self, reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans)
+        )
 
 
 class POSE_OT_body_moments_bake_curves(KeyedPath, Operator):

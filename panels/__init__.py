@@ -7,7 +7,18 @@ They draw stored or cached values and compute nothing.
 
 # The modules that are registered, in this order. A sub-panel comes after its panel; `places.ORDER` sorts them.
 MODULES = (
-    *("menus", "material_menus", "body", "inertia", "density", "colliders", "statics", "selection", "assembly", "rig"),
+    *(
+        "menus",
+        "material_menus",
+        "body",
+        "inertia",
+        "density",
+        "colliders",
+        "statics",
+        "selection",
+        "assembly",
+        "rig",
+    ),
     *("advanced", "section", "shape"),
     "overlay.draw",
 )

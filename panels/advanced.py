@@ -30,7 +30,9 @@ class AdvancedPanel:
         return shows_advanced()
 
     def draw(self, context: Context) -> None:
-        layout, obj, scene = self.layout, context.object, context.scene
+        layout = self.layout
+        obj = context.object
+        scene = context.scene
         shown = displayed(obj, scene)
         if shown is not None and shown.live is None:
             numbers = shown.in_frame(scene.body_moments.frame)
@@ -54,10 +56,19 @@ def _bounds(layout: UILayout, obj: Object, shown: PlainBody) -> None:
     body = rows.fold(layout, "body_moments_bounds", "Error Bounds")
     if body is None:
         return
-    rounding = "Quadrature and Rounding, Estimated" if properties.is_estimated(obj) else "Rounding, at Most"
-    sources = ((rounding, shown.error_bound), ("Float32 Coordinates, at Most", shown.error_bound["input"]))
+    rounding = (
+        "Quadrature and Rounding, Estimated"
+        if properties.is_estimated(obj)
+        else "Rounding, at Most"
+    )
+    sources = (
+        (rounding, shown.error_bound),
+        ("Float32 Coordinates, at Most", shown.error_bound["input"]),
+    )
     measures = ("Volume", "volume", "volume", shown.volume), ("Area", "area", "area", shown.area)
-    entries = [entry for entry in measures if entry[-1]]  # a wire has neither, a grid of densities no surface
+    entries = [
+        entry for entry in measures if entry[-1]
+    ]  # a wire has neither, a grid of densities no surface
     entries.append(("Center", "length", "center_of_mass", max(map(abs, shown.center))))
     entries.append(("Inertia", "inertia", "inertia", max(shown.moments)))
     rows.error_bounds(body, sources, entries)
@@ -69,7 +80,9 @@ class MomentsPanel:
     bl_label = "Moments"
 
     def draw(self, context: Context) -> None:
-        layout, obj, settings = self.layout, context.object, context.scene.body_moments
+        layout = self.layout
+        obj = context.object
+        settings = context.scene.body_moments
         column = layout.column()
         rows.setting(column, settings, "moments_order")
         rows.setting(column, settings, "moments_of")
@@ -86,10 +99,16 @@ class MomentsPanel:
             rows.message(layout, missing)
         for degree in degrees:
             column = layout.column(align=True)
-            rows.filled(column, "Order {:d} ({:s})" if degree.unit else "Order {:d}", degree.degree, degree.unit)
+            rows.filled(
+                column,
+                "Order {:d} ({:s})" if degree.unit else "Order {:d}",
+                degree.degree,
+                degree.unit,
+            )
             rows.table(column, [(*row, degree.unit) for row in degree.rows])
         if computed.order > table.MAX_SHOWN_ORDER:
-            text, first = "Orders {first} to {last} are only in the copy.", table.MAX_SHOWN_ORDER + 1
+            text = "Orders {first} to {last} are only in the copy."
+            first = table.MAX_SHOWN_ORDER + 1
             rows.remark(layout, text, first=first, last=computed.order)
         rows.button(layout, "object.body_moments_copy", "COPYDOWN").what = "MOMENTS"
 

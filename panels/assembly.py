@@ -38,7 +38,9 @@ BAR_WIDTH = 2.2  # of a share: the mass beside it is complete at the sidebar's d
 class BODY_MOMENTS_UL_assembly(UIList):
     """The members of an assembly with their masses and shares."""
 
-    def draw_item(self, context, layout, _data, row, _icon, _active_data, _active_property, index) -> None:
+    def draw_item(
+        self, context, layout, _data, row, _icon, _active_data, _active_property, index
+    ) -> None:
         line = layout.row(align=True)
         line.separator(factor=0.001 + 1.5 * row.depth)
         tree = settings_of(_data.id_data).rows
@@ -67,7 +69,8 @@ class BODY_MOMENTS_UL_assembly(UIList):
 
     def filter_items(self, _context, data, name) -> tuple[list[int], list[int]]:
         """Hide rows below a closed member, and rows that do not match a search."""
-        flags, closed = [], None
+        flags = []
+        closed = None
         for row in getattr(data, name):
             if closed is not None and row.depth > closed:
                 flags.append(0)
@@ -102,14 +105,26 @@ def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -
     remedies.notes(layout, "body_moments_assembly_notes", findings)
     row = layout.row(align=True)
     rows.button(
-        row, "object.body_moments_export_bill", "EXPORT", text="Bill of Masses...", short="Masses..."
+        row,
+        "object.body_moments_export_bill",
+        "EXPORT",
+        text="Bill of Masses...",
+        short="Masses...",
     ).target = target
     row.operator("object.body_moments_clear_assembly", text="", icon="TRASH").target = target
     column = layout.column(align=True)
-    rows.button(column, "view3d.body_moments_cursor_to_assembly", "PIVOT_CURSOR", short="Cursor").target = target
+    rows.button(
+        column, "view3d.body_moments_cursor_to_assembly", "PIVOT_CURSOR", short="Cursor"
+    ).target = target
     rows.button(column, "object.body_moments_assembly_empty", "OUTLINER_OB_EMPTY").target = target
-    text = "Instance Offset to Center of Mass" if isinstance(root, Collection) else "Origin to Center of Mass"
-    rows.button(column, "object.body_moments_assembly_origin", "OBJECT_ORIGIN", text=text).target = target
+    text = (
+        "Instance Offset to Center of Mass"
+        if isinstance(root, Collection)
+        else "Origin to Center of Mass"
+    )
+    rows.button(
+        column, "object.body_moments_assembly_origin", "OBJECT_ORIGIN", text=text
+    ).target = target
 
 
 def _tree(layout: UILayout, settings: PropertyGroup) -> None:
@@ -147,7 +162,9 @@ class AssemblyPanel:
         root = None if context.object is None else active_assembly(context)
         if not isinstance(root, Collection):
             return root is not None
-        members = (True for obj in root.all_objects if obj.type in GEOMETRY_TYPES or shows_collection(obj))
+        members = (
+            True for obj in root.all_objects if obj.type in GEOMETRY_TYPES or shows_collection(obj)
+        )
         return properties.is_stored(root) or len([*islice(members, 2)]) > 1
 
     def draw(self, context: Context) -> None:
@@ -170,4 +187,8 @@ class COLLECTION_PT_body_moments(AmongProperties, Panel):
         draw_assembly(self.layout, context, context.collection, "COLLECTION")
 
 
-CLASSES = (BODY_MOMENTS_UL_assembly, *in_both_places(AssemblyPanel, "assembly"), COLLECTION_PT_body_moments)
+CLASSES = (
+    BODY_MOMENTS_UL_assembly,
+    *in_both_places(AssemblyPanel, "assembly"),
+    COLLECTION_PT_body_moments,
+)

@@ -27,10 +27,19 @@ from .density import material_row
 from .overlay.draw import header_switch
 from .places import in_both_places
 
-CENTER_HEADINGS = {"WORLD": "Center of Mass (World)", "OBJECT": "Center of Mass (Object)"}  # by the frame
-RESTING_HEADINGS = {"WORLD": "Center of Mass at Rest (World)", "OBJECT": "Center of Mass at Rest (Object)"}  # for rigs
+CENTER_HEADINGS = {
+    "WORLD": "Center of Mass (World)",
+    "OBJECT": "Center of Mass (Object)",
+}  # by the frame
+RESTING_HEADINGS = {
+    "WORLD": "Center of Mass at Rest (World)",
+    "OBJECT": "Center of Mass at Rest (Object)",
+}  # for rigs
 
-SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # prefix for the measured data, before a method
+SOURCES = {
+    Source.NURBS: "NURBS: {:s}",
+    Source.GRID: "Grid: {:s}",
+}  # prefix for the measured data, before a method
 
 LIVE = {
     Lag.NONE: "Live ({milliseconds:.0f} ms). Press Measure to store",
@@ -60,7 +69,8 @@ class BodyPanel:
 
 
 def _one_object(layout: UILayout, context: Context, shown: Displayed | None) -> None:
-    obj, frame = context.object, context.scene.body_moments.frame
+    obj = context.object
+    frame = context.scene.body_moments.frame
     _verdict(layout, obj.name, "OBJECT_DATA", None if shown is None else shown.verdict)
     length = properties.optional(obj, "body_length")
     numbers = None if shown is None else shown.in_frame(frame)
@@ -89,21 +99,35 @@ def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
     """Draw the selected objects, or the meshes of a posed armature, as one body."""
     count = shown.count + len(shown.missing)
     if armatures.stands_for_meshes(context.object):
-        text = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes").format(context.object.name, count)
+        text = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes").format(
+            context.object.name, count
+        )
     else:
         text = localized("1 Object" if count == 1 else "{:d} Objects").format(count)
-    posed = displayed(context.object, context.scene) if armatures.stands_for_meshes(context.object) else None
+    posed = (
+        displayed(context.object, context.scene)
+        if armatures.stands_for_meshes(context.object)
+        else None
+    )
     is_rest = posed is not None and properties.optional(context.object, "body_mass") is not None
     _verdict(layout, text, "GROUP", posed.verdict if is_rest else shown.verdict)
     numbers = shown.numbers if posed is None else posed.world
-    _answer(layout, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume if shown.count and not is_rest else None)
+    _answer(
+        layout,
+        numbers,
+        CENTER_HEADINGS["WORLD"],
+        volume=shown.volume if shown.count and not is_rest else None,
+    )
     material_row(layout, context, context.object)
     _buttons(layout, context)
     if is_rest:
         rows.remark(layout, "The mass is that of the rest pose")
         rows.stale_row(layout, posed.reason)
     unmeasured = shown.missing if shown.count else ()  # of none the verdict says it
-    for names, text in ((unmeasured, "Not measured: {objects}"), (shown.stale, "Out of date: {objects}")):
+    for names, text in (
+        (unmeasured, "Not measured: {objects}"),
+        (shown.stale, "Out of date: {objects}"),
+    ):
         if names and not is_rest:
             rows.remark(layout, text, icon="FILE_REFRESH", objects=names)
     findings, groups = (posed.findings, ()) if is_rest else (shown.findings, shown.groups)
@@ -139,7 +163,10 @@ def _answer(
         rows.table(column, [(label, "–", "", "") for label in rows.AXIS_LABELS])
         return
     size = ("Volume", "volume", numbers.volume if volume is None else volume)
-    rows.quantities(column, [("Mass", "mass", numbers.mass), size if length is None else ("Length", "length", length)])
+    rows.quantities(
+        column,
+        [("Mass", "mass", numbers.mass), size if length is None else ("Length", "length", length)],
+    )
     rows.center(layout, heading, numbers)
 
 
@@ -149,7 +176,9 @@ def _buttons(layout: UILayout, context: Context) -> None:
     buttons.scale_y = 1.4
     subjects = [obj for obj in armatures.subjects(context.selected_objects) if measurable(obj)]
     text = "Measure" if subjects == [context.object] or not subjects else "Measure {:s}"
-    name = subjects[0].name if len(subjects) == 1 else localized("{:d} Objects").format(len(subjects))
+    name = (
+        subjects[0].name if len(subjects) == 1 else localized("{:d} Objects").format(len(subjects))
+    )
     measure = {"text": localized(text).format(name), "translate": False}
     rows.button(buttons, "object.body_moments_measure", "PHYSICS", **measure)
     row = buttons.row(align=True)
@@ -171,7 +200,9 @@ def _details(layout: UILayout, context: Context, shown: Displayed, numbers: Plai
     if source:
         rows.remark(column, "Mean density, from {cause}", icon="BLANK1", cause=source)
     key = method_key(shown.method, any(found.code == WALL_MEASURED for found in shown.findings))
-    origin = Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
+    origin = (
+        Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
+    )
     name = METHODS[key][0] if key in METHODS else properties.method_text(obj).title()
     method = localized(SOURCES.get(origin, "{:s}")).format(localized(name))
     rows.table(column, [("Method", method, "", "")])
@@ -213,7 +244,9 @@ class ApplyPanel:
             rows.button(layout, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 
 
-VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(BodyPanel, shown_for=lambda obj: True)
+VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(
+    BodyPanel, shown_for=lambda obj: True
+)
 CLASSES = (
     *(VIEW3D_PT_body_moments, OBJECT_PT_body_moments),
     *in_both_places(ApplyPanel, "apply", shown_for=measurable),

@@ -16,7 +16,17 @@ from . import rows
 from .places import in_both_places
 
 # Ratios to numbers that are zero are not stored.
-KEYS = {"shape", "engine", "correct", "count", "center_shift", "axes_turn", "outward", "inward", "distance_bound"}
+KEYS = {
+    "shape",
+    "engine",
+    "correct",
+    "count",
+    "center_shift",
+    "axes_turn",
+    "outward",
+    "inward",
+    "distance_bound",
+}
 SLIGHT = 0.01  # parts by which an engine may be off without a warning
 REMEDIES = {  # by the kind of correction that did not suffice
     "none": "An engine would simulate another body. Choose Masses or Vertices for Correct.",
@@ -35,7 +45,8 @@ class CollidersPanel:
         return context.object is not None and measurable(context.object)
 
     def draw(self, context: Context) -> None:
-        layout, body = self.layout, _body(context.object)
+        layout = self.layout
+        body = _body(context.object)
         layout.use_property_decorate = False
         group = body.get(COLLIDERS)
         stored = group if hasattr(group, "keys") and KEYS.issubset(group.keys()) else None
@@ -46,13 +57,21 @@ class CollidersPanel:
             rows.remark(layout, "Engines take mass, center and inertia from colliders.")
             return
         row.operator("object.body_moments_remove_colliders", text="", icon="X")
-        make.shape, make.engine, make.correct = (str(stored[name]).upper() for name in ("shape", "engine", "correct"))
+        make.shape, make.engine, make.correct = (
+            str(stored[name]).upper() for name in ("shape", "engine", "correct")
+        )
         rows.stale_row(layout, stale_reason(body, context.scene, of_colliders))
         column = layout.column(align=True)
-        rows.filled(column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"])
+        rows.filled(
+            column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"]
+        )
         size = max(body.dimensions) * context.scene.unit_settings.scale_length
         shift = dist(stored["center_shift"], (0.0, 0.0, 0.0))
-        changes = abs(stored.get("mass_ratio", 1.0) - 1.0), stored.get("inertia_change", 0.0), shift / (size or 1.0)
+        changes = (
+            abs(stored.get("mass_ratio", 1.0) - 1.0),
+            stored.get("inertia_change", 0.0),
+            shift / (size or 1.0),
+        )
         if max(changes) > SLIGHT:
             rows.remark(column, REMEDIES.get(stored["correct"], REMEDIES["none"]), icon="ERROR")
         else:
@@ -63,7 +82,11 @@ class CollidersPanel:
         ratios = zip(labels, (stored.get("volume_ratio"), stored.get("mass_ratio"), *moments))
         rows.table(
             layout.column(align=True),
-            [(label, "{:.5g} %".format(100.0 * one), repr(one), "") for label, one in ratios if one is not None],
+            [
+                (label, "{:.5g} %".format(100.0 * one), repr(one), "")
+                for label, one in ratios
+                if one is not None
+            ],
         )
         rows.title(layout, "Off by")
         column = layout.column(align=True)

@@ -86,7 +86,11 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
         return
     row = _labeled_row(column, "Kind")
     row.use_property_split = False
-    for kind in ("SOLID", "SHELL", "WIRE") if obj.type == "CURVE" or settings.kind == "WIRE" else ("SOLID", "SHELL"):
+    for kind in (
+        ("SOLID", "SHELL", "WIRE")
+        if obj.type == "CURVE" or settings.kind == "WIRE"
+        else ("SOLID", "SHELL")
+    ):
         row.prop_enum(settings, "kind", kind)
     if settings.kind == "SHELL":
         rows.setting(column, settings, "wall")
@@ -107,7 +111,9 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
         rows.setting(column, settings, "density_frame", expand=True)
     elif settings.density_from == "ATTRIBUTE":
         if obj.type == "MESH":
-            column.prop_search(settings, "density_attribute", obj.data, "attributes", results_are_suggestions=True)
+            column.prop_search(
+                settings, "density_attribute", obj.data, "attributes", results_are_suggestions=True
+            )
         else:
             rows.setting(column, settings, "density_attribute")
     elif settings.density_from == "VOLUME":
@@ -238,6 +244,8 @@ def given_rows(layout: UILayout, settings: PropertyGroup) -> None:
 CLASSES = (
     *in_both_places(DensityPanel, "density", shown_for=_has_density),
     *in_both_places(
-        GivenPanel, "given", shown_for=lambda obj: _may_be_point(obj) or obj.body_moments.mass_from == "MASS"
+        GivenPanel,
+        "given",
+        shown_for=lambda obj: _may_be_point(obj) or obj.body_moments.mass_from == "MASS",
     ),
 )

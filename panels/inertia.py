@@ -12,7 +12,9 @@ from ..core.verdict.finding import Finding
 from . import rows
 from .places import in_both_places
 
-ERROR_OF_A_DIFFERENCE = 6.0  # each principal moment is off by at most 3 times the error of a tensor entry
+ERROR_OF_A_DIFFERENCE = (
+    6.0  # each principal moment is off by at most 3 times the error of a tensor entry
+)
 EQUAL_MOMENTS = {  # keys: are moments 1 and 2 equal, and moments 2 and 3?
     (True, True): "All principal moments are equal",
     (True, False): "Principal moments 1 and 2 are equal",
@@ -50,7 +52,13 @@ class InertiaPanel:
         rows.group(layout, "Radii of Gyration", rows.PRINCIPAL_LABELS, "length", shown.gyration)
         body = rows.fold(layout, "body_moments_tensor", "Inertia Tensor", closed=False)
         if body is not None:
-            rows.group(body, "About the center of mass, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", shown.inertia)
+            rows.group(
+                body,
+                "About the center of mass, Ixy = −∫xy dm",
+                rows.TENSOR_LABELS,
+                "inertia",
+                shown.inertia,
+            )
 
 
 class ReferencePanel:
@@ -68,8 +76,17 @@ class ReferencePanel:
         elif settings.about == "AXIS":
             rows.setting(column, settings, "first")
             rows.setting(column, settings, "second")
-            rows.button(layout, "object.body_moments_axis_from_selection", "EYEDROPPER", short="From Selection")
-        result = stored.reference.referred(context.object, scene) if "body_mass" in context.object else None
+            rows.button(
+                layout,
+                "object.body_moments_axis_from_selection",
+                "EYEDROPPER",
+                short="From Selection",
+            )
+        result = (
+            stored.reference.referred(context.object, scene)
+            if "body_mass" in context.object
+            else None
+        )
         if result is None:
             return
         if isinstance(result, Finding):
@@ -80,10 +97,14 @@ class ReferencePanel:
             rows.quantities(column, [("About Axis", "inertia", result.about_z)])
             distances = result.radius_about_z, result.distance_from_z
             rows.values(column, ("Radius of Gyration", "Distance of Center"), "length", distances)
-        center, reach = result.center, max(map(abs, result.center))
+        center = result.center
+        reach = max(map(abs, result.center))
         rows.group(layout, "Center of Mass from There", rows.AXIS_LABELS, "length", center, reach)
         rows.group(layout, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", result.inertia)
-        sources = ("Rounding, at Most", result.rounding_error), ("Float32, at Most", result.input_error)
+        sources = (
+            ("Rounding, at Most", result.rounding_error),
+            ("Float32, at Most", result.input_error),
+        )
         size = max(map(abs, result.inertia))
         bounds = [(label, "inertia", error["inertia"], size) for label, error in sources]
         rows.bounds(layout.column(align=True), bounds)

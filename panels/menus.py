@@ -35,7 +35,8 @@ IMPORTS = {
 }
 PIE_GAP = 8.0  # rows between the pie's lowest entry and ours
 
-_OBJECT, _SCENE = "bpy.types.bodymomentsobjectsettings.", "bpy.types.bodymomentsscenesettings."
+_OBJECT = "bpy.types.bodymomentsobjectsettings."
+_SCENE = "bpy.types.bodymomentsscenesettings."
 _OPERATOR = "bpy.ops.object.body_moments_"
 
 # Lower-case patterns of buttons and settings, and their pages of the manual; the first pattern that fits counts.
@@ -54,9 +55,15 @@ PAGES = (
     *((_OPERATOR + name + "*", "densities.html") for name in ("set_material", "preset")),
     ("bpy.ops.material.body_moments*", "densities.html"),
     (_OPERATOR + "fourier*", "fourier.html"),
-    *((_OPERATOR + name + "*", "colliders.html") for name in ("make_colliders", "remove_colliders", "equal_inertia")),
+    *(
+        (_OPERATOR + name + "*", "colliders.html")
+        for name in ("make_colliders", "remove_colliders", "equal_inertia")
+    ),
     (_OPERATOR + "import_scan*", "volumes-and-scans.html"),
-    *((_OPERATOR + name + "*", "reading-the-numbers.html") for name in ("measure", "clear", "copy", "select_faults")),
+    *(
+        (_OPERATOR + name + "*", "reading-the-numbers.html")
+        for name in ("measure", "clear", "copy", "select_faults")
+    ),
     ("bpy.ops.*.body_moments_*", "actions.html"),
     ("bpy.types.bodymoments*", "reading-the-numbers.html"),
 )
@@ -188,7 +195,9 @@ def _map() -> tuple[str, tuple[tuple[str, str], ...]]:
 
 def _help_entry(self: Menu, _context: Context) -> None:
     self.layout.separator()
-    self.layout.operator("wm.url_open", text="Body Moments Manual", icon="HELP").url = address("index.html")
+    self.layout.operator("wm.url_open", text="Body Moments Manual", icon="HELP").url = address(
+        "index.html"
+    )
 
 
 MENUS = (
@@ -199,7 +208,13 @@ MENUS = (
     (bpy.types.VIEW3D_MT_snap_pie, _snap_pie),
     (
         bpy.types.VIEW3D_MT_object_rigid_body,
-        _entries(RIGID_BODY, MASS, COLLIDERS, ("object.body_moments_remove_colliders", "X"), EQUAL_INERTIA),
+        _entries(
+            RIGID_BODY,
+            MASS,
+            COLLIDERS,
+            ("object.body_moments_remove_colliders", "X"),
+            EQUAL_INERTIA,
+        ),
     ),
     (bpy.types.TOPBAR_MT_file_export, lambda menu, _context: menu.layout.menu(EXPORT_MENU)),
     (bpy.types.TOPBAR_MT_file_import, _imports),

@@ -33,7 +33,11 @@ ORDER = (
 ROOT = "body_moments"
 PLACES = {  # by the beginning of the panels' identifiers
     "VIEW3D_PT_": {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Moments"},
-    "OBJECT_PT_": {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": "object"},
+    "OBJECT_PT_": {
+        "bl_space_type": "PROPERTIES",
+        "bl_region_type": "WINDOW",
+        "bl_context": "object",
+    },
 }
 
 
@@ -67,7 +71,11 @@ def in_both_places(
     def poll(_cls: type[Panel], context: Context) -> bool:
         return context.object is not None and shown_for(context.object)
 
-    shared: dict[str, object] = {"__doc__": contents.__doc__, "__module__": contents.__module__, "draw": draw}
+    shared: dict[str, object] = {
+        "__doc__": contents.__doc__,
+        "__module__": contents.__module__,
+        "draw": draw,
+    }
     if shown_for is not None:
         shared["poll"] = classmethod(poll)
     if name in ORDER:

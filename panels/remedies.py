@@ -26,7 +26,9 @@ MIN_QUESTIONED_MASS = 1e5  # kg
 QUESTION_DIGITS = 3
 
 
-def lines(layout: UILayout, context: Context, groups: Sequence[Group], can_accept: bool = True) -> None:
+def lines(
+    layout: UILayout, context: Context, groups: Sequence[Group], can_accept: bool = True
+) -> None:
     """Draw a line for each group of errors and warnings, with its first remedy; its sentence opens on click."""
     acceptable = 0
     for group in groups:
@@ -48,7 +50,9 @@ def lines(layout: UILayout, context: Context, groups: Sequence[Group], can_accep
         if body is None:
             continue
         column = body.column(align=True)
-        rows.message(column, shown.of_sources(group.objects) if group.objects else shown, icon="BLANK1")
+        rows.message(
+            column, shown.of_sources(group.objects) if group.objects else shown, icon="BLANK1"
+        )
         for remedy in own[1:]:
             _remedy(column, group, remedy)
     if acceptable > 1:
@@ -74,8 +78,13 @@ def _headline(context: Context, group: Group) -> str:
     shown = replace(group.finding, elements=())
     clause = re.split(r"\.$|[.;,] | \(", localized_sentence(shown, context.scene.unit_settings))[0]
     if not group.objects:
-        return clause if rows.fits(1.0, clause) else clause.partition(": “")[0]  # its names are in the sentence
-    if bpy.app.translations.locale[:2] in ("", "en"):  # nouns keep their capitals in other languages
+        return (
+            clause if rows.fits(1.0, clause) else clause.partition(": “")[0]
+        )  # its names are in the sentence
+    if bpy.app.translations.locale[:2] in (
+        "",
+        "en",
+    ):  # nouns keep their capitals in other languages
         clause = clause[0].lower() + clause[1:]
     if len(group.objects) == 1:
         return "{:s}: {:s}".format(group.objects[0], clause)
@@ -132,7 +141,8 @@ def last_action(layout: UILayout, context: Context) -> None:
 
 def unit_question(layout: UILayout, context: Context, shown: PlainBody) -> None:
     """Ask, until it is answered for the scene, whether a unit is a millimeter, if the body is large and heavy."""
-    scene, length = context.scene, max(context.object.dimensions)
+    scene = context.scene
+    length = max(context.object.dimensions)
     if (
         scene.body_moments.units_answered
         or scene.unit_settings.scale_length != 1.0

@@ -43,7 +43,11 @@ class BonesPanel:
             return
         rows.stale_row(layout, stale_reason(armature, context.scene))
         units = rows.scene_units()
-        measured = [(bone, own.mass) for bone in armature.pose.bones if (own := properties.stored(bone)) is not None]
+        measured = [
+            (bone, own.mass)
+            for bone in armature.pose.bones
+            if (own := properties.stored(bone)) is not None
+        ]
         total = sum(mass for _, mass in measured)
         column = layout.column(align=True)
         for bone, mass in measured[:LISTED]:
@@ -73,14 +77,20 @@ class WeightPanel:
     def draw(self, context: Context) -> None:
         layout, armature = self.layout, context.object
         layout.use_property_decorate = False
-        settings, unit = armature.body_moments_weight, shortest_decimal(context.scene.unit_settings.scale_length)
+        settings = armature.body_moments_weight
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
         row = layout.row()
         row.scale_y = 1.4
         row.operator("pose.body_moments_show_weight", icon="CON_FLOOR", depress=settings.show)
         if not settings.show:
             return
-        character, depsgraph = loaded_module(live, "character"), context.view_layer.depsgraph
-        weight = None if character is None or depsgraph is None else character.weight(armature, depsgraph)
+        character = loaded_module(live, "character")
+        depsgraph = context.view_layer.depsgraph
+        weight = (
+            None
+            if character is None or depsgraph is None
+            else character.weight(armature, depsgraph)
+        )
         rows.stale_row(layout, stale_reason(armature, context.scene))
         if weight is None:
             rows.remark(layout, "The bones have not been measured. Show the weight again.")
@@ -99,7 +109,8 @@ class WeightPanel:
 
 def standing(weight: Weight, unit: float) -> tuple[str, dict[str, float], str]:
     """Return the English text on how a character stands, the lengths in it, m, and its icon."""
-    support, height = weight.support, weight.contacts.height
+    support = weight.support
+    height = weight.contacts.height
     if height is None:
         return "No mesh can touch the ground", {}, "INFO"
     if support is None:
@@ -118,15 +129,23 @@ def _standing(layout: UILayout, weight: Weight, unit: float) -> None:
     box = layout.box()
     box.alert = icon == "CANCEL"
     rows.remark(box, text, icon=icon, boxed=True, **lengths)
-    shown, support, contacts = [("Mass", "mass", weight.parts.mass)], weight.support, weight.contacts
+    shown = [("Mass", "mass", weight.parts.mass)]
+    support = weight.support
+    contacts = weight.contacts
     if support is not None:
-        shown += [("Margin", "length", support.margin * unit), ("Height", "length", support.height * unit)]
+        shown += [
+            ("Margin", "length", support.margin * unit),
+            ("Height", "length", support.height * unit),
+        ]
     rows.quantities(layout.column(align=True), shown)
     missing = [name for name, mass in zip(weight.parts.names, weight.parts.masses) if not mass]
     if missing:
         rows.remark(layout, "Not measured: {objects}", icon="ERROR", objects=missing)
     column = layout.column(align=True)
-    for names, icon, word in ((contacts.names, "CHECKMARK", "Carries"), (contacts.lifted, "X", "Lifted")):
+    for names, icon, word in (
+        (contacts.names, "CHECKMARK", "Carries"),
+        (contacts.lifted, "X", "Lifted"),
+    ):
         for name in names[:LISTED]:
             row = column.row(align=True)
             row.label(text=name, icon=icon, translate=False)
@@ -142,17 +161,29 @@ def _motion(layout: UILayout, context: Context) -> None:
     rows.button(column, "pose.body_moments_trace", "CON_FOLLOWPATH")
     name = context.object.name_full
     empties = (
-        obj for obj in context.scene.objects if obj.type == "EMPTY" and obj.get(properties.BALANCE_GROUP) == name
+        obj
+        for obj in context.scene.objects
+        if obj.type == "EMPTY" and obj.get(properties.BALANCE_GROUP) == name
     )
-    spans = next((list(empty[properties.BALANCE_SPANS]) for empty in empties if properties.BALANCE_SPANS in empty), [])
+    spans = next(
+        (
+            list(empty[properties.BALANCE_SPANS])
+            for empty in empties
+            if properties.BALANCE_SPANS in empty
+        ),
+        [],
+    )
     column = layout.column(align=True)
     if spans:
         rows.remark(column, "Momentum from nothing:", icon="ERROR")
     for start in range(0, min(len(spans), 4 * LISTED), 4):
         first, last, impulse, twist = spans[start : start + 4]
-        text = localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(first, last, impulse, twist)
+        text = localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(
+            first, last, impulse, twist
+        )
         jump = column.operator("wm.context_set_int", text=text, translate=False)
-        jump.data_path, jump.value = "scene.frame_current", round(first)
+        jump.data_path = "scene.frame_current"
+        jump.value = round(first)
 
 
 class BONE_PT_body_moments(AmongProperties, Panel):
@@ -165,7 +196,8 @@ class BONE_PT_body_moments(AmongProperties, Panel):
         return _pose_bone(context) is not None
 
     def draw(self, context: Context) -> None:
-        bone, layout = _pose_bone(context), self.layout
+        bone = _pose_bone(context)
+        layout = self.layout
         layout.use_property_decorate = False
         settings = bone.body_moments
         column = layout.column()

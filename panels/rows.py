@@ -26,16 +26,24 @@ from ..core.verdict.sentences import fill, severity
 from ..core.verdict.verdict import Verdict
 
 # share of a row for its label, for one of up to 3 letters, and for one of 1 letter
-LABEL_SHARE, SHORT_LABEL_SHARE, INDEX_LABEL_SHARE = 0.36, 0.3, 0.12
+LABEL_SHARE = 0.36
+SHORT_LABEL_SHARE = 0.3
+INDEX_LABEL_SHARE = 0.12
 REGION_MARGIN = 88  # width of tabs, borders and an icon in the region, in unscaled pixels
 ROW_MARGIN = 80  # width for a row without an icon, but with a button
 TEXT_MARGIN = 0.2  # space around a text in a row, relative to the font size
 DEFAULT_WIDTH = 300  # unscaled pixels, for a region of unknown width
 BOX_MARGIN = 12  # additional width of a box
 MIN_LINE_WIDTH = 50  # no line is made narrower
-MIN_PART, MIN_LAST_PART = 4, 3  # letters of a word that is broken
+# letters of a word that is broken
+MIN_PART = 4
+MIN_LAST_PART = 3
 NARROW = 220  # regions below this width have buttons without icons, and headings above
-ICONS = {Severity.NOTE: "INFO", Severity.WARNING: "ERROR", Severity.ERROR: "CANCEL"}  # ERROR is Blender's warning sign
+ICONS = {
+    Severity.NOTE: "INFO",
+    Severity.WARNING: "ERROR",
+    Severity.ERROR: "CANCEL",
+}  # ERROR is Blender's warning sign
 
 VERDICTS = {  # icon and word; the form says it, not the color alone
     Verdict.EXACT: ("CHECKMARK", "Exact"),
@@ -44,14 +52,17 @@ VERDICTS = {  # icon and word; the form says it, not the color alone
     Verdict.OUT_OF_DATE: ("FILE_REFRESH", "Out of Date"),
     None: ("RADIOBUT_OFF", "Not Measured"),
 }
-AXIS_LABELS, PRINCIPAL_LABELS = ("X", "Y", "Z"), ("1", "2", "3")
+AXIS_LABELS = ("X", "Y", "Z")
+PRINCIPAL_LABELS = ("1", "2", "3")
 TENSOR_LABELS = tuple("I" + name for name in ENTRIES)
 VALUE_SHARE = 0.6  # share of a row that a setting takes beside its label
 BUTTON_MARGIN = "m"  # a letter as wide as the space around a button's text
 Cell = tuple[str, str, str, str]  # label, text, copied value, its unit
 
 
-def setting(layout: UILayout, data: PropertyGroup, name: str, text: str = "", expand: bool = False) -> None:
+def setting(
+    layout: UILayout, data: PropertyGroup, name: str, text: str = "", expand: bool = False
+) -> None:
     """Draw a setting in a column, its label (by default its name) beside it, or above it in a narrow region.
 
     `expand` puts choices side by side if there is room for their names.
@@ -71,7 +82,12 @@ def setting(layout: UILayout, data: PropertyGroup, name: str, text: str = "", ex
 
 
 def group(
-    layout: UILayout, label: str, labels: Sequence[str], quantity: str, si: Sequence[float], size: float = 0.0
+    layout: UILayout,
+    label: str,
+    labels: Sequence[str],
+    quantity: str,
+    si: Sequence[float],
+    size: float = 0.0,
 ) -> UILayout:
     """Draw a heading, and a row for each value below it; return their column."""
     column = layout.column(align=True)
@@ -85,16 +101,24 @@ def quantities(layout: UILayout, entries: Sequence[tuple[str, str, float]]) -> N
     units = scene_units()
     table(
         layout,
-        [(label, units.text(quantity, si), repr(float(si)), SI_UNITS[quantity]) for label, quantity, si in entries],
+        [
+            (label, units.text(quantity, si), repr(float(si)), SI_UNITS[quantity])
+            for label, quantity, si in entries
+        ],
     )
 
 
-def values(layout: UILayout, labels: Sequence[str], quantity: str, si: Sequence[float], size: float = 0.0) -> None:
+def values(
+    layout: UILayout, labels: Sequence[str], quantity: str, si: Sequence[float], size: float = 0.0
+) -> None:
     """Draw a row for each value, all in the same unit. size: as for `Units.texts`."""
     texts = scene_units().texts(quantity, si, size)
     table(
         layout,
-        [(label, text, repr(float(number)), SI_UNITS[quantity]) for label, text, number in zip(labels, texts, si)],
+        [
+            (label, text, repr(float(number)), SI_UNITS[quantity])
+            for label, text, number in zip(labels, texts, si)
+        ],
     )
 
 
@@ -115,13 +139,18 @@ def bounds(layout: UILayout, entries: Sequence[tuple[str, str, float, float]]) -
 
 
 def error_bounds(
-    layout: UILayout, sources: Sequence[tuple[str, Any]], entries: Sequence[tuple[str, str, str, float]]
+    layout: UILayout,
+    sources: Sequence[tuple[str, Any]],
+    entries: Sequence[tuple[str, str, str, float]],
 ) -> None:
     """Draw each source, a heading and bounds by name, with a row for each (label, quantity, name, value beside it)."""
     for source, errors in sources:
         column = layout.column(align=True)
         column.label(text=source)
-        bounds(column, [(label, quantity, errors[name], size) for label, quantity, name, size in entries])
+        bounds(
+            column,
+            [(label, quantity, errors[name], size) for label, quantity, name, size in entries],
+        )
 
 
 def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) -> None:
@@ -138,7 +167,10 @@ def title(layout: UILayout, label: str) -> None:
 
 def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
     """Draw a unit vector in one row, or in three rows if the panel is too narrow for one."""
-    cosines = ["{:.4f}".format(component).replace("-0.0000", "0.0000").replace("-", "−") for component in vector]
+    cosines = [
+        "{:.4f}".format(component).replace("-0.0000", "0.0000").replace("-", "−")
+        for component in vector
+    ]
     if not fits(1.0 - INDEX_LABEL_SHARE, *cosines):
         table(
             layout,
@@ -194,7 +226,8 @@ def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
     room = _room()
     if room is None:
         return share, True
-    label, text = max(map(_length, labels)), max(map(_length, shown))
+    label = max(map(_length, labels))
+    text = max(map(_length, shown))
     if label + text > room:
         return 0.0, text <= room
     return min(max(share, label / room), 1.0 - text / room), True
@@ -244,7 +277,9 @@ def scene_units() -> Units:
 def is_narrow() -> bool:
     """Return whether the region has room for little more than words."""
     region = bpy.context.region
-    return region is not None and 0 < region.width < NARROW * bpy.context.preferences.system.ui_scale
+    return (
+        region is not None and 0 < region.width < NARROW * bpy.context.preferences.system.ui_scale
+    )
 
 
 def button(layout: UILayout, idname: str, icon: str, short: str = "", **options: object):
@@ -276,9 +311,16 @@ def message(layout: UILayout, shown: Finding, icon: str = "", boxed: bool = Fals
     sentence(layout, text, icon or ICONS[severity(shown)], boxed)
 
 
-def remark(layout: UILayout, text: str, /, icon: str = "INFO", boxed: bool = False, **values: object) -> None:
+def remark(
+    layout: UILayout, text: str, /, icon: str = "INFO", boxed: bool = False, **values: object
+) -> None:
     """Draw an interface text, translated, filled and wrapped."""
-    sentence(layout, fill(text, None, values, localized, partial(scene_units().text, "length")), icon, boxed)
+    sentence(
+        layout,
+        fill(text, None, values, localized, partial(scene_units().text, "length")),
+        icon,
+        boxed,
+    )
 
 
 def stale_row(layout: UILayout, reason: str | None) -> None:
@@ -311,7 +353,8 @@ def _length(text: str) -> float:
 
 def _width() -> tuple[int, float]:
     """Return the width of a line and the font size, in pixels."""
-    region, preferences = bpy.context.region, bpy.context.preferences
+    region = bpy.context.region
+    preferences = bpy.context.preferences
     scale = preferences.system.ui_scale or 1.0  # 0 without a window
     width = region.width if region is not None and region.width else DEFAULT_WIDTH * scale
     points = preferences.ui_styles[0].widget.points
@@ -321,7 +364,8 @@ def _width() -> tuple[int, float]:
 @lru_cache(maxsize=256)
 def _wrapped(text: str, width: int, size: float) -> tuple[str, ...]:
     blf.size(0, size)
-    lines, line = [], ""
+    lines = []
+    line = ""
     for word in text.split(" "):  # not at the spaces inside numbers
         longer = "{:s} {:s}".format(line, word) if line else word
         if _is_within(longer, width):
@@ -336,7 +380,8 @@ def _wrapped(text: str, width: int, size: float) -> tuple[str, ...]:
 
 def _parts(word: str, width: int) -> list[str]:
     """Split a word that is longer than a line; return a shorter one unchanged."""
-    parts, rest = [], word
+    parts = []
+    rest = word
     while len(rest) > MIN_PART and not _is_within(rest, width):
         end = len(rest) - MIN_LAST_PART
         while end > MIN_PART and not _is_within(rest[:end] + "-", width):

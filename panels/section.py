@@ -18,7 +18,9 @@ from ..core.verdict.sentences import Group
 from . import remedies, rows
 from .places import in_both_places
 
-FLAT_RTOL = 1e-5  # thickness of a flat shape by its width; other shapes have sections of selected faces
+FLAT_RTOL = (
+    1e-5  # thickness of a flat shape by its width; other shapes have sections of selected faces
+)
 ABOUT_LABELS = ("x", "y", "1", "2")
 
 
@@ -35,7 +37,9 @@ class SectionPanel:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
         _verdict(layout, stored, stale_reason(obj, context.scene, of_section))
-        remedies.lines(layout, context, [Group(found) for found in stored.findings], can_accept=False)
+        remedies.lines(
+            layout, context, [Group(found) for found in stored.findings], can_accept=False
+        )
         _numbers(layout, stored.section)
         _more_numbers(layout, stored.section)
         remedies.notes(layout, "body_moments_section_notes", stored.findings)
@@ -51,19 +55,31 @@ def _may_have_section(obj: Object) -> bool:
 
 def _verdict(layout: UILayout, stored: record.StoredSection, outdated: str | None) -> None:
     column = layout.column(align=True)
-    outlines, holes = stored.section.outlines, stored.section.holes
+    outlines = stored.section.outlines
+    holes = stored.section.holes
     counts = ((outlines, "1 Outline", "{:d} Outlines"), (holes, "1 Hole", "{:d} Holes"))
-    parts = [localized(singular if count == 1 else plural).format(count) for count, singular, plural in counts if count]
-    rows.sentence(column, "{:s}: {:s}".format(localized(stored.description), ", ".join(parts)), icon="CHECKMARK")
+    parts = [
+        localized(singular if count == 1 else plural).format(count)
+        for count, singular, plural in counts
+        if count
+    ]
+    rows.sentence(
+        column,
+        "{:s}: {:s}".format(localized(stored.description), ", ".join(parts)),
+        icon="CHECKMARK",
+    )
     rows.stale_row(column, outdated)
 
 
 def _numbers(layout: UILayout, section) -> None:
     column = layout.column(align=True)
-    rows.quantities(column, [("Area", "area", section.area), ("Perimeter", "length", section.perimeter)])
+    rows.quantities(
+        column, [("Area", "area", section.area), ("Perimeter", "length", section.perimeter)]
+    )
     size = section.area**0.5
     rows.group(layout, "Centroid (World)", rows.AXIS_LABELS, "length", section.center, size)
-    second, labels = (*section.second, section.polar), ("Ix", "Iy", "Ixy", "Polar Jp")
+    second = (*section.second, section.polar)
+    labels = ("Ix", "Iy", "Ixy", "Polar Jp")
     rows.group(layout, "Second Moments of Area", labels, "area_moment", second, section.polar)
     column = rows.group(layout, "Principal", ("I1", "I2"), "area_moment", section.principal)
     if section.axes_undetermined:
@@ -77,7 +93,9 @@ def _numbers(layout: UILayout, section) -> None:
 def _more_numbers(layout: UILayout, section) -> None:
     body = rows.fold(layout, "body_moments_section_moduli", "Section Moduli and Radii of Gyration")
     if body is not None:
-        moduli, radii = (["{:s}{:s}".format(letter, name) for name in ABOUT_LABELS] for letter in "Wi")
+        moduli, radii = (
+            ["{:s}{:s}".format(letter, name) for name in ABOUT_LABELS] for letter in "Wi"
+        )
         rows.group(body, "Elastic, at the Outermost Corner", moduli, "volume", section.moduli)
         rows.group(body, "Radii of Gyration", radii, "length", section.radii)
     body = rows.fold(layout, "body_moments_section_plane", "Plane")
@@ -87,7 +105,12 @@ def _more_numbers(layout: UILayout, section) -> None:
         for label, axis in zip(("x", "y", "n"), zip(*section.plane.axes)):
             rows.direction(column, label, axis)
         column = rows.group(
-            body, "Centroid from Object Origin", ("x", "y"), "length", section.centroid, section.area**0.5
+            body,
+            "Centroid from Object Origin",
+            ("x", "y"),
+            "length",
+            section.centroid,
+            section.area**0.5,
         )
         column.label(text="About the centroid, Ix = ∫y² dA, Ixy = +∫xy dA")
         column.label(text="Jp = Ix + Iy is not the torsion constant")
@@ -99,7 +122,8 @@ def _more_numbers(layout: UILayout, section) -> None:
             ("Centroid", "length", "centroid", section.area**0.5),
             ("Moments", "area_moment", "second", section.polar),
         ]
-        rounding, coordinates = section.rounding_error, section.input_error
+        rounding = section.rounding_error
+        coordinates = section.input_error
         sources = ("Rounding, at Most", rounding), ("Float32 Coordinates, at Most", coordinates)
         rows.error_bounds(body, sources, entries)
 

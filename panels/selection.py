@@ -31,7 +31,9 @@ class BODY_MOMENTS_UL_measured(UIList):
         name="Warnings First", description="List what is out of date or doubtful before all others"
     )
 
-    def draw_item(self, context, layout, _data, obj, _icon, _active_data, _active_property, _index) -> None:
+    def draw_item(
+        self, context, layout, _data, obj, _icon, _active_data, _active_property, _index
+    ) -> None:
         body = drawn(obj, context.scene)
         if body is None:
             layout.label(text=obj.name, translate=False)
@@ -52,7 +54,11 @@ class BODY_MOMENTS_UL_measured(UIList):
 
     def filter_items(self, context, _data, _name) -> tuple[list[int], list[int]]:
         listed, lines = listing(
-            context.scene, context.view_layer, self.filter_name, SortBy(self.sort_by), self.warnings_first
+            context.scene,
+            context.view_layer,
+            self.filter_name,
+            SortBy(self.sort_by),
+            self.warnings_first,
         )
         return [self.bitflag_filter_item if shown else 0 for shown in listed], lines
 
@@ -70,7 +76,9 @@ class SelectionPanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         if len(context.selected_objects) > 1:
-            rows.button(layout, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings")
+            rows.button(
+                layout, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings"
+            )
         _listed(layout, context)
         _total(layout, context)
 

@@ -99,11 +99,15 @@ def _similar(layout: UILayout, context: Context) -> None:
         if search.looked_at:
             row.label(text=shape.name, icon=icon, translate=False)
         else:
-            button = row.operator("object.body_moments_select_found", text=shape.name, icon=icon, translate=False)
+            button = row.operator(
+                "object.body_moments_select_found", text=shape.name, icon=icon, translate=False
+            )
             button.name = shape.name
         words = localized(SIMILARITY.get(shape.verdict, shape.verdict))
         size = " ×{:.4g}".format(shape.scale) if shape.verdict.startswith("scaled") else ""
         rows.right(row, "{:s}{:s}, {:.2g}".format(words, size, shape.distance))
 
 
-CLASSES = in_both_places(ShapePanel, "shape", shown_for=lambda obj: measurable(obj) and shows_advanced())
+CLASSES = in_both_places(
+    ShapePanel, "shape", shown_for=lambda obj: measurable(obj) and shows_advanced()
+)

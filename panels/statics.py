@@ -32,7 +32,8 @@ class StabilityPanel:
     bl_label = "Stability"
 
     def draw(self, context: Context) -> None:
-        layout, objects = self.layout, shown_objects(context)
+        layout = self.layout
+        objects = shown_objects(context)
         obj = objects[0] if len(objects) == 1 else context.object
         stability = loaded_module(stored, "stability")
         if stability is None or not stability.is_known(obj):
@@ -64,7 +65,8 @@ def _support(layout: UILayout, context: Context, support: Support) -> None:
         if len(support.polygon) > 2:  # on an edge or a corner nothing stands
             button = row.operator("object.body_moments_sculpt_balance", text="Balance...")
             edge = support.foot + support.margin * support.direction
-            button.target, button.point = "POINT", (edge + support.polygon.mean(axis=0)) / 2.0
+            button.target = "POINT"
+            button.point = (edge + support.polygon.mean(axis=0)) / 2.0
     margin = support.margin * unit
     angle = degrees(support.tipping_angle)
     toward = degrees(atan2(support.direction[1], support.direction[0]))
@@ -103,13 +105,19 @@ def _poses(layout: UILayout, context: Context, obj: Object) -> None:
         number = "" if narrow else "{:d}: ".format(place + 1)
         row.label(text="{:s}{:.1f}%".format(number, 100.0 * share), translate=False)
         rows.right(row, "{:.1f}°".format(degrees(angle)))
-        row.operator("object.body_moments_rest_on_ground", text="", icon="TRIA_DOWN_BAR").pose = place + 1
+        row.operator("object.body_moments_rest_on_ground", text="", icon="TRIA_DOWN_BAR").pose = (
+            place + 1
+        )
     more = len(poses.tipping_angles) - MAX_POSES
     if more > 0:
         rows.filled(column, "{:d} more", more)
-    rows.button(layout, "object.body_moments_rest_on_ground", "TRIA_DOWN_BAR", short="Rest").pose = 1
+    rows.button(
+        layout, "object.body_moments_rest_on_ground", "TRIA_DOWN_BAR", short="Rest"
+    ).pose = 1
 
 
 CLASSES = in_both_places(
-    StabilityPanel, "stability", shown_for=lambda obj: measurable(obj) or armatures.stands_for_meshes(obj)
+    StabilityPanel,
+    "stability",
+    shown_for=lambda obj: measurable(obj) or armatures.stands_for_meshes(obj),
 )

@@ -51,14 +51,21 @@ from body_moments.core.papers.sheynin_tuzikov_2001 import sigma
 from body_moments.core.polyhedron import integration
 from body_moments.core.solid.measure import measure_solid
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # A measurement calls it so.
+polyhedron_moments = partial(
+    integration.polyhedron_moments, allow_open=True
+)  # A measurement calls it so.
 
 
 def torus(n: int, m: int, noise: float, lopsided: bool = False) -> tuple[np.ndarray, np.ndarray]:
     """A closed torus of n x m quads, index-local: points, and quads as corners. noise: of every coordinate, as a share
     of the shorter edges. lopsided: bent so that it has no symmetry."""
-    u, v = np.meshgrid(np.arange(n) * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij")
-    points = np.stack([(1 + 0.4 * np.cos(v)) * np.cos(u), (1 + 0.4 * np.cos(v)) * np.sin(u), 0.4 * np.sin(v)], axis=-1)
+    u, v = np.meshgrid(
+        np.arange(n) * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij"
+    )
+    points = np.stack(
+        [(1 + 0.4 * np.cos(v)) * np.cos(u), (1 + 0.4 * np.cos(v)) * np.sin(u), 0.4 * np.sin(v)],
+        axis=-1,
+    )
     points = points.reshape(-1, 3)
     points += noise * 0.8 * np.pi / m * np.random.default_rng(0).standard_normal(points.shape)
     if lopsided:
@@ -80,7 +87,9 @@ def measure_arrays(points: np.ndarray, triangles: np.ndarray, threads: int = 1) 
     """The whole path: volume, center, inertia and the principal frame with its signs."""
     surface = Surface(points, triangles)
     refine = lambda: polyhedron_moments(surface, exact=True, threads=threads)[0]  # noqa: E731
-    return MassProperties.from_moments(polyhedron_moments(surface, threads=threads)[0], refine=refine)
+    return MassProperties.from_moments(
+        polyhedron_moments(surface, threads=threads)[0], refine=refine
+    )
 
 
 def gather(points: np.ndarray, faces: np.ndarray) -> None:
@@ -119,7 +128,9 @@ def interleaved(rows: dict[str, Callable[[], object]], rounds: int) -> dict[str,
     return times
 
 
-def table(title: str, times: dict[str, list[float]], against: list[str], per: int | None = None) -> None:
+def table(
+    title: str, times: dict[str, list[float]], against: list[str], per: int | None = None
+) -> None:
     """Print medians, least times and the ratios of the medians (and of the least times) to some of the rows."""
     print("\n" + title)
     head = "".join("{:>22s}".format("/ " + name) for name in against)
@@ -129,12 +140,18 @@ def table(title: str, times: dict[str, list[float]], against: list[str], per: in
         median, least = statistics.median(values), min(values)
         ratios = "".join(
             "{:>22s}".format(
-                "{:.2f} ({:.2f})".format(median / statistics.median(times[other]), least / min(times[other]))
+                "{:.2f} ({:.2f})".format(
+                    median / statistics.median(times[other]), least / min(times[other])
+                )
             )
             for other in against
         )
         each = "{:.1f}".format(median / per * 1e9) if per else ""
-        print("    {:<40s}{:>10.1f}{:>10.1f}{:>15s}{:s}".format(name, median * 1e3, least * 1e3, each, ratios))
+        print(
+            "    {:<40s}{:>10.1f}{:>10.1f}{:>15s}{:s}".format(
+                name, median * 1e3, least * 1e3, each, ratios
+            )
+        )
 
 
 def beside(name: str) -> ModuleType:
@@ -156,7 +173,9 @@ class Tables(io.TextIOWrapper):
 def hide_reports() -> None:
     """Print tables only, and let what Blender itself prints go nowhere: in a pipe or a file it would come out later."""
     sys.stdout.flush()
-    sys.stdout = Tables(os.fdopen(os.dup(1), "wb"), encoding=sys.stdout.encoding, line_buffering=True)
+    sys.stdout = Tables(
+        os.fdopen(os.dup(1), "wb"), encoding=sys.stdout.encoding, line_buffering=True
+    )
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     os.close(nowhere)
@@ -188,14 +207,25 @@ def compare(title: str, points: np.ndarray, quads: np.ndarray, paired: bool, rou
     if igl:
         rows["igl.moments"] = lambda: igl.moments(points, indices)
     if trimesh:
-        rows["trimesh mass_properties"] = lambda: trimesh.triangles.mass_properties(points[triangles])
+        rows["trimesh mass_properties"] = lambda: trimesh.triangles.mass_properties(
+            points[triangles]
+        )
     times = interleaved(rows, rounds)
     others = [name for name in rows if name not in ours]
-    table("{:,} triangles in arrays: {:s}".format(len(triangles), title), times, others, len(triangles))
+    table(
+        "{:,} triangles in arrays: {:s}".format(len(triangles), title),
+        times,
+        others,
+        len(triangles),
+    )
     if trimesh:
         print(
             "    faster than trimesh: {:.1f}x on one thread, {:.1f}x on two".format(
-                *(statistics.median(times["trimesh mass_properties"]) / statistics.median(times[name]) for name in ours)
+                *(
+                    statistics.median(times["trimesh mass_properties"])
+                    / statistics.median(times[name])
+                    for name in ours
+                )
             )
         )
 
@@ -221,7 +251,13 @@ def verdicts(side: int, rounds: int) -> None:
     table(title, interleaved(rows, rounds), ["integral, 1 thread"], len(triangles))
 
 
-MULTIPLES = {4: 6, 6: 15, 10: 60, 16: 260, 20: 480}  # Each order may cost so many times the kernel for low orders.
+MULTIPLES = {
+    4: 6,
+    6: 15,
+    10: 60,
+    16: 260,
+    20: 480,
+}  # Each order may cost so many times the kernel for low orders.
 EXPLICIT = {4: 18, 6: 40}  # times as fast as the explicit formula that each order must be
 
 
@@ -232,10 +268,19 @@ def orders(quick: bool) -> None:
         ("triangulated quads", halves(quads, paired=True)),
         ("loose triangles", halves(quads, paired=False)),
     ):
-        print("\nmoments to order N of {:s}, ns a triangle, medians of interleaved runs".format(title))
+        print(
+            "\nmoments to order N of {:s}, ns a triangle, medians of interleaved runs".format(title)
+        )
         print(
             "    {:>4s}{:>10s}{:>10s}{:>11s}{:>10s}{:>14s}{:>11s}{:>16s}".format(
-                "N", "order 3", "volume", "multiple", "at most", "with surface", "2 threads", "explicit/ours"
+                "N",
+                "order 3",
+                "volume",
+                "multiple",
+                "at most",
+                "with surface",
+                "2 threads",
+                "explicit/ours",
             )
         )
         for order in MULTIPLES:
@@ -265,7 +310,10 @@ def compare_order(points: np.ndarray, faces: np.ndarray, order: int, quick: bool
     each = {name: statistics.median(times[name]) / rows[name][1] * 1e9 for name in rows}
     # Threads want many blocks.
     shared = interleaved(
-        {str(threads): partial(polyhedron_moments, base, order, threads=threads) for threads in (1, 2)},
+        {
+            str(threads): partial(polyhedron_moments, base, order, threads=threads)
+            for threads in (1, 2)
+        },
         1 if quick else 2,
     )
     told = ""
@@ -389,8 +437,12 @@ def blender(side: int, rounds: int) -> None:
     rows = {
         "mass properties, 1 thread": lambda: moments_only(1),
         "mass properties, 2 threads": lambda: moments_only(2),
-        "with the full verdict, 1 thread": lambda: measure_object(body, depsgraph, MeasureOptions(threads=1)),
-        "with the full verdict, 2 threads": lambda: measure_object(body, depsgraph, MeasureOptions(threads=2)),
+        "with the full verdict, 1 thread": lambda: measure_object(
+            body, depsgraph, MeasureOptions(threads=1)
+        ),
+        "with the full verdict, 2 threads": lambda: measure_object(
+            body, depsgraph, MeasureOptions(threads=2)
+        ),
         "read and gather only": lambda: floor(gather),
         "the same, in place": lambda: floor(gather_in_place),
         "bmesh from_object + calc_volume": by_bmesh,
@@ -415,14 +467,21 @@ def instances(count: int, rounds: int) -> None:
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     source = mesh_object("Source", *torus(100, 100, 0.05))
     ground = mesh_object(
-        "Ground", np.random.default_rng(1).uniform(-100.0, 100.0, (count, 3)), np.empty((0, 4), np.int32)
+        "Ground",
+        np.random.default_rng(1).uniform(-100.0, 100.0, (count, 3)),
+        np.empty((0, 4), np.int32),
     )
     group = bpy.data.node_groups.new("Scatter", "GeometryNodeTree")
     for direction in ("INPUT", "OUTPUT"):
         group.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
     start, end, info, scatter = (
         group.nodes.new(name)
-        for name in ("NodeGroupInput", "NodeGroupOutput", "GeometryNodeObjectInfo", "GeometryNodeInstanceOnPoints")
+        for name in (
+            "NodeGroupInput",
+            "NodeGroupOutput",
+            "GeometryNodeObjectInfo",
+            "GeometryNodeInstanceOnPoints",
+        )
     )
     info.inputs["Object"].default_value = source
     info.inputs["As Instance"].default_value = True
@@ -449,7 +508,11 @@ def instances(count: int, rounds: int) -> None:
         "matrices as one array, and the mesh": floor,
         "depsgraph.object_instances, and the mesh": one_by_one,
     }
-    table("{:,} instances of {:,} faces".format(count, 10_000), interleaved(rows, rounds), list(rows)[1:])
+    table(
+        "{:,} instances of {:,} faces".format(count, 10_000),
+        interleaved(rows, rounds),
+        list(rows)[1:],
+    )
 
 
 def fourier(quick: bool) -> None:
@@ -464,13 +527,18 @@ def fourier(quick: bool) -> None:
         q *= size / 2.8 / np.linalg.norm(q, axis=1)[:, None]
         grid = FrequencyGrid(count, size / 2.8)
         times = interleaved(
-            {"list": lambda q=q: solid_transform(surface, q), "grid": lambda grid=grid: solid_transform(surface, grid)},
+            {
+                "list": lambda q=q: solid_transform(surface, q),
+                "grid": lambda grid=grid: solid_transform(surface, grid),
+            },
             1 if quick else 3,
         )
         half = (count + 1) ** 2 * (count // 2 + 1)  # Only half of a grid is computed.
         print(
             "    |q| L = {:<6g}    list {:>5.0f}    grid {:>5.0f}".format(
-                size, min(times["list"]) / 500 / faces * 1e9, min(times["grid"]) / half / faces * 1e9
+                size,
+                min(times["list"]) / 500 / faces * 1e9,
+                min(times["grid"]) / half / faces * 1e9,
             )
         )
     points, quads = torus(160, 64, 0.0)
@@ -491,7 +559,9 @@ def fourier(quick: bool) -> None:
         surface = Surface(corners, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))
         rows = {
             "ours": lambda: solid_transform(surface, q),
-            "bornagain": lambda: [body.formfactorAtBottom(bornagain.C3(*row)) for row in q.tolist()],
+            "bornagain": lambda: [
+                body.formfactorAtBottom(bornagain.C3(*row)) for row in q.tolist()
+            ],
         }
         table("A tetrahedron at 5,000 wave vectors", interleaved(rows, 3), ["bornagain"])
 
@@ -499,7 +569,9 @@ def fourier(quick: bool) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="a tenth of the faces, fewer rounds")
-    parser.add_argument("--stream", type=float, metavar="M", help="only: a stream of M million triangles (try 50)")
+    parser.add_argument(
+        "--stream", type=float, metavar="M", help="only: a stream of M million triangles (try 50)"
+    )
     options = parser.parse_args()
     if options.stream:
         stream(options.stream)

@@ -30,7 +30,11 @@ for number in range({count}):
     bpy.context.active_object.scale.x = 1.0 + number / 100.0
     bpy.ops.wm.save_as_mainfile(filepath={folder!r} + "/{{:03d}}.blend".format(number), copy=True)
 """
-WAYS = {"one process": ["--no-supervisor"], "one child": ["--jobs", "1"], "two children": ["--jobs", "2"]}
+WAYS = {
+    "one process": ["--no-supervisor"],
+    "one child": ["--jobs", "1"],
+    "two children": ["--jobs", "2"],
+}
 CLOCKS = ("processor", "wall")
 
 
@@ -43,9 +47,15 @@ def timed(words: list) -> tuple[float, float]:
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, seconds
 
 
-def one_round(start: list, folder: Path, first: Path, out: Path) -> dict[str, list[tuple[float, float]]]:
+def one_round(
+    start: list, folder: Path, first: Path, out: Path
+) -> dict[str, list[tuple[float, float]]]:
     """Return the times of each way for all files and for one; of one Blender a file, for one only."""
-    found = {"one Blender a file": [timed([*start, first, "--no-supervisor", "--output", out / "one.json"])]}
+    found = {
+        "one Blender a file": [
+            timed([*start, first, "--no-supervisor", "--output", out / "one.json"])
+        ]
+    }
     for way, words in WAYS.items():
         result = ["--force", "--format", "jsonl", "--output", out / (way + ".jsonl")]
         found[way] = [timed([*start, files, *words, *result]) for files in (folder, first)]
@@ -60,13 +70,21 @@ def main() -> None:
         folder.mkdir()
         out.mkdir()
         make = MAKE.format(count=COUNT, folder=str(folder))
-        subprocess.run([blender, "-b", "--factory-startup", "--python-expr", make], check=True, capture_output=True)
+        subprocess.run(
+            [blender, "-b", "--factory-startup", "--python-expr", make],
+            check=True,
+            capture_output=True,
+        )
         first = min(folder.iterdir())
         one_round(start, folder, first, out)  # The files are in memory then.
         rounds = [one_round(start, folder, first, out) for _ in range(ROUNDS)]
     load = os.getloadavg()
     print("{} files, {} rounds, load {:.1f} at the end".format(COUNT, ROUNDS, load[0]))
-    print("{:<20} {:>22} {:>30} {:>26}".format("", "all, s", "a file without start-up, ms", "times one Blender a file"))
+    print(
+        "{:<20} {:>22} {:>30} {:>26}".format(
+            "", "all, s", "a file without start-up, ms", "times one Blender a file"
+        )
+    )
     print("{:<20} {}".format("", "{:>11} {:>10} {:>18} {:>11} {:>15} {:>10}".format(*3 * CLOCKS)))
 
     def middle(value) -> list[float]:
@@ -77,7 +95,11 @@ def main() -> None:
         return (one[way][0][clock] - one[way][1][clock]) / (COUNT - 1)
 
     single = "one Blender a file"
-    print("{:<20} {:>11.0f} {:>10.0f}".format(single, *middle(lambda one, c: COUNT * one[single][0][c])))
+    print(
+        "{:<20} {:>11.0f} {:>10.0f}".format(
+            single, *middle(lambda one, c: COUNT * one[single][0][c])
+        )
+    )
     for way in WAYS:
         whole = middle(lambda one, c, way=way: one[way][0][c])
         apart = middle(lambda one, c, way=way: 1000.0 * loop(one, way, c))
@@ -85,9 +107,17 @@ def main() -> None:
         line = "{:<20} {:>11.2f} {:>10.2f} {:>18.2f} {:>11.2f} {:>15.0f} {:>10.0f}"
         print(line.format(way, *whole, *apart, *gain))
     second = middle(lambda one, c: loop(one, "one child", c) / loop(one, "two children", c))
-    cost = middle(lambda one, c: 100.0 * loop(one, "one child", c) / loop(one, "one process", c) - 100.0)
-    print("start-up apart: the second child {:.2f} times faster by the wall clock;".format(second[1]))
-    print("one child beside the plain loop {:+.0f} % of processor time, {:+.0f} % of wall time".format(*cost))
+    cost = middle(
+        lambda one, c: 100.0 * loop(one, "one child", c) / loop(one, "one process", c) - 100.0
+    )
+    print(
+        "start-up apart: the second child {:.2f} times faster by the wall clock;".format(second[1])
+    )
+    print(
+        "one child beside the plain loop {:+.0f} % of processor time, {:+.0f} % of wall time".format(
+            *cost
+        )
+    )
 
 
 if __name__ == "__main__":

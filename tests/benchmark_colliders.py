@@ -48,7 +48,9 @@ def load_package() -> None:
 
 def cells(*layers: str, lines=None) -> Part:
     """Return the surface of the cells marked # in layers from below, rows separated by spaces."""
-    filled = np.array([[[mark == "#" for mark in row] for row in layer.split()] for layer in layers])
+    filled = np.array(
+        [[[mark == "#" for mark in row] for row in layer.split()] for layer in layers]
+    )
     filled = np.pad(filled.transpose(2, 1, 0), 1)
     quads, shape = [], np.array(filled.shape) + 1
     for axis in range(3):
@@ -60,7 +62,9 @@ def cells(*layers: str, lines=None) -> Part:
             corners = np.stack([base, base + u, base + u + v, base + v], axis=1)
             quads.append(corners[:, ::-1] if turned else corners)
     corners = np.concatenate(quads)
-    ids, which = np.unique(corners.reshape(-1, 3) @ [shape[1] * shape[2], shape[2], 1], return_inverse=True)
+    ids, which = np.unique(
+        corners.reshape(-1, 3) @ [shape[1] * shape[2], shape[2], 1], return_inverse=True
+    )
     points = np.stack(np.unravel_index(ids, shape), axis=1).astype(float)
     quads = which.reshape(-1, 4)
     return points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
@@ -82,7 +86,9 @@ def revolve(outline, sides: int = 32) -> Part:
     i, j = np.meshgrid(np.arange(sides), np.arange(count), indexing="ij")
     a, b = i * count + j, i * count + (j + 1) % count
     c, d = (i + 1) % sides * count + (j + 1) % count, (i + 1) % sides * count + j
-    triangles = np.concatenate([np.stack([a, d, c], axis=2), np.stack([a, c, b], axis=2)]).reshape(-1, 3)
+    triangles = np.concatenate([np.stack([a, d, c], axis=2), np.stack([a, c, b], axis=2)]).reshape(
+        -1, 3
+    )
     return weld(points, triangles)
 
 
@@ -100,7 +106,9 @@ def extrude(outline, height: float) -> Part:
 
     outline = np.array(outline, float)
     count = len(outline)
-    lid = tessellate(np.column_stack([outline, np.zeros(count)]).astype(np.float32), np.arange(count)[None])
+    lid = tessellate(
+        np.column_stack([outline, np.zeros(count)]).astype(np.float32), np.arange(count)[None]
+    )
     lid = lid.reshape(-1, 3)
     a, b, c = (outline[lid[:, k]] for k in range(3))
     turned = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0] < 0.0
@@ -109,7 +117,12 @@ def extrude(outline, height: float) -> Part:
     i = np.arange(count)
     j = (i + 1) % count
     return points, np.concatenate(
-        [lid[:, ::-1], lid + count, np.stack([i, j, j + count], 1), np.stack([i, j + count, i + count], 1)]
+        [
+            lid[:, ::-1],
+            lid + count,
+            np.stack([i, j, j + count], 1),
+            np.stack([i, j + count, i + count], 1),
+        ]
     )
 
 
@@ -123,12 +136,17 @@ def tube(line, radius: float, sides: int = 12, closed: bool = False) -> Part:
     side = np.cross(ahead, (0.1, 0.2, 1.0))
     side /= np.linalg.norm(side, axis=1)[:, None]
     turn = np.arange(sides) * 2.0 * np.pi / sides
-    ring = np.cos(turn)[:, None] * side[:, None] + np.sin(turn)[:, None] * np.cross(ahead, side)[:, None]
+    ring = (
+        np.cos(turn)[:, None] * side[:, None]
+        + np.sin(turn)[:, None] * np.cross(ahead, side)[:, None]
+    )
     count, points = len(line), (line[:, None] + radius * ring).reshape(-1, 3)
     i, j = np.meshgrid(np.arange(count if closed else count - 1), np.arange(sides), indexing="ij")
     a, b = i * sides + j, i * sides + (j + 1) % sides
     c, d = (i + 1) % count * sides + (j + 1) % sides, (i + 1) % count * sides + j
-    triangles = np.concatenate([np.stack([a, b, c], axis=2), np.stack([a, c, d], axis=2)]).reshape(-1, 3)
+    triangles = np.concatenate([np.stack([a, b, c], axis=2), np.stack([a, c, d], axis=2)]).reshape(
+        -1, 3
+    )
     if not closed:
         k = np.arange(1, sides - 1)
         low = np.stack([0 * k, k + 1, k], axis=1)
@@ -147,10 +165,26 @@ def bodies() -> dict[str, Part]:
     turn = np.linspace(0.0, 2.0 * np.pi, 120, endpoint=False)
     wave = np.where(np.arange(96) % 8 < 4, 1.0, 0.8)
     knot = np.stack(
-        [np.sin(turn) + 2 * np.sin(2 * turn), np.cos(turn) - 2 * np.cos(2 * turn), -np.sin(3 * turn)], axis=1
+        [
+            np.sin(turn) + 2 * np.sin(2 * turn),
+            np.cos(turn) - 2 * np.cos(2 * turn),
+            -np.sin(3 * turn),
+        ],
+        axis=1,
     )
     helix = np.linspace(0.0, 4.0 * np.pi, 70)
-    fingers = [(0, 0), (4, 0), (4.2, 1.5), (5.8, 3), (5.3, 3.5), (4, 2.6), (4, 5.5), (3.2, 5.5), (3.1, 3), (2.9, 3)]
+    fingers = [
+        (0, 0),
+        (4, 0),
+        (4.2, 1.5),
+        (5.8, 3),
+        (5.3, 3.5),
+        (4, 2.6),
+        (4, 5.5),
+        (3.2, 5.5),
+        (3.1, 3),
+        (2.9, 3),
+    ]
     fingers += [
         (2.8, 6.2),
         (2, 6.2),
@@ -176,7 +210,9 @@ def bodies() -> dict[str, Part]:
         (0.75, 1.9),
         (0, 1.4),
     ]
-    bowl = np.concatenate([circle(12, 1.0, -np.pi / 2, 0.0, True), circle(12, 0.85, 0.0, -np.pi / 2, True)])
+    bowl = np.concatenate(
+        [circle(12, 1.0, -np.pi / 2, 0.0, True), circle(12, 0.85, 0.0, -np.pi / 2, True)]
+    )
     donut = circle(16) * 0.35 + (1.0, 0.0)
     weight = [
         (0, 0),
@@ -190,9 +226,13 @@ def bodies() -> dict[str, Part]:
         (0.6, 3.5),
         (0, 3.6),
     ]
-    moon = np.concatenate([circle(24, 1.0, 0.6, 5.7, True), circle(20, 0.75, 5.5, 0.8, True) + (0.25, 0)])
+    moon = np.concatenate(
+        [circle(24, 1.0, 0.6, 5.7, True), circle(20, 0.75, 5.5, 0.8, True) + (0.25, 0)]
+    )
     outer, inner = (
-        np.stack([(0.25 * spiral + w) * np.cos(spiral), (0.25 * spiral + w) * np.sin(spiral)], axis=1)
+        np.stack(
+            [(0.25 * spiral + w) * np.cos(spiral), (0.25 * spiral + w) * np.sin(spiral)], axis=1
+        )
         for w in (0.35, 0.0)
     )
     bend = [(1 - np.cos(a), 0, 2 + np.sin(a)) for a in np.linspace(0.2, 3.6, 16)]
@@ -236,7 +276,11 @@ def suzanne() -> dict[str, Part]:
         return {}
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder, "suzanne.npz"))
-        subprocess.run(["blender", "-b", "--python-expr", SUZANNE.format(path)], capture_output=True, check=True)
+        subprocess.run(
+            ["blender", "-b", "--python-expr", SUZANNE.format(path)],
+            capture_output=True,
+            check=True,
+        )
         with np.load(path) as arrays:
             return {"Suzanne": (arrays["points"].astype(float), arrays["triangles"])}
 
@@ -255,7 +299,9 @@ def by_coacd(part: Part, queue: multiprocessing.Queue) -> None:
     import coacd
 
     coacd.set_log_level("error")
-    queue.put([points for points, _ in coacd.run_coacd(coacd.Mesh(*part), preprocess_mode="off", seed=1)])
+    queue.put(
+        [points for points, _ in coacd.run_coacd(coacd.Mesh(*part), preprocess_mode="off", seed=1)]
+    )
 
 
 def hull_sum(sets) -> float:
@@ -264,7 +310,9 @@ def hull_sum(sets) -> float:
     from body_moments.core.polyhedron.integration import volume_and_center
 
     hulls = [convex_hull(points) for points in sets]
-    return sum(volume_and_center(Surface.from_triangles(hull.points, hull.triangles))[0] for hull in hulls)
+    return sum(
+        volume_and_center(Surface.from_triangles(hull.points, hull.triangles))[0] for hull in hulls
+    )
 
 
 def main(names: list[str]) -> None:
@@ -299,7 +347,17 @@ def main(names: list[str]) -> None:
         ratios.append(ours / theirs)
         row = "{:14s} {:6d} {:3d}/{:<3d} {:6.3f} {:6.3f} {:6.3f} {:8.2f} {:7.2f}"
         print(
-            row.format(name, len(part[1]), len(hulls), count, theirs, ours, ratios[-1], seconds, own_seconds),
+            row.format(
+                name,
+                len(part[1]),
+                len(hulls),
+                count,
+                theirs,
+                ours,
+                ratios[-1],
+                seconds,
+                own_seconds,
+            ),
             flush=True,
         )
     print("median {:.3f}, largest {:.3f}".format(statistics.median(ratios), max(ratios)))

@@ -54,7 +54,10 @@ def kinds(rng: np.random.Generator) -> dict[str, Callable[[], tuple[np.ndarray, 
         "different boxes": lambda: (CORNERS * rng.uniform(0.5, 2, 3), SIDES),
         "32-gon cylinders": lambda: (turned * [1.0, 1.0, rng.uniform(0.5, 3)], cylinder_faces),
         "linked cubes": lambda: (linked, SIDES),
-        "two components": lambda: (np.concatenate([CORNERS * rng.uniform(0.5, 2, 3), CORNERS + [5, 0, 0]]), two),
+        "two components": lambda: (
+            np.concatenate([CORNERS * rng.uniform(0.5, 2, 3), CORNERS + [5, 0, 0]]),
+            two,
+        ),
         "open boxes": lambda: (CORNERS * rng.uniform(0.5, 2, 3), SIDES[:5]),
     }
 
@@ -121,18 +124,28 @@ def many(count: int, rounds: int) -> None:
     make(3, next(iter(kinds(rng).values())), rng)
     for first in ("measure", "origin_to_center", "axes_to_principal"):  # It loads their modules.
         getattr(bpy.ops.object, "body_moments_" + first)()
-    print("\n{:,} separate parts: microseconds an object (median), and times the floor".format(count))
+    print(
+        "\n{:,} separate parts: microseconds an object (median), and times the floor".format(count)
+    )
     rows = "floor", "Measure", "Blender's Set Origin", "Origin to Center", "Axes to Principal"
-    print("    {:<26s}{:>10s}".format("", rows[0]) + "".join("{:>28s}".format(name) for name in rows[1:]))
+    print(
+        "    {:<26s}{:>10s}".format("", rows[0])
+        + "".join("{:>28s}".format(name) for name in rows[1:])
+    )
     for name, part in kinds(rng).items():
         objects, times = make(count, part, rng), {row: [] for row in rows}
         measure = bpy.ops.object.body_moments_measure
         for round_ in range(rounds + 1):
-            sample = {"floor": timed(partial(floor, objects, name.startswith("linked"))), "Measure": timed(measure)}
+            sample = {
+                "floor": timed(partial(floor, objects, name.startswith("linked"))),
+                "Measure": timed(measure),
+            }
             for row in sample:
                 times[row] += [sample[row]] * bool(round_)
         steps = {
-            "Blender's Set Origin": lambda: bpy.ops.object.origin_set(type="ORIGIN_CENTER_OF_VOLUME"),
+            "Blender's Set Origin": lambda: bpy.ops.object.origin_set(
+                type="ORIGIN_CENTER_OF_VOLUME"
+            ),
             "Origin to Center": lambda: bpy.ops.object.body_moments_origin_to_center(),
             "Axes to Principal": lambda: bpy.ops.object.body_moments_axes_to_principal(),
         }

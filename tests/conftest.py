@@ -33,7 +33,9 @@ PACKAGE = "body_moments"
 
 
 def _load_root() -> ModuleType:
-    spec = importlib.util.spec_from_file_location(PACKAGE, ROOT / "__init__.py", submodule_search_locations=[str(ROOT)])
+    spec = importlib.util.spec_from_file_location(
+        PACKAGE, ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
+    )
     module = importlib.util.module_from_spec(spec)
     sys.modules[PACKAGE] = module
     spec.loader.exec_module(module)
@@ -92,9 +94,15 @@ from tests.may_skip import MAY_SKIP
 
 def pytest_addoption(parser):
     parser.addoption("--result-file", help="write the outcome of the run there as JSON")
-    parser.addoption("--seed", type=int, help="run files, and tests within a file, in the random order of this seed")
     parser.addoption(
-        "--rewrite", action="store_true", help="keep what the fixture `kept` is given instead of comparing"
+        "--seed",
+        type=int,
+        help="run files, and tests within a file, in the random order of this seed",
+    )
+    parser.addoption(
+        "--rewrite",
+        action="store_true",
+        help="keep what the fixture `kept` is given instead of comparing",
     )
 
 
@@ -197,7 +205,9 @@ def _fail_undeclared_skip(report):
     """Turn a skip that tests/may_skip.py does not declare into a failure, if CI is set."""
     if CI and report.skipped and not _skip_reason(report).startswith(tuple(MAY_SKIP)):
         report.outcome = "failed"
-        report.longrepr = "skipped, which tests/may_skip.py does not declare: " + _skip_reason(report)
+        report.longrepr = "skipped, which tests/may_skip.py does not declare: " + _skip_reason(
+            report
+        )
     return report
 
 
@@ -261,7 +271,9 @@ def kept(request):
 
     def rounded(number):
         value = float(number[0])
-        return "{:.{}g}".format(value, 6 if abs(value) > 1e-6 else 1) if abs(value) > 1e-15 else "0.0"
+        return (
+            "{:.{}g}".format(value, 6 if abs(value) > 1e-6 else 1) if abs(value) > 1e-15 else "0.0"
+        )
 
     def compare(name, text):
         path = request.path.parent / "kept" / name

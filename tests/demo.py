@@ -174,7 +174,10 @@ def picture(body: str, record: str, path: str) -> None:
         )
         tip = center + axis * 1.12 * reach + view * 2 * reach
         add(text, Matrix.LocRotScale(tip, facing, None), look)
-    ball = [(4 * thin * math.sin(a), -4 * thin * math.cos(a)) for a in (math.pi * i / 16 for i in range(17))]
+    ball = [
+        (4 * thin * math.sin(a), -4 * thin * math.cos(a))
+        for a in (math.pi * i / 16 for i in range(17))
+    ]
     add(lathe("Center", ball), Matrix.Translation(center), material("Center", (0.9, 0.6, 0.0)))
 
     sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
@@ -215,7 +218,9 @@ def report(record: str) -> None:
     volume = measured["volume"]
     print(f"  volume             {volume * 1e6:.9g} cm³, by hand {volume_by_hand() * 1e6:.9g} cm³")
     rounding, coordinates = bound["volume"] / volume, bound["input"]["volume"] / volume
-    print(f"  error of volume    at most {rounding:.1e} (rounding) + {coordinates:.1e} (coordinates)")
+    print(
+        f"  error of volume    at most {rounding:.1e} (rounding) + {coordinates:.1e} (coordinates)"
+    )
     print(f"  area               {measured['area'] * 1e4:.9g} cm²")
     print(f"  center of mass     {vector(measured['center_of_mass'], 1e3, 6)}  mm")
     print(f"  principal moments  {vector(measured['principal_moments'], 1e6, 6)}  kg·mm²")

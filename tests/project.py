@@ -59,7 +59,9 @@ INTERRUPT_LIMIT = 10  # seconds that what was interrupted may take to clean up
 
 INSTALL = ["apt-get", "install", "-y", "--no-install-recommends"]
 INSTALLING = threading.Lock()  # apt-get refuses to run twice at a time
-NO_PYTHON = "Neither Python 3.11 nor 3.13 with venv is here. Install one of them, or uv, and try again."
+NO_PYTHON = (
+    "Neither Python 3.11 nor 3.13 with venv is here. Install one of them, or uv, and try again."
+)
 NO_LIBRARIES = """\
 Blender cannot be loaded: {}
 On Debian and Ubuntu its libraries come by
@@ -101,7 +103,13 @@ class Children:
             raise Failed("Interrupted.")
         words = [str(part) for part in command]
         text = {"encoding": "utf-8", "errors": "replace"}
-        options = {"cwd": ROOT, "env": clean_environment(), "start_new_session": not WINDOWS, **text, **options}
+        options = {
+            "cwd": ROOT,
+            "env": clean_environment(),
+            "start_new_session": not WINDOWS,
+            **text,
+            **options,
+        }
         process = subprocess.Popen(words, **options)
         self.running.add(process)
         try:
@@ -117,7 +125,9 @@ class Children:
         """End a process with whatever it has started."""
         if WINDOWS:
             if process.poll() is None:
-                subprocess.run(["taskkill", "/T", "/F", "/PID", str(process.pid)], capture_output=True)
+                subprocess.run(
+                    ["taskkill", "/T", "/F", "/PID", str(process.pid)], capture_output=True
+                )
         else:  # the group may outlive its leader
             with contextlib.suppress(ProcessLookupError, PermissionError):
                 os.killpg(process.pid, getattr(signal, sign))
@@ -254,7 +264,9 @@ def prepare_blender(version: str, addition: str | None = None) -> Path | None:
     executable = prepare(addition or f"blender-{version}", python, wanted, requirements)
     with INSTALLING:
         if find_load_problem(executable):
-            packages = re.search("^Blender: (.*)", (TESTS / "packages-debian.txt").read_text(), re.MULTILINE)[1].split()
+            packages = re.search(
+                "^Blender: (.*)", (TESTS / "packages-debian.txt").read_text(), re.MULTILINE
+            )[1].split()
             install_packages(packages)
             if problem := find_load_problem(executable):
                 raise Failed(NO_LIBRARIES.format(problem, " ".join([*INSTALL, *packages])))
@@ -264,7 +276,9 @@ def prepare_blender(version: str, addition: str | None = None) -> Path | None:
 def find_load_problem(python: Path) -> str:
     """Return the last line of the error that Blender's module gives when it is loaded, or nothing."""
     command = [python, "-P", "-c", "import os, bpy; os._exit(0)"]  # bpy 4.5 can crash at the end
-    done = subprocess.run(command, env=clean_environment(), capture_output=True, encoding="utf-8", errors="replace")
+    done = subprocess.run(
+        command, env=clean_environment(), capture_output=True, encoding="utf-8", errors="replace"
+    )
     return done.stderr.strip().rpartition("\n")[2] if done.returncode else ""
 
 
@@ -329,9 +343,15 @@ class Runner:
 
     def run(self, label: str, command: list, result: Path, **variables: str) -> int:
         """Run a command to its end; its exit code, which is no small number if it was killed."""
-        pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+        pipes = {
+            "stdin": subprocess.DEVNULL,
+            "stdout": subprocess.PIPE,
+            "stderr": subprocess.STDOUT,
+        }
         heard = [time.monotonic()]
-        with children.start(command, env=clean_environment(PYTHONUNBUFFERED="1", **variables), **pipes) as process:
+        with children.start(
+            command, env=clean_environment(PYTHONUNBUFFERED="1", **variables), **pipes
+        ) as process:
             threading.Thread(target=self.watch, args=(process, result, heard), daemon=True).start()
             for line in process.stdout:
                 heard[-1] = time.monotonic()
@@ -375,7 +395,14 @@ def run_tests(
             runner.print(label, f"exit code {code} came after the tests were over")
     else:
         runner.print(label, f"exit code {code} came before the tests were over")
-        outcome = {"passed": 0, "failed": 0, "skipped": 0, "left_out": {}, "failures": [], "exit": code or 1}
+        outcome = {
+            "passed": 0,
+            "failed": 0,
+            "skipped": 0,
+            "left_out": {},
+            "failures": [],
+            "exit": code or 1,
+        }
     nothing_selected = outcome["exit"] == 5 and extra
     if outcome["exit"] and not nothing_selected:
         outcome["failed"] = max(outcome["failed"], 1)
@@ -397,7 +424,9 @@ def in_lanes(function: Callable, lanes: Iterable) -> list[dict]:
 
 def finish(outcomes: list[dict], remarks: Iterable[str] = (), failed: int = 0) -> int:
     """Print the tests that were left out, by reason, that failed, and the total; return the command's exit code."""
-    total = {word: sum(outcome[word] for outcome in outcomes) for word in ("passed", "failed", "skipped")}
+    total = {
+        word: sum(outcome[word] for outcome in outcomes) for word in ("passed", "failed", "skipped")
+    }
     total["failed"] += failed
     left_out = sum((Counter(outcome["left_out"]) for outcome in outcomes), Counter())
     for reason, count in left_out.most_common():
@@ -445,14 +474,27 @@ def test_subject(subject: str, extra: list[str]) -> int:
         return test_folder(subject, extra)
     known = subjects()
     if subject not in known:
-        folders = {path.name for group in SUBJECT_GROUPS for path in (TESTS / group).rglob("*/") if path.is_dir()}
+        folders = {
+            path.name
+            for group in SUBJECT_GROUPS
+            for path in (TESTS / group).rglob("*/")
+            if path.is_dir()
+        }
         names = ", ".join(sorted(folders - {"__pycache__"}))
-        raise Failed(f"No tests are about {subject!r}. Folders: {names}; or a word of a test file's name.")
+        raise Failed(
+            f"No tests are about {subject!r}. Folders: {names}; or a word of a test file's name."
+        )
     version = any_blender()
     python = prepare_blender(version)
-    print(f"The tests of {subject}, on Blender {version} alone; at most half a minute on two idle cores.")
+    print(
+        f"The tests of {subject}, on Blender {version} alone; at most half a minute on two idle cores."
+    )
     runner, groups = Runner(), known[subject]
-    return finish(in_lanes(lambda name: [run_tests(runner, python, version, name, extra, groups[name])], groups))
+    return finish(
+        in_lanes(
+            lambda name: [run_tests(runner, python, version, name, extra, groups[name])], groups
+        )
+    )
 
 
 # The project's commands
@@ -464,14 +506,21 @@ def test(options: argparse.Namespace) -> int:
     if options.subject:
         return test_subject(options.subject, extra)
     groups = options.only or list(GROUPS)
-    versions = [version for version, wanted in BLENDERS.items() if find_python(wanted)]  # this may install uv
+    versions = [
+        version for version, wanted in BLENDERS.items() if find_python(wanted)
+    ]  # this may install uv
     if not versions:
         raise Failed(NO_PYTHON)
     absent = BLENDERS.keys() - versions
-    remarks = [f"Left out: the half on Blender {version}, which needs Python {BLENDERS[version]}" for version in absent]
+    remarks = [
+        f"Left out: the half on Blender {version}, which needs Python {BLENDERS[version]}"
+        for version in absent
+    ]
     if "window" in groups and not (os.environ.get("BLENDER") or shutil.which("blender")):
         groups = [group for group in groups if group != "window"]
-        remarks.append("Left out: the window tests, which need a real Blender: on the PATH, or named by BLENDER")
+        remarks.append(
+            "Left out: the window tests, which need a real Blender: on the PATH, or named by BLENDER"
+        )
     minutes = sum(GROUPS[group] for group in groups)
     print(
         f"Tests of {', '.join(groups)} on Blender {' and '.join(versions)}: about {minutes} minutes on two idle cores,"
@@ -495,7 +544,9 @@ def test(options: argparse.Namespace) -> int:
         version = max(versions)
         outcomes.append(run_tests(runner, prepare_blender(version), version, "window", extra))
         if older := os.environ.get("BLENDER_45"):
-            python = prepare_blender(version)  # of pytest alone: the tests talk to Blender's process
+            python = prepare_blender(
+                version
+            )  # of pytest alone: the tests talk to Blender's process
             outcomes.append(run_tests(runner, python, "4.5", "window", extra, BLENDER=older))
         else:
             remarks.append("Left out: the window of Blender 4.5: BLENDER_45 names none")
@@ -540,11 +591,33 @@ def demo(options: argparse.Namespace) -> int:
 def build(options: argparse.Namespace) -> int:
     python = prepare_blender(any_blender())
     zipped = show([python, "-P", TESTS / "package" / "extension.py", ROOT / "dist"])
-    return show([python, "-P", "-m", "build", "--wheel", "--no-isolation", "--outdir", ROOT / "dist", ROOT]) or zipped
+    return (
+        show(
+            [
+                python,
+                "-P",
+                "-m",
+                "build",
+                "--wheel",
+                "--no-isolation",
+                "--outdir",
+                ROOT / "dist",
+                ROOT,
+            ]
+        )
+        or zipped
+    )
 
 
 def benchmark(options: argparse.Namespace) -> int:
-    return show([prepare_blender(any_blender(), "benchmark"), "-P", TESTS / "benchmark.py", *options.arguments])
+    return show(
+        [
+            prepare_blender(any_blender(), "benchmark"),
+            "-P",
+            TESTS / "benchmark.py",
+            *options.arguments,
+        ]
+    )
 
 
 def tables(options: argparse.Namespace) -> int:
@@ -579,14 +652,19 @@ def parse(words: list[str]) -> argparse.Namespace:
         (build, "build the extension's zip and the wheel"),
         (benchmark, "times and ratios against trimesh and libigl; --quick, --stream M"),
         (tables, "the paper's tables of trivariate densities beside ours"),
-        (soak, "what takes long: hostile files, kills, random damage; --minutes N, --seed S, names"),
+        (
+            soak,
+            "what takes long: hostile files, kills, random damage; --minutes N, --seed S, names",
+        ),
         (lint, "check the rules, the format and the types"),
     ):
         command = commands.add_parser(function.__name__, help=text)
         command.set_defaults(function=function)
         if function is test:
             command.add_argument(
-                "subject", nargs="?", help="solid, nurbs, ...: its tests on one Blender; core/solid: with numpy alone"
+                "subject",
+                nargs="?",
+                help="solid, nurbs, ...: its tests on one Blender; core/solid: with numpy alone",
             )
             command.add_argument("--only", action="append", choices=GROUPS, help="repeatable")
             command.add_argument("-k", metavar="WORDS", help="tests with such names, as in pytest")
@@ -602,7 +680,11 @@ def parse(words: list[str]) -> argparse.Namespace:
 
 def main() -> int:
     options = parse(sys.argv[1:])
-    for name in ("SIGINT", "SIGTERM", "SIGHUP"):  # a shell's job in the background has the first ignored
+    for name in (
+        "SIGINT",
+        "SIGTERM",
+        "SIGHUP",
+    ):  # a shell's job in the background has the first ignored
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.default_int_handler)
     try:

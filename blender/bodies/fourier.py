@@ -28,7 +28,12 @@ from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
 from ..settings.density import density_field
 from ..settings.options import MeasureOptions, object_settings
-from .findings import DISPLAY_MESH_NEEDED, FOURIER_APPROXIMATE, FOURIER_NO_EXTENT, FOURIER_OF_UNIFORM_DENSITY
+from .findings import (
+    DISPLAY_MESH_NEEDED,
+    FOURIER_APPROXIMATE,
+    FOURIER_NO_EXTENT,
+    FOURIER_OF_UNIFORM_DENSITY,
+)
 from .flat.flat import area_findings, flat_region
 from .mesh import mesh_body
 
@@ -81,21 +86,25 @@ def object_transform(
     reading = read_object(obj, depsgraph)
     shell = resolved.kind == "shell"
     with name_subject(obj.name):
-        body = mesh_body(reading, unit, shell=shell, union=resolved.overlap == "union", threads=resolved.threads)
+        body = mesh_body(
+            reading, unit, shell=shell, union=resolved.overlap == "union", threads=resolved.threads
+        )
         if area or shell:
             if shell and not area and resolved.wall != "thin":
                 raise ReadError(WALL_UNSUPPORTED, quantity="The Fourier transform")
             if shell and not area and not resolved.thickness > 0.0:
                 raise ReadError(ZERO_QUANTITY, quantity="thickness")
             parts = [(part.surface, to_si(part.matrices, unit)) for part in reading.parts]
-            of, total = Measure.AREA, body.area.total
+            of = Measure.AREA
+            total = body.area.total
         else:
             if resolved.kind == "wire":
                 raise ReadError(WIRE_UNSUPPORTED, quantity="The Fourier transform")
             if body.method.procedure == Procedure.OPEN:
                 raise ReadError(FOURIER_OF_OPEN_SURFACE)
             parts = [(solid.repaired_surface, matrices) for solid, matrices in body.solids]
-            of, total = Measure.VOLUME, body.volume.total
+            of = Measure.VOLUME
+            total = body.volume.total
         if frame == "object":
             turn = _to_object(reading, unit)
             parts = [(surface, turn @ matrices) for surface, matrices in parts]
@@ -133,16 +142,22 @@ def flat_transform(
     origin = plane.origin + plane.axes @ at
     if callable(q):
         q = q(float(np.ptp(region.used, axis=0).max()))
-    transform = RegionTransform(region.points - at[:2], region.edges, q, region.rounded, region.stored)
-    return ObjectTransform(obj.name, transform, findings, arrays={"axes": plane.axes[:, :2].T, "origin": origin})
+    transform = RegionTransform(
+        region.points - at[:2], region.edges, q, region.rounded, region.stored
+    )
+    return ObjectTransform(
+        obj.name, transform, findings, arrays={"axes": plane.axes[:, :2].T, "origin": origin}
+    )
 
 
 def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
     """Return the longest side, in m, of the box that holds the boxes of all parts, or raise ReadError if it is 0."""
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    low = np.full(3, np.inf)
+    high = np.full(3, -np.inf)
     for surface, matrices in parts:
         center, extent = placed_boxes(surface.box, matrices)
-        low, high = np.minimum(low, (center - extent).min(axis=0)), np.maximum(high, (center + extent).max(axis=0))
+        low = np.minimum(low, (center - extent).min(axis=0))
+        high = np.maximum(high, (center + extent).max(axis=0))
     size = float((high - low).max())
     if not 0.0 < size < np.inf:
         raise ReadError(FOURIER_NO_EXTENT)

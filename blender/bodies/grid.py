@@ -20,7 +20,13 @@ from ...core.bodies.findings import (
     GRID_TOO_LARGE,
     SAMPLES_POSITIONED,
 )
-from ...core.bodies.grid import MAX_SAMPLES, Samples, ThresholdGrid, density_body, threshold_grid_body
+from ...core.bodies.grid import (
+    MAX_SAMPLES,
+    Samples,
+    ThresholdGrid,
+    density_body,
+    threshold_grid_body,
+)
 from ...core.bodies.mesh_body import MeshBody
 from ...core.bodies.reading import Part, to_si
 from ...core.density.grid_options import GridOptions
@@ -50,7 +56,9 @@ def read(request: Request) -> VolumeReading | None:
         return None
     with ExitStack() as opened:
         opened.enter_context(tracking_paused())
-        reading = opened.enter_context(volume_reading(obj, request.depsgraph, obj.body_moments.grid))
+        reading = opened.enter_context(
+            volume_reading(obj, request.depsgraph, obj.body_moments.grid)
+        )
         if reading is None:
             return None
         if request.settings.kind != "solid":
@@ -61,8 +69,11 @@ def read(request: Request) -> VolumeReading | None:
 
 def body(reading: VolumeReading, request: Request) -> Body:
     """Return the body of one grid, or raise MeasureError if there is none."""
-    obj, density = request.obj, request.given.density
-    made = _grid_body(reading, GridOptions.from_settings(obj.body_moments, density), request.settings)
+    obj = request.obj
+    density = request.given.density
+    made = _grid_body(
+        reading, GridOptions.from_settings(obj.body_moments, density), request.settings
+    )
     key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, (), request.scene)
     source = None if made.mass is None else finding(DENSITY_FROM_GRID, grid=reading.grid)
     return replace(made, density_from=source, density_key=key)
@@ -70,7 +81,8 @@ def body(reading: VolumeReading, request: Request) -> Body:
 
 def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings) -> Body:
     """Return the body of one grid, with its mass moments to an order. Raises MeasureError if the grid has no body."""
-    unit, order = settings.unit, KNOWN_ORDER if settings.order is None else settings.order
+    unit = settings.unit
+    order = KNOWN_ORDER if settings.order is None else settings.order
     if options.threshold is not None:
         options.needs_even_samples(reading.grid)
         return threshold_grid_body(threshold_grid(reading, unit), options, order=order)
@@ -79,13 +91,24 @@ def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings)
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
     positions = sample_positions(options, reading.grid, reading.low, reading.shape)
-    first = affine_matrices(np.eye(3), [low if row is None else 0.0 for low, row in zip(reading.low, positions)])
+    first = affine_matrices(
+        np.eye(3), [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
+    )
     shape = [count if row is None else len(row) for count, row in zip(reading.shape, positions)]
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
-    density = finding(GRID_DENSITY, samples=list(reading.shape), cause=options.meaning().as_record())
+    density = finding(
+        GRID_DENSITY, samples=list(reading.shape), cause=options.meaning().as_record()
+    )
     axes = [axis for axis, row in zip(AXES, positions) if row is not None]
     findings = (density, finding(SAMPLES_POSITIONED, axes=axes)) if axes else (density,)
-    samples = Samples(_whole_axes(reading, positions), shape, matrix, options, reading.background, positions=positions)
+    samples = Samples(
+        _whole_axes(reading, positions),
+        shape,
+        matrix,
+        options,
+        reading.background,
+        positions=positions,
+    )
     return density_body(samples, findings, order=order)
 
 
@@ -125,5 +148,9 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
         if block.dtype.itemsize > 4:
             values = values.astype(np.float64, copy=False)
         values[i : i + block.shape[0], j : j + block.shape[1], k : k + block.shape[2]] = block
-    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ affine_matrices(np.eye(3), reading.low)
+    matrix = (
+        to_si(reading.matrix[None], unit)[0]
+        @ reading.to_object
+        @ affine_matrices(np.eye(3), reading.low)
+    )
     return ThresholdGrid(reading.grid, values, matrix, float(reading.background))

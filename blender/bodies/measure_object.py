@@ -58,7 +58,9 @@ def measure_object(
     return measure_body(obj, depsgraph, options).measurement
 
 
-def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET) -> Measured:
+def measure_body(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
+) -> Measured:
     """Return the measurement of one evaluated object with its reading and body, or raise MeasureError."""
     with name_subject(obj.name), ExitStack() as opened:
         request = Request.resolve(obj, depsgraph, options, opened=opened)

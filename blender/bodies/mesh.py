@@ -30,12 +30,22 @@ from ..read.mesh import mesh_surface
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
 from .density.varying_density import weigh
-from .findings import DISPLAY_MESH_NEEDED, OPEN_COMPONENTS_UNITED, UNION_BY_BOOLEAN, UNION_FAILED, ZERO_SCALE
+from .findings import (
+    DISPLAY_MESH_NEEDED,
+    OPEN_COMPONENTS_UNITED,
+    UNION_BY_BOOLEAN,
+    UNION_FAILED,
+    ZERO_SCALE,
+)
 from .request import Request
 
 MEASURED_AS = frozenset({"solid", "shell"})
 
-REPAIRS = {HOLES_CAPPED, FLIPPED_FACES, INVERTED_COMPONENTS}  # findings about the bodies before their union
+REPAIRS = {
+    HOLES_CAPPED,
+    FLIPPED_FACES,
+    INVERTED_COMPONENTS,
+}  # findings about the bodies before their union
 HULL_RTOL = 1e-6  # relative to the extent: points that are outside by less are left out
 NOISE = 4.0  # half ulps of float32 coordinates: allowed unevenness of flat faces
 MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
@@ -43,12 +53,19 @@ MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
 
 def read(request: Request) -> Reading | None:
     """Return the polygons that an object shows, or None if it has NURBS patches of one density (see `nurbs.py`)."""
-    reading, density, obj = request.surfaces, request.density, request.obj
+    reading = request.surfaces
+    density = request.density
+    obj = request.obj
     if reading.has_patches:
         if density is None:
             return None
         reading.findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a varying density"))
-    elif density is not None and request.settings.kind == "shell" and obj.type == "CURVE" and shows_flat_region(obj):
+    elif (
+        density is not None
+        and request.settings.kind == "shell"
+        and obj.type == "CURVE"
+        and shows_flat_region(obj)
+    ):
         reading.findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a varying density"))
     return reading
 
@@ -57,7 +74,13 @@ def body(reading: Reading, request: Request) -> Body:
     """Return the body that polygons bound, weighed and with walls as set, or raise MeasureError."""
     settings = request.settings
     shell = settings.kind == "shell"
-    made = mesh_body(reading, settings.unit, shell=shell, union=settings.overlap == "union", threads=settings.threads)
+    made = mesh_body(
+        reading,
+        settings.unit,
+        shell=shell,
+        union=settings.overlap == "union",
+        threads=settings.threads,
+    )
     if request.density is not None:
         made = weigh(reading, made, request)
     if shell and settings.wall != "thin":
@@ -72,8 +95,16 @@ def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, thread
     flat = reading.singular_instance_count
     if flat == reading.instance_count:
         raise ReadError(ZERO_SCALE)
-    made = _boolean_union(reading, unit, threads) if union else sum_of_instances(reading, unit, False, threads)
-    return replace(made, findings=(singular_instances_message(reading), *made.findings)) if flat else made
+    made = (
+        _boolean_union(reading, unit, threads)
+        if union
+        else sum_of_instances(reading, unit, False, threads)
+    )
+    return (
+        replace(made, findings=(singular_instances_message(reading), *made.findings))
+        if flat
+        else made
+    )
 
 
 def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
@@ -114,14 +145,17 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     if reading.is_singular:
         raise EditRefusedError(SCALE_ZERO_AXIS)
     to_local = np.linalg.inv(reading.matrix)
-    points, noise = [], 0.0
+    points = []
+    noise = 0.0
     for part in reading.parts:
         corners = part.surface.used_points().astype(np.float64)
         if len(part.matrices) > 1:
             corners = convex_hull(corners, HULL_RTOL, MAX_CORNERS).points
         for matrix in to_local @ part.matrices:
             points.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
-            noise = max(noise, float((np.abs(matrix[:3, :3]) @ part.surface.coordinate_error).max()))
+            noise = max(
+                noise, float((np.abs(matrix[:3, :3]) @ part.surface.coordinate_error).max())
+            )
     joined = np.concatenate(points)
     extent = float(np.ptp(joined, axis=0).max())
     return convex_hull(joined, max(HULL_RTOL, NOISE * noise / (extent or np.inf)), MAX_CORNERS)
@@ -129,7 +163,8 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
 
 def union_surface(surface: Surface) -> Surface:
     """Return the surface around the union of all shells, computed in float32 about their middle and at unit size."""
-    points, faces = surface.points.astype(np.float64), surface.all_triangles()[0]
+    points = surface.points.astype(np.float64)
+    faces = surface.all_triangles()[0]
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     scale = 2.0 ** np.ceil(np.log2(np.abs(points - middle).max()))  # a power of two rounds nothing
 
@@ -143,8 +178,11 @@ def union_surface(surface: Surface) -> Surface:
         made.append(scene := bpy.data.scenes.new(""))
         scene.collection.objects.link(body)
         boolean = body.modifiers.new("", "BOOLEAN")
-        boolean.operation, boolean.solver, boolean.use_self = "UNION", "EXACT", True
-        boolean.operand_type, boolean.collection = "COLLECTION", nothing
+        boolean.operation = "UNION"
+        boolean.solver = "EXACT"
+        boolean.use_self = True
+        boolean.operand_type = "COLLECTION"
+        boolean.collection = nothing
         scene.view_layers[0].update()
         depsgraph = scene.view_layers[0].depsgraph
         evaluated = body.evaluated_get(depsgraph)

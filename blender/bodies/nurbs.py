@@ -45,7 +45,11 @@ from .request import Request
 MEASURED_AS = frozenset({"solid", "shell"})
 
 MIN_CREASE_ANGLE = 0.02  # radians; smaller creases may be due to float32 alone
-HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)}  # in thicknesses of a wall
+HEIGHTS = {
+    "inward": (-1.0, 0.0),
+    "outward": (0.0, 1.0),
+    "centered": (-0.5, 0.5),
+}  # in thicknesses of a wall
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +86,9 @@ class PatchBody(Body):
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
         """Yield the display mesh in its place, because callers need polygons."""
-        return mesh_body(self.reading, self.unit, shell=sheets, union=False, threads=self.threads).surfaces(sheets)
+        return mesh_body(
+            self.reading, self.unit, shell=sheets, union=False, threads=self.threads
+        ).surfaces(sheets)
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +110,9 @@ class PatchSheetBody(Body):
         if self.polygons is not None:
             faces = self.polygons.moments(order, True)[1]
             areas += [faces] if faces is not None else []
-        return Moments(np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME), sum_moments(areas)
+        return Moments(
+            np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME
+        ), sum_moments(areas)
 
 
 def _patches(part: Part) -> tuple[Face, ...]:
@@ -130,15 +138,31 @@ def body(reading: Reading, request: Request) -> Body:
     if reading.all_singular:
         raise ReadError(ZERO_SCALE)
     patch_parts, meshes = _split_parts(reading)
-    measures = [measure_patches(_patches(part), area_order=3, stored=_stored(part)) for part in patch_parts]
-    if settings.overlap == "union" and (reading.instance_count > 1 or measures[0].health.components > 1):
+    measures = [
+        measure_patches(_patches(part), area_order=3, stored=_stored(part)) for part in patch_parts
+    ]
+    if settings.overlap == "union" and (
+        reading.instance_count > 1 or measures[0].health.components > 1
+    ):
         united = mesh_body(reading, unit, shell=False, union=True, threads=threads)
-        return replace(united, findings=(finding(DISPLAY_MESH_NEEDED, purpose="a union"), *united.findings))
-    rest = mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
-    pieces = [(part, measure, to_si(part.matrices, unit)) for part, measure in zip(patch_parts, measures)]
+        return replace(
+            united, findings=(finding(DISPLAY_MESH_NEEDED, purpose="a union"), *united.findings)
+        )
+    rest = (
+        mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
+    )
+    pieces = [
+        (part, measure, to_si(part.matrices, unit)) for part, measure in zip(patch_parts, measures)
+    ]
     volumes = [sum_of_images(measure.volume, matrices) for _, measure, matrices in pieces]
-    areas = [sum_moments(list(_image_areas(part, measure.area, matrices))) for part, measure, matrices in pieces]
-    healths = [(measure.health, len(part.matrices), faces.total) for (part, measure, _), faces in zip(pieces, areas)]
+    areas = [
+        sum_moments(list(_image_areas(part, measure.area, matrices)))
+        for part, measure, matrices in pieces
+    ]
+    healths = [
+        (measure.health, len(part.matrices), faces.total)
+        for (part, measure, _), faces in zip(pieces, areas)
+    ]
     procedures = [Procedure(measure.method) for measure in measures]
     if rest:
         volumes.append(rest.volume)
@@ -148,7 +172,9 @@ def body(reading: Reading, request: Request) -> Body:
     display = None
     if settings.compare:
         with suppress(MeasureError):  # a display mesh that cannot be measured compares with nothing
-            display = mesh_body(reading, unit, shell=False, union=False, threads=threads).volume.total
+            display = mesh_body(
+                reading, unit, shell=False, union=False, threads=threads
+            ).volume.total
     return PatchBody(
         sum_moments(volumes),
         sum_moments(areas),
@@ -199,7 +225,9 @@ def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Momen
         yield sum_of_images(area, matrices[even])
     stored = _stored(part) * float(np.linalg.norm(matrices[:, :3, :3], 2, axis=(1, 2)).max())
     for patches, translations_of_image in _distinct_images(_patches(part), matrices[~even]):
-        yield sum_of_images(stored_area_moments(patches, area.order, stored=stored), translations_of_image)
+        yield sum_of_images(
+            stored_area_moments(patches, area.order, stored=stored), translations_of_image
+        )
 
 
 def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> Body:
@@ -207,7 +235,10 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
     patch_parts, meshes = _split_parts(reading)
     if meshes.parts and wall != "thin":
         raise ReadError(WALL_UNSUPPORTED, quantity="A mixture of NURBS surfaces and meshes")
-    sheets, areas, healths, by_part = [], [], [], []
+    sheets = []
+    areas = []
+    healths = []
+    by_part = []
     for part in patch_parts:
         matrices = to_si(part.matrices, unit)
         measure = measure_patches(_patches(part), area_order=3, stored=_stored(part))
@@ -217,11 +248,17 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
             areas += _image_areas(part, measure.area, matrices)
             continue
         outward = [
-            patch.reverse_orientation() if sign < 0.0 else patch for patch, sign in zip(_patches(part), measure.signs)
+            patch.reverse_orientation() if sign < 0.0 else patch
+            for patch, sign in zip(_patches(part), measure.signs)
         ]
         sharpest = sharpest_crease(_patches(part), measure.topology)
         if sharpest > MIN_CREASE_ANGLE:
-            by_part.append((part.source_object_name, [finding(WALL_CREASES, angle=float(np.degrees(sharpest)))]))
+            by_part.append(
+                (
+                    part.source_object_name,
+                    [finding(WALL_CREASES, angle=float(np.degrees(sharpest)))],
+                )
+            )
         inner, outer = (thickness * height for height in HEIGHTS[wall])
         for patches, translations_of_image in _distinct_images(outward, matrices):
             grown = unit * float(np.linalg.norm(part.matrices[:, :3, :3], 2, axis=(1, 2)).max())
@@ -229,7 +266,12 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
             sheets.append(sum_of_images(sheet, translations_of_image))
             areas.append(sum_of_images(area, translations_of_image))
             if not fine:
-                by_part.append((part.source_object_name, [finding(ERROR_ESTIMATE_LARGE, quantity="wall's volume")]))
+                by_part.append(
+                    (
+                        part.source_object_name,
+                        [finding(ERROR_ESTIMATE_LARGE, quantity="wall's volume")],
+                    )
+                )
     findings = findings_by_part(by_part, reading.name)
     polygons = None
     if meshes.parts:
@@ -248,10 +290,14 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
     )
     if wall != "thin":
         return Body(*common, wall=sum_moments(sheets), estimated=True)
-    return PatchSheetBody(*common, estimated=True, unit=unit, parts=tuple(patch_parts), polygons=polygons)
+    return PatchSheetBody(
+        *common, estimated=True, unit=unit, parts=tuple(patch_parts), polygons=polygons
+    )
 
 
-def _distinct_images(patches: Sequence[Face], matrices: NDArray) -> Iterator[tuple[list[Face], NDArray]]:
+def _distinct_images(
+    patches: Sequence[Face], matrices: NDArray
+) -> Iterator[tuple[list[Face], NDArray]]:
     """Yield the patches under each distinct linear map, facing as before, with (k, 4, 4) translations to the places."""
     for linear, members in distinct_linear_parts(matrices):
         mapped = [patch.transform(affine_matrices(linear)) for patch in patches]

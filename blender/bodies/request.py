@@ -60,7 +60,8 @@ class Request:
     @cached_property
     def density(self) -> DensityField | None:
         """The varying density, None for a uniform one; may raise MeasureError."""
-        settings, properties = self.settings, self.obj.body_moments
+        settings = self.settings
+        properties = self.obj.body_moments
         is_given = self.given.density is not None or settings.mass is not None
         if is_given or settings.kind == "wire" or properties.density_from == "VALUE":
             return None
@@ -74,7 +75,9 @@ class Request:
             self.obj,
             self.depsgraph,
             materials=density is not None and density.kind == "materials",
-            attribute=density.attribute if density is not None and self.settings.kind == "shell" else None,
+            attribute=density.attribute
+            if density is not None and self.settings.kind == "shell"
+            else None,
         )
         reading.findings.extend(self.findings)
         return reading
@@ -85,4 +88,8 @@ def measurement_of(reading: Reading, body: Body, request: Request) -> Measuremen
     transform = "" if request.obj is None else transform_key(request.obj)
     measurement = measure_reading(reading, body, request.settings, transform)
     accepted = frozenset() if request.obj is None else accepted_codes(request.obj)
-    return replace(measurement, findings=with_acceptance(measurement.findings, accepted)) if accepted else measurement
+    return (
+        replace(measurement, findings=with_acceptance(measurement.findings, accepted))
+        if accepted
+        else measurement
+    )

@@ -48,7 +48,11 @@ from .findings import (
 from .measure_object import measure_body
 from .request import Request
 
-DENSITIES_FROM = {"MESH": finding(DENSITY_FROM_MEMBERS), "DENSITY": DENSITY_FROM_VALUE, "MASS": DENSITY_FROM_MASS}
+DENSITIES_FROM = {
+    "MESH": finding(DENSITY_FROM_MEMBERS),
+    "DENSITY": DENSITY_FROM_VALUE,
+    "MASS": DENSITY_FROM_MASS,
+}
 
 
 @dataclass(eq=False)
@@ -106,7 +110,9 @@ class _Measuring:
     """One measurement of a rig, with its armature at rest."""
 
     def __init__(self, armature: Object, depsgraph: Depsgraph, options: MeasureOptions):
-        self.armature, self.depsgraph, self.options = armature, depsgraph, options
+        self.armature = armature
+        self.depsgraph = depsgraph
+        self.options = options
         self.is_given = options.density is not None or options.mass is not None
         self.unit = options.meters_per_unit(depsgraph.scene)
         self.bones = RestBones.read(armature)
@@ -122,21 +128,27 @@ class _Measuring:
         if skinned and not self.bones.deforming:
             raise ReadError(RIG_WITHOUT_PARTS, subject=self.armature.name)
         hanging = hanging_objects(self.armature, skinned)
-        unrendered = [obj.name for obj in (*skinned, *[obj for obj, _ in hanging]) if obj.hide_render]
+        unrendered = [
+            obj.name for obj in (*skinned, *[obj for obj, _ in hanging]) if obj.hide_render
+        ]
         if unrendered:
             self.findings.append(finding(MEMBERS_LEFT_OUT, count=len(unrendered), names=unrendered))
         for obj in skinned:
             self._try(obj, self._skin)
         for obj, bone in hanging:
             self._try(obj, lambda obj, bone=bone: self._hang(obj, bone))
-        parts = tuple(self._part(name, self.sums[name]) for name in self.bones.names if name in self.sums)
+        parts = tuple(
+            self._part(name, self.sums[name]) for name in self.bones.names if name in self.sums
+        )
         impossible = [part.name for part in parts if part.refusal is not None]
         named = {
             MEMBERS_NOT_MEASURED: self.refused,
             MEMBERS_DENSITY_UNSET: self.unset,
             BONE_PARTS_IMPOSSIBLE: impossible,
         }
-        self.findings += [finding(code, count=len(names), names=names) for code, names in named.items() if names]
+        self.findings += [
+            finding(code, count=len(names), names=names) for code, names in named.items() if names
+        ]
         return Rig(self.armature, parts, self._total(parts), tuple(self.objects))
 
     def _try(self, obj: Object, measure) -> None:
@@ -173,14 +185,19 @@ class _Measuring:
 
     def _skin(self, obj: Object) -> None:
         request = Request.resolve(obj, self.depsgraph, self.options)
-        options, reading = request.settings, read_object(obj, self.depsgraph)
+        options = request.settings
+        reading = read_object(obj, self.depsgraph)
         shell = options.kind == "shell"
         if shell and options.wall != "thin":
             self.findings.append(finding(RIG_WALL_THIN).of_sources([obj.name]))
         pieces = [piece for part in reading.parts for piece in self._pieces(obj, part, shell)]
-        volume = sum(moments.total for _, moments, *_ in pieces) * (options.thickness if shell else 1.0)
+        volume = sum(moments.total for _, moments, *_ in pieces) * (
+            options.thickness if shell else 1.0
+        )
         if not volume > 0.0:
-            raise ReadError(NO_VOLUME)  # `rig` reports the names of refused objects, without the reason
+            raise ReadError(
+                NO_VOLUME
+            )  # `rig` reports the names of refused objects, without the reason
         density = options.density or 0.0 if options.mass is None else options.mass / volume
         if options.mass is None and request.density is not None:
             measurement = measure_body(obj, self.depsgraph, self.options).measurement
@@ -193,8 +210,12 @@ class _Measuring:
             carrier = replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS)
             carrier = carrier * options.thickness if shell else carrier
             found.carriers.append((carrier, density))
-            found.extents.append((carrier.total, float(carrier.rounding_error[0]), float(carrier.input_error[0])))
-            found.areas.append((area.total, float(area.rounding_error[0]), float(area.input_error[0])))
+            found.extents.append(
+                (carrier.total, float(carrier.rounding_error[0]), float(carrier.input_error[0]))
+            )
+            found.areas.append(
+                (area.total, float(area.rounding_error[0]), float(area.input_error[0]))
+            )
             found.procedures.append(procedure)
             found.surfaces.append((surface, matrix))
         own = obj.body_moments
@@ -220,7 +241,9 @@ class _Measuring:
         if len(bare):
             count = int(np.count_nonzero(used))
             self.findings.append(
-                finding(UNWEIGHTED_VERTICES, bare, count=len(bare), total=count).of_sources([obj.name])
+                finding(UNWEIGHTED_VERTICES, bare, count=len(bare), total=count).of_sources(
+                    [obj.name]
+                )
             )
         solid = None if shell else measure_solid(surface)
         if solid is not None:
@@ -236,8 +259,12 @@ class _Measuring:
             parts = solid.parts()
             is_cap = parts.face < 0
             bones = bones_of_caps(parts.triangles, is_cap, np.where(is_cap, 0, bone[parts.face]))
-            for piece in bone_pieces(parts.points, parts.triangles, bones, surface.coordinate_error):
-                sheet = replace(piece.surface, triangles=piece.surface.triangles[: piece.face_count])
+            for piece in bone_pieces(
+                parts.points, parts.triangles, bones, surface.coordinate_error
+            ):
+                sheet = replace(
+                    piece.surface, triangles=piece.surface.triangles[: piece.face_count]
+                )
                 yield (
                     self.bones.deforming[piece.bone],
                     piece.moments().transform(metric),
@@ -248,11 +275,17 @@ class _Measuring:
                 )
 
     def _sheets(
-        self, surface: Surface, triangles: NDArray, bones: NDArray[np.integer], metric: NDArray[np.float64]
+        self,
+        surface: Surface,
+        triangles: NDArray,
+        bones: NDArray[np.integer],
+        metric: NDArray[np.float64],
     ) -> Iterator[tuple]:
         for bone in np.unique(bones).tolist():
             sheet = Surface(
-                surface.points, triangles[bones == bone].astype(np.int64), displacement=surface.coordinate_error
+                surface.points,
+                triangles[bones == bone].astype(np.int64),
+                displacement=surface.coordinate_error,
             )
             area = _area(sheet, metric, KNOWN_ORDER)
             yield self.bones.deforming[bone], area, area, sheet, metric, Procedure.SHELL
@@ -261,7 +294,9 @@ class _Measuring:
         settings = self.armature.pose.bones[name].body_moments
         mass_from = "MESH" if self.is_given else settings.mass_from
         own = shortest_decimal(settings.density) if mass_from == "DENSITY" else None
-        masses = [moments * (density if own is None else own) for moments, density in found.carriers]
+        masses = [
+            moments * (density if own is None else own) for moments, density in found.carriers
+        ]
         mass = sum_moments([*masses, *found.hanging])
         if mass_from == "MASS" and mass.total > 0.0:
             mass = mass * (shortest_decimal(settings.mass) / mass.total)
@@ -284,13 +319,16 @@ class _Measuring:
             )
         except MeasureError as error:
             refusal = finding(BONE_PART_IMPOSSIBLE, cause=error.finding.as_record())
-        return BonePart(name, mass, measurement, refusal, tuple(found.surfaces), tuple(found.sources))
+        return BonePart(
+            name, mass, measurement, refusal, tuple(found.surfaces), tuple(found.sources)
+        )
 
     def _total(self, parts: tuple[BonePart, ...]) -> Measurement:
         armature, depsgraph = self.armature, self.depsgraph
         if not parts:
             raise ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
-        at, objects = locate(armature, depsgraph), rig_objects(armature, depsgraph.view_layer.objects)
+        at = locate(armature, depsgraph)
+        objects = rig_objects(armature, depsgraph.view_layer.objects)
         settings = rig_hash(armature, objects, depsgraph.scene)
         sums = [self.sums[part.name] for part in parts]
         mass = sum_moments([part.mass for part in parts])
@@ -312,4 +350,6 @@ def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
     """Return the area moments of a sheet mapped to its place in the world."""
     if are_similarities(metric[None, :3, :3])[0]:  # the mapped points would be rounded once more
         return polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1].transform(metric)
-    return polyhedron_moments(sheet.transform(metric[:3, :3], metric[:3, 3]), 0, area_order=order, allow_open=True)[1]
+    return polyhedron_moments(
+        sheet.transform(metric[:3, :3], metric[:3, 3]), 0, area_order=order, allow_open=True
+    )[1]

@@ -62,7 +62,9 @@ def body(reading: Reading, request: Request) -> Body:
     moved = stored * (2.0 * len(curves) + 8.0 * length.total / reach) * reach**DEGREE
     return WireBody(
         *nothing(KNOWN_ORDER, length.about),
-        MeshHealth(closed=all(_is_closed(curve, reach) for curve in curves), components=len(curves)),
+        MeshHealth(
+            closed=all(_is_closed(curve, reach) for curve in curves), components=len(curves)
+        ),
         Method(Procedure.WIRE),
         (),
         length=replace(length, input_error=moved),
@@ -70,7 +72,9 @@ def body(reading: Reading, request: Request) -> Body:
     )
 
 
-def curves_in_world(curves: list[Curve], matrix: NDArray[np.float64], unit: float) -> tuple[list[Curve], float]:
+def curves_in_world(
+    curves: list[Curve], matrix: NDArray[np.float64], unit: float
+) -> tuple[list[Curve], float]:
     """Return curves mapped to the world in m by a (4, 4) matrix in Blender units, and the points' float32 error."""
     largest = max(float(np.abs(curve.points).max()) for curve in curves)
     scaled = np.array(matrix, np.float64)

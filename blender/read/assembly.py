@@ -23,7 +23,13 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, finding
 from ..settings.assembly import Root, is_assembly, settings_of
 from ..settings.given import GivenPart, is_point_mass, shows_collection
-from .findings import BOOLEAN_OPERAND, HIDDEN_IN_VIEWPORT, MEMBER_COUNTED_BEFORE, NOT_RENDERED, TOTAL_DOUBTFUL_PARTS
+from .findings import (
+    BOOLEAN_OPERAND,
+    HIDDEN_IN_VIEWPORT,
+    MEMBER_COUNTED_BEFORE,
+    NOT_RENDERED,
+    TOTAL_DOUBTFUL_PARTS,
+)
 from .fingerprint import matrix_bytes, matrix_hash
 from .visibility import MAX_DEPTH, hidden_reason, instanced_by_parent, measurable
 
@@ -84,9 +90,15 @@ def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
     """Return a key of all measured members: their results' fingerprints, their transforms and the point masses."""
     keys = []
     for member in root.walk():
-        if member.kind == MemberKind.POINT:  # an empty with children stores the results of its assembly
+        if (
+            member.kind == MemberKind.POINT
+        ):  # an empty with children stores the results of its assembly
             settings = member.data.body_moments
-            keys.append(GivenPart.from_settings(settings, 1.0).key + repr(settings.mass) + matrix_hash(member.data))
+            keys.append(
+                GivenPart.from_settings(settings, 1.0).key
+                + repr(settings.mass)
+                + matrix_hash(member.data)
+            )
         elif member.is_measured:
             # moving leaves fingerprints unchanged
             keys.append(fingerprints.get(member.data, "") + matrix_hash(member.data))
@@ -101,7 +113,14 @@ def structure_hash(root: Member) -> str:
         if member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY):
             settings = settings_of(member.data)
             if settings.mass_from == "MASS":
-                key.append(repr((shortest_decimal(settings.mass), GivenPart.from_settings(settings, 1.0).key)))
+                key.append(
+                    repr(
+                        (
+                            shortest_decimal(settings.mass),
+                            GivenPart.from_settings(settings, 1.0).key,
+                        )
+                    )
+                )
         if member.matrix is not None:
             key.append(matrix_bytes(Matrix(member.matrix)).hex())
         keys.append("|".join(key))
@@ -121,7 +140,9 @@ class _Walk:
         for obj in bpy.data.objects:
             if obj.parent is not None:
                 self.of_parent.setdefault(obj.parent, []).append(obj)
-        self.given = [obj for obj in objects if is_assembly(obj) and settings_of(obj).mass_from == "MASS"]
+        self.given = [
+            obj for obj in objects if is_assembly(obj) and settings_of(obj).mass_from == "MASS"
+        ]
         self.replaced = {child for obj in self.given for child in obj.children_recursive}
 
     def collection(self, collection: bpy.types.Collection, depth: int = 0) -> Member:
@@ -151,8 +172,13 @@ class _Walk:
             if child.type == "EMPTY" and not shows_collection(child) and child in self.of_parent:
                 members.append(self.empty(child, depth))
                 continue
-            of_child, below = self.object(child, parent.name, depth), self.children(child, depth)
-            members += [replace(of_child[0], members=(*of_child[0].members, *below))] if of_child else below
+            of_child = self.object(child, parent.name, depth)
+            below = self.children(child, depth)
+            members += (
+                [replace(of_child[0], members=(*of_child[0].members, *below))]
+                if of_child
+                else below
+            )
         return members
 
     def object(self, obj: Object, place: str, depth: int) -> list[Member]:
@@ -161,7 +187,11 @@ class _Walk:
             return []
         kind = MemberKind.POINT if is_point_mass(obj) else MemberKind.OBJECT
         if obj in self.counted:
-            return [Member(obj, kind, left_out=finding(MEMBER_COUNTED_BEFORE, assembly=self.counted[obj]))]
+            return [
+                Member(
+                    obj, kind, left_out=finding(MEMBER_COUNTED_BEFORE, assembly=self.counted[obj])
+                )
+            ]
         self.counted[obj] = place
         reason = self._left_out(obj)
         if reason is not None and not (kind == MemberKind.POINT and reason.code == NOT_RENDERED):
@@ -169,8 +199,12 @@ class _Walk:
         if _shows_members(obj) and depth < MAX_DEPTH:
             source = obj.instance_collection
             x, y, z = source.instance_offset
-            inside = _Walk(source.all_objects, self.depsgraph, inside=True).collection(source, depth + 1)
-            matrix = tuple((a, b, c, d - (a * x + b * y + c * z)) for a, b, c, d in obj.matrix_world)
+            inside = _Walk(source.all_objects, self.depsgraph, inside=True).collection(
+                source, depth + 1
+            )
+            matrix = tuple(
+                (a, b, c, d - (a * x + b * y + c * z)) for a, b, c, d in obj.matrix_world
+            )
             return [Member(obj, MemberKind.INSTANCE, (inside,), matrix)]
         return [Member(obj, kind)]
 
@@ -193,7 +227,8 @@ def _shows_members(obj: Object) -> bool:
     settings = obj.body_moments
     return (
         shows_collection(obj)
-        and (settings.mass_from, settings.density_from, settings.kind) == ("DENSITY", "VALUE", "SOLID")
+        and (settings.mass_from, settings.density_from, settings.kind)
+        == ("DENSITY", "VALUE", "SOLID")
         and not settings.is_property_set("density")
     )
 
@@ -202,7 +237,9 @@ def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Findin
     """Return the objects that are no parts of the body, each with the reason: it is an operand, or not rendered."""
     # A layer that is switched off renders nothing; if all are switched off, the open layer counts.
     layers = [layer for layer in scene.view_layers if layer.use] or [view_layer]
-    rendered = {obj for layer in layers for obj in _rendered(layer.layer_collection) if not obj.hide_render}
+    rendered = {
+        obj for layer in layers for obj in _rendered(layer.layer_collection) if not obj.hide_render
+    }
     operands = operands_of(scene.objects)
     reasons = {}
     for obj in scene.objects:
@@ -245,7 +282,11 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
         "Boolean operands": cutters,
         "Objects that are hidden, not rendered or displayed as wire or bounds": unseen,
     }
-    return [finding(TOTAL_DOUBTFUL_PARTS, kind=kind, objects=names) for kind, names in doubtful.items() if names]
+    return [
+        finding(TOTAL_DOUBTFUL_PARTS, kind=kind, objects=names)
+        for kind, names in doubtful.items()
+        if names
+    ]
 
 
 def _operands(obj: Object) -> Iterator[Object]:

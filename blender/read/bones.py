@@ -36,11 +36,16 @@ class RestBones:
         place = float64_matrix(armature.matrix_world)
         bones = list(armature.data.bones)
         deforming = [bone for bone in bones if bone.use_deform]
-        ends = np.array([[bone.head_local[:], bone.tail_local[:]] for bone in deforming], np.float64).reshape(-1, 2, 3)
+        ends = np.array(
+            [[bone.head_local[:], bone.tail_local[:]] for bone in deforming], np.float64
+        ).reshape(-1, 2, 3)
         frames = {}
         for bone in bones:
             turn = (armature.matrix_world @ bone.matrix_local).decompose()[1]
-            frames[bone.name] = rotation_matrix(turn), (place @ float64_matrix(bone.matrix_local))[:3, 3]
+            frames[bone.name] = (
+                rotation_matrix(turn),
+                (place @ float64_matrix(bone.matrix_local))[:3, 3],
+            )
         return cls(
             tuple(bone.name for bone in bones),
             tuple(bone.name for bone in deforming),
@@ -49,18 +54,24 @@ class RestBones:
         )
 
 
-def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgraph) -> VertexWeights:
+def vertex_weights(
+    obj: Object, part: Part, bones: RestBones, depsgraph: Depsgraph
+) -> VertexWeights:
     """Return the weights of the deforming bones on an object's own vertices; none if the mesh has others."""
     number = {name: k for k, name in enumerate(bones.deforming)}
     groups = [number.get(group.name) for group in obj.vertex_groups]
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
     vertices = [] if geometry.mesh is None else geometry.mesh.vertices
     is_own = part.source_object_name in ("", obj.name) and len(vertices) == len(part.surface.points)
-    vertex, bone, weight = [], [], []
+    vertex = []
+    bone = []
+    weight = []
     for index, one in enumerate(vertices if is_own else []):
         for entry in one.groups:
             if groups[entry.group] is not None:
                 vertex.append(index)
                 bone.append(groups[entry.group])
                 weight.append(entry.weight)
-    return VertexWeights(np.array(vertex, np.intp), np.array(bone, np.intp), np.array(weight, np.float64))
+    return VertexWeights(
+        np.array(vertex, np.intp), np.array(bone, np.intp), np.array(weight, np.float64)
+    )

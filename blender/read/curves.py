@@ -26,7 +26,9 @@ STRAIGHT_RTOL = 1e-6  # relative to a spline's length: float32 may bend a straig
 TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # curve types by their number in a geometry set
 CUSTOM_KNOTS_MODE = 4  # the mode of custom knots, which no flags describe
 # steps per point, then tolerances: relative to the length, and for each step to the largest coordinate
-STEPS_PER_POINT, SAME_LENGTH_RTOL, AGREEMENT_RTOL = 8, 1e-4, 1e-7
+STEPS_PER_POINT = 8
+SAME_LENGTH_RTOL = 1e-4
+AGREEMENT_RTOL = 1e-7
 
 
 def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
@@ -41,12 +43,16 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
     else:
         curves = list(_spline_curves(evaluated, depsgraph))
         if spline_modifiers(obj)[1]:
-            findings.append(finding(CURVE_MEASURED_WHOLE, ignored="the modifiers that work on its mesh"))
+            findings.append(
+                finding(CURVE_MEASURED_WHOLE, ignored="the modifiers that work on its mesh")
+            )
         if (obj.data.bevel_factor_start, obj.data.bevel_factor_end) != (0.0, 1.0):
             findings.append(finding(CURVE_MEASURED_WHOLE, ignored="the start and end of its bevel"))
     usable = [curve for curve in curves if curve is not None]
     if len(usable) < len(curves):
-        findings.append(finding(SPLINES_LEFT_OUT, count=len(curves) - len(usable), total=len(curves)))
+        findings.append(
+            finding(SPLINES_LEFT_OUT, count=len(curves) - len(usable), total=len(curves))
+        )
     if not usable:
         raise ReadError(NO_CURVE, subject=obj.name)
     return usable, findings
@@ -55,7 +61,10 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
 def text_curves(obj, depsgraph) -> list[Curve]:
     """Return the outlines of a text object as curves of its font, in its own coordinates, or raise ReadError."""
     try:
-        curves = [_curve(*_kind(spline), _control_points(spline), None) for spline in obj.to_curve(depsgraph).splines]
+        curves = [
+            _curve(*_kind(spline), _control_points(spline), None)
+            for spline in obj.to_curve(depsgraph).splines
+        ]
     finally:
         obj.to_curve_clear()
     known = [curve for curve in curves if curve is not None]
@@ -67,11 +76,15 @@ def text_curves(obj, depsgraph) -> list[Curve]:
 def is_round(obj) -> bool:
     """Return whether the polygons of a curve or text object stand for a curved shape."""
     curve = obj.data
-    if obj.type == "FONT" or (curve.bevel_mode != "OBJECT" and curve.bevel_depth and curve.bevel_resolution):
+    if obj.type == "FONT" or (
+        curve.bevel_mode != "OBJECT" and curve.bevel_depth and curve.bevel_resolution
+    ):
         return True
     shapes = [curve.bevel_object if curve.bevel_mode == "OBJECT" else None, curve.taper_object]
     return not all(
-        _is_straight(spline) for data in (curve, *(other.data for other in shapes if other)) for spline in data.splines
+        _is_straight(spline)
+        for data in (curve, *(other.data for other in shapes if other))
+        for spline in data.splines
     )
 
 
@@ -83,7 +96,9 @@ def _is_straight(spline) -> bool:
     if spline.type == "BEZIER":
         knots = pieces.reshape(-1, 3, 3)
         after = np.roll(knots, -1, axis=0)
-        pieces = np.concatenate([knots[:, 1:], after[:, :2]], axis=1)[: None if spline.use_cyclic_u else -1]
+        pieces = np.concatenate([knots[:, 1:], after[:, :2]], axis=1)[
+            : None if spline.use_cyclic_u else -1
+        ]
     arms = pieces - pieces[:, :1]
     lengths = np.linalg.norm(arms, axis=2)
     if not lengths.any():
@@ -94,21 +109,29 @@ def _is_straight(spline) -> bool:
 
 
 def _kind(spline) -> tuple[str, bool, int, bool, bool]:
-    return spline.type, spline.use_cyclic_u, spline.order_u, spline.use_bezier_u, spline.use_endpoint_u
+    return (
+        spline.type,
+        spline.use_cyclic_u,
+        spline.order_u,
+        spline.use_bezier_u,
+        spline.use_endpoint_u,
+    )
 
 
 def _control_points(spline) -> NDArray[np.float64]:
     """Return (n, 3) points in Blender's order; a Bézier point counts as left handle, point and right handle."""
     if spline.type != "BEZIER":
         return weighted_points(spline)[:, :3].astype(np.float64)
-    knots, names = spline.bezier_points, ("handle_left", "co", "handle_right")
+    knots = spline.bezier_points
+    names = ("handle_left", "co", "handle_right")
     rows = [read_array(knots, name, (len(knots), 3), np.float32) for name in names]
     return np.stack(rows, axis=1).reshape(-1, 3).astype(np.float64)
 
 
 def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
     """Yield the splines as curves, moved by shape keys and hooks; None for each spline that is too short."""
-    name, splines = evaluated.original.name, list(evaluated.data.splines)
+    name = evaluated.original.name
+    splines = list(evaluated.data.splines)
     if not splines:
         return
     control_points = [_control_points(spline) for spline in splines]
@@ -118,8 +141,12 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
     _require_finite(points, name)
     start = 0
     for spline, row in zip(splines, control_points):
-        weights = weighted_points(spline)[:, 3].astype(np.float64)  # Bézier splines have none and need none
-        if spline.type == "NURBS" and not _has_known_knots(spline, _curve(*_kind(spline), row, weights)):
+        weights = weighted_points(spline)[:, 3].astype(
+            np.float64
+        )  # Bézier splines have none and need none
+        if spline.type == "NURBS" and not _has_known_knots(
+            spline, _curve(*_kind(spline), row, weights)
+        ):
             raise ReadError(UNKNOWN_KNOTS, subject=name)
         yield _curve(*_kind(spline), points[start : start + len(row)], weights)
         start += len(row)
@@ -131,7 +158,9 @@ def _has_known_knots(spline, curve: Curve | None) -> bool:
         return True
     low, high = curve.space.domain
     steps = (
-        STEPS_PER_POINT * len(spline.points) if spline.use_cyclic_u else STEPS_PER_POINT * (len(spline.points) - 1) - 1
+        STEPS_PER_POINT * len(spline.points)
+        if spline.use_cyclic_u
+        else STEPS_PER_POINT * (len(spline.points) - 1) - 1
     )
     points = curve.evaluate(low + (high - low) * np.arange(steps + 1) / steps)
     length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
@@ -143,22 +172,32 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
     """Yield the curves of a geometry set; None for each curve that is too short."""
     count = len(curves.points)
     positions, left, right = (
-        _values(curves, attribute, "vector", (count, 3)) for attribute in ("position", "handle_left", "handle_right")
+        _values(curves, attribute, "vector", (count, 3))
+        for attribute in ("position", "handle_left", "handle_right")
     )
     weights = _values(curves, "nurbs_weight", "value", (count, 1), 1.0)[:, 0]
     types, cyclic, orders, knots = (
-        _values(curves, attribute, "value", (len(curves.curves), 1), *default)[:, 0].astype(int).tolist()
-        for attribute, *default in (("curve_type",), ("cyclic",), ("nurbs_order", 4.0), ("knots_mode",))
+        _values(curves, attribute, "value", (len(curves.curves), 1), *default)[:, 0]
+        .astype(int)
+        .tolist()
+        for attribute, *default in (
+            ("curve_type",),
+            ("cyclic",),
+            ("nurbs_order", 4.0),
+            ("knots_mode",),
+        )
     )
     _require_finite(positions, name)
     for number, curve in enumerate(curves.curves):
         of_curve = slice(curve.first_point_index, curve.first_point_index + curve.points_length)
-        kind, points = TYPES[types[number]], positions[of_curve]
+        kind = TYPES[types[number]]
+        points = positions[of_curve]
         if kind == "NURBS" and knots[number] == CUSTOM_KNOTS_MODE:
             raise ReadError(UNKNOWN_KNOTS, subject=name)
         if kind == "CATMULL_ROM":
             arms = _catmull_rom(points, bool(cyclic[number]))
-            kind, points = "BEZIER", np.stack([points - arms, points, points + arms], axis=1).reshape(-1, 3)
+            kind = "BEZIER"
+            points = np.stack([points - arms, points, points + arms], axis=1).reshape(-1, 3)
         elif kind == "BEZIER":
             points = np.stack([left[of_curve], points, right[of_curve]], axis=1).reshape(-1, 3)
             _require_finite(points, name)
@@ -179,12 +218,16 @@ def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
     return (around[2:] - around[:-2]) / 6.0
 
 
-def _values(curves, name: str, item: str, shape: tuple[int, int], default: float = 0.0) -> NDArray[np.float64]:
+def _values(
+    curves, name: str, item: str, shape: tuple[int, int], default: float = 0.0
+) -> NDArray[np.float64]:
     """Return an attribute of the points or the curves as an array, filled with the default if there is none."""
     if name not in curves.attributes:
         return np.full(shape, default)
     attribute = curves.attributes[name]
-    kind = {"BOOLEAN": bool, "FLOAT": np.float32, "FLOAT_VECTOR": np.float32}.get(attribute.data_type, np.int32)
+    kind = {"BOOLEAN": bool, "FLOAT": np.float32, "FLOAT_VECTOR": np.float32}.get(
+        attribute.data_type, np.int32
+    )
     return read_array(attribute.data, item, shape, kind).astype(np.float64)
 
 
@@ -210,9 +253,11 @@ def _curve(
         knots = points.reshape(-1, 3, 3)
         if cyclic:
             knots = np.concatenate([knots, knots[:1]])
-        points, order = knots.reshape(-1, 3)[1:-1], 4
+        points = knots.reshape(-1, 3)[1:-1]
+        order = 4
     else:
-        points, order = np.concatenate([points, points[:1]]) if cyclic else points, 2
+        points = np.concatenate([points, points[:1]]) if cyclic else points
+        order = 2
     pieces = (len(points) - 1) // (order - 1)
     if pieces < 1:
         return None

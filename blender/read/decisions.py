@@ -44,7 +44,14 @@ from .findings import (
 )
 from .instances import InstanceCollector, shows_itself, visible_objects
 from .splines import nonpositive_weights, spline_modifiers
-from .visibility import SURFACE_TYPES, blends_keys, hidden_reason, instanced_by_parent, measurable, metaball_families
+from .visibility import (
+    SURFACE_TYPES,
+    blends_keys,
+    hidden_reason,
+    instanced_by_parent,
+    measurable,
+    metaball_families,
+)
 
 
 def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
@@ -60,7 +67,12 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
         return finding(EMPTY_TEXT)
     if obj.type in {"CURVE", "FONT"} and not obj.modifiers:
         return finding(LINES_ONLY)
-    if obj.type == "SURFACE" and not obj.modifiers and obj.instance_type == "NONE" and obj.data.splines:
+    if (
+        obj.type == "SURFACE"
+        and not obj.modifiers
+        and obj.instance_type == "NONE"
+        and obj.data.splines
+    ):
         return finding(LINES_ONLY if vertices else SPLINES_WITHOUT_SURFACE)
     if gathered.left_out:
         return finding(ONLY_WITHOUT_SURFACE, kinds=_kinds(gathered.left_out))
@@ -114,8 +126,14 @@ def modifier_findings(obj, scene) -> Iterator[Finding]:
 def _render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
     differences = list(_render_differences(obj, scene, exact))
     if differences:
-        are_levels = all(difference.code == RENDER_LEVELS_DIFFER for difference in differences)  # Blender's default
-        yield finding(RENDER_DIFFERS, slight=are_levels, differences=[found.as_record() for found in differences])
+        are_levels = all(
+            difference.code == RENDER_LEVELS_DIFFER for difference in differences
+        )  # Blender's default
+        yield finding(
+            RENDER_DIFFERS,
+            slight=are_levels,
+            differences=[found.as_record() for found in differences],
+        )
 
 
 def _member_findings(collections) -> Iterator[Finding]:
@@ -125,11 +143,15 @@ def _member_findings(collections) -> Iterator[Finding]:
             member.original: None
             for collection in collections
             for member in visible_objects(collection, switch)
-            if measurable(member.original) and member.type != "META"  # Blender cannot instance metaballs
+            if measurable(member.original)
+            and member.type != "META"  # Blender cannot instance metaballs
         }
         for switch in ("hide_viewport", "hide_render")
     )
-    for code, here, there in ((RENDER_ONLY_MEMBERS, rendered, shown), (VIEWPORT_ONLY_MEMBERS, shown, rendered)):
+    for code, here, there in (
+        (RENDER_ONLY_MEMBERS, rendered, shown),
+        (VIEWPORT_ONLY_MEMBERS, shown, rendered),
+    ):
         names = [member.name for member in here if member not in there]
         if names:
             yield finding(code, objects=names)
@@ -152,7 +174,11 @@ def _mode_findings(obj) -> Iterator[Finding]:
         yield finding(READ_IN_MODE, mode="Edit Mode")
         if obj.mode == "EDIT" and obj.active_shape_key and not blends_keys(obj):
             yield finding(EDIT_MODE_SINGLE_SHAPE_KEY, shape_key=obj.active_shape_key.name)
-        idle = [modifier for modifier in obj.modifiers if modifier.show_viewport and not modifier.show_in_editmode]
+        idle = [
+            modifier
+            for modifier in obj.modifiers
+            if modifier.show_viewport and not modifier.show_in_editmode
+        ]
         if idle:
             yield finding(MODIFIERS_LEFT_OUT, modifiers=_names(idle))
     elif obj.mode == "SCULPT" and obj.modifiers:
@@ -164,7 +190,8 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
     if splines is not None:
         yield from splines.findings
         return
-    meshed, count = spline_modifiers(evaluated.original)[1], nonpositive_weights(evaluated.data.splines)
+    meshed = spline_modifiers(evaluated.original)[1]
+    count = nonpositive_weights(evaluated.data.splines)
     if meshed:
         yield finding(DISPLAY_MESH_FOR_MODIFIERS, modifiers=_names(meshed))
     elif count:
@@ -176,7 +203,8 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
 def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
     """Yield findings about differences in the render; resolutions are ignored for `exact` objects."""
     for modifier in obj.modifiers:
-        shown, rendered = modifier.show_viewport, modifier.show_render
+        shown = modifier.show_viewport
+        rendered = modifier.show_render
         if shown != rendered:
             place = "viewport" if shown else "render"
             yield finding(RENDER_MODIFIER_DIFFERS, modifier=modifier.name, place=place)
@@ -192,7 +220,8 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
     data = obj.data
     if not exact and obj.type in {"CURVE", "FONT", "SURFACE"}:
         for axis in "uv" if obj.type == "SURFACE" else "u":
-            shown, rendered = getattr(data, "resolution_" + axis), getattr(data, "render_resolution_" + axis)
+            shown = getattr(data, "resolution_" + axis)
+            rendered = getattr(data, "render_resolution_" + axis)
             if rendered not in (0, shown):
                 name = "Resolution " + axis.upper()
                 yield finding(RENDER_LEVELS_DIFFER, name=name, viewport=shown, render=rendered)
@@ -208,7 +237,8 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
 def _levels(modifier, render) -> tuple[int, int]:
     """Return a modifier's levels, steps or resolution in the viewport and in the render; (0, 0) if it has none."""
     if modifier.type in {"SUBSURF", "MULTIRES"}:
-        here, there = modifier.levels, modifier.render_levels
+        here = modifier.levels
+        there = modifier.render_levels
         if render.use_simplify:
             here = min(here, render.simplify_subdivision)
             there = min(there, render.simplify_subdivision_render)
@@ -225,4 +255,6 @@ def _names(items) -> list[str]:
 
 
 def _kinds(counts) -> list[dict]:
-    return [finding(KIND_COUNT, kind=kind, count=count).as_record() for kind, count in counts.items()]
+    return [
+        finding(KIND_COUNT, kind=kind, count=count).as_record() for kind, count in counts.items()
+    ]

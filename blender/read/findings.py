@@ -5,7 +5,9 @@
 from ...core.verdict.finding import error, note, warning
 
 INSTANCES_VANISHED = note(
-    "instances_vanished", "Left out: {count} instance scaled to zero.", "Left out: {count} instances scaled to zero."
+    "instances_vanished",
+    "Left out: {count} instance scaled to zero.",
+    "Left out: {count} instances scaled to zero.",
 )
 NON_FINITE_INSTANCES = error(
     "non_finite_instances",
@@ -13,53 +15,82 @@ NON_FINITE_INSTANCES = error(
     "{count} of {total} instance transforms are not finite. Fix what makes NaN or infinity.",
 )
 INSTANCES_OF_HIDDEN_OBJECT = error(
-    "instances_of_hidden_object", "Blender makes no instances of a hidden object. Show it in the viewport."
+    "instances_of_hidden_object",
+    "Blender makes no instances of a hidden object. Show it in the viewport.",
 )
 OBJECT_UNREADABLE = error("object_unreadable", "“{object}” cannot be read: {cause}")
 INSTANCED_BY_PARENT = note(
-    "instanced_by_parent", "Shown only as instances of “{parent}”; measured once, at its own location."
+    "instanced_by_parent",
+    "Shown only as instances of “{parent}”; measured once, at its own location.",
 )
 EMPTY_WITHOUT_INSTANCES = error(
     "empty_without_instances",
     "The empty instances nothing with a surface. Choose a collection with one in Object Properties > Instancing.",
 )
 INSTANCER_HIDDEN = error(
-    "instancer_hidden", "The object's own geometry is not shown. Turn on Show Instancer in Object Properties."
+    "instancer_hidden",
+    "The object's own geometry is not shown. Turn on Show Instancer in Object Properties.",
 )
-NOT_IN_SCENE = error("not_in_scene", "Not in the scene “{scene}”. Link the object to a collection of the scene.")
+NOT_IN_SCENE = error(
+    "not_in_scene", "Not in the scene “{scene}”. Link the object to a collection of the scene."
+)
 HIDDEN_IN_VIEWPORT = error(
-    "hidden_in_viewport", "“{name}” is not shown in the viewport. Turn on its {switch:word} in the Outliner."
+    "hidden_in_viewport",
+    "“{name}” is not shown in the viewport. Turn on its {switch:word} in the Outliner.",
 )
-NOT_EVALUATED = error("not_evaluated", "Blender has not evaluated the object. Update the view layer.")
+NOT_EVALUATED = error(
+    "not_evaluated", "Blender has not evaluated the object. Update the view layer."
+)
 HIDDEN_OBJECT_MEASURED = warning("hidden_object_measured", "Measured although not shown: {cause}")
 OBJECT_WITHOUT_GEOMETRY = error(
-    "object_without_geometry", "Objects of type {type} have no geometry. Select an object with a surface."
+    "object_without_geometry",
+    "Objects of type {type} have no geometry. Select an object with a surface.",
 )
 NON_FINITE_TRANSFORM = error(
-    "non_finite_transform", "The transform is not finite. Reset location, rotation and scale, of the parents too."
+    "non_finite_transform",
+    "The transform is not finite. Reset location, rotation and scale, of the parents too.",
 )
-NOT_RENDERED = note("not_rendered", "Not rendered. Turn on the camera icon in the Outliner, or use --all.")
-BOOLEAN_OPERAND = note("boolean_operand", "Only an operand of Boolean modifiers. Use --all to measure it.")
+NOT_RENDERED = note(
+    "not_rendered", "Not rendered. Turn on the camera icon in the Outliner, or use --all."
+)
+BOOLEAN_OPERAND = note(
+    "boolean_operand", "Only an operand of Boolean modifiers. Use --all to measure it."
+)
 READ_IN_MODE = note("read_in_mode", "Read as shown in {mode:word}.")
 EDIT_MODE_SINGLE_SHAPE_KEY = warning(
-    "edit_mode_single_shape_key", "Only the edited shape key “{shape_key}” was read. Leave Edit Mode to blend all."
+    "edit_mode_single_shape_key",
+    "Only the edited shape key “{shape_key}” was read. Leave Edit Mode to blend all.",
 )
 MODIFIERS_LEFT_OUT = warning(
     "modifiers_left_out", "Modifiers were left out in Edit Mode: {modifiers}. Leave Edit Mode."
 )
-SCULPTED_MESH = error("sculpted_mesh", "Dyntopo or sculpted levels cannot be read in Sculpt Mode. Leave it.")
+SCULPTED_MESH = error(
+    "sculpted_mesh", "Dyntopo or sculpted levels cannot be read in Sculpt Mode. Leave it."
+)
 MODIFIER_ERROR = warning("modifier_error", "The modifier “{modifier}” reports an error: {error}")
-RENDER_DIFFERS = warning("render_differs", "Measured as in the viewport; the render differs: {differences}.")
-RENDER_ONLY_MEMBERS = warning("render_only_members", "Left out, as only the render shows them: {objects}.")
-VIEWPORT_ONLY_MEMBERS = warning("viewport_only_members", "Measured, although the render does not show them: {objects}.")
-RENDER_MODIFIER_DIFFERS = note("render_modifier_differs", "“{modifier}” is only in the {place:word}")
-RENDER_LEVELS_DIFFER = note("render_levels_differ", "{name:word}: {viewport} in the viewport, {render} in the render")
+RENDER_DIFFERS = warning(
+    "render_differs", "Measured as in the viewport; the render differs: {differences}."
+)
+RENDER_ONLY_MEMBERS = warning(
+    "render_only_members", "Left out, as only the render shows them: {objects}."
+)
+VIEWPORT_ONLY_MEMBERS = warning(
+    "viewport_only_members", "Measured, although the render does not show them: {objects}."
+)
+RENDER_MODIFIER_DIFFERS = note(
+    "render_modifier_differs", "“{modifier}” is only in the {place:word}"
+)
+RENDER_LEVELS_DIFFER = note(
+    "render_levels_differ", "{name:word}: {viewport} in the viewport, {render} in the render"
+)
 ONLY_WITHOUT_SURFACE = error(
-    "only_without_surface", "No surface, only {kinds}. Fill faces, or add a surface with a modifier."
+    "only_without_surface",
+    "No surface, only {kinds}. Fill faces, or add a surface with a modifier.",
 )
 SURFACELESS_LEFT_OUT = warning("surfaceless_left_out", "Left out: {kinds}.")
 LINES_ONLY = error(
-    "lines_only", "Lines without a surface. Add a bevel or extrusion, fill the curve or text, or set Kind to Wire."
+    "lines_only",
+    "Lines without a surface. Add a bevel or extrusion, fill the curve or text, or set Kind to Wire.",
 )
 SPLINES_WITHOUT_SURFACE = error(
     "splines_without_surface",
@@ -69,11 +100,14 @@ SPLINES_WITHOUT_SURFACE = error(
 )
 EMPTY_TEXT = error("empty_text", "The text is empty. Type a text.")
 METABALL_OF_FAMILY = error(
-    "metaball_of_family", "“{object}” holds the polygons of this metaball family. Measure that object."
+    "metaball_of_family",
+    "“{object}” holds the polygons of this metaball family. Measure that object.",
 )
 METABALL_FAMILY = note("metaball_family", "Holds the polygons of its metaball family: {objects}.")
 KIND_COUNT = note("kind_count", "{kind:word}: {count}")
-CURVE_MEASURED_WHOLE = warning("curve_measured_whole", "The curve was measured without {ignored:word}.")
+CURVE_MEASURED_WHOLE = warning(
+    "curve_measured_whole", "The curve was measured without {ignored:word}."
+)
 SPLINES_LEFT_OUT = warning(
     "splines_left_out",
     "{count} of {total} splines is left out: too few points for its order or for Bézier ends.",
@@ -84,7 +118,9 @@ UNKNOWN_KNOTS = error(
     "unknown_knots",
     "Blender does not expose the imported knots. Turn Endpoint off and on in Active Spline to make known ones.",
 )
-ONLY_CURVES_ARE_WIRES = error("only_curves_are_wires", "Only curves can be wires. Set Kind to Solid or Shell.")
+ONLY_CURVES_ARE_WIRES = error(
+    "only_curves_are_wires", "Only curves can be wires. Set Kind to Solid or Shell."
+)
 SHAPE_KEYS_OF_OTHER_POINTS = error(
     "shape_keys_of_other_points",
     "The shape keys were made for another number of points. Remove them, or undo what added or removed points.",
@@ -110,20 +146,31 @@ ATTRIBUTE_MISSING = error(
     "No attribute “{attribute}” with a float per vertex. Create it, use Convert Attribute, or change Attribute.",
 )
 VOLUME_WITHOUT_GRIDS = error(
-    "volume_without_grids", "The volume has no grids. Choose a file, or add a modifier that makes grids."
+    "volume_without_grids",
+    "The volume has no grids. Choose a file, or add a modifier that makes grids.",
 )
 GRID_MISSING = error("grid_missing", "No grid “{grid}”; the volume has {grids}. Change Grid.")
-GRID_TYPE = error("grid_type", "The grid “{grid}” does not hold scalar numbers. Choose another grid.")
-NO_SCALAR_GRID = error("no_scalar_grid", "No grid holds scalar numbers; the volume has {grids}. Choose another volume.")
-GRID_UNREADABLE = error(
-    "grid_unreadable", "The grid “{grid}” is missing or cannot be read: {error}. Choose another file or grid."
+GRID_TYPE = error(
+    "grid_type", "The grid “{grid}” does not hold scalar numbers. Choose another grid."
 )
-GRID_FRUSTUM = error("grid_frustum", "The grid “{grid}” has a frustum transform. Resample it with a linear transform.")
+NO_SCALAR_GRID = error(
+    "no_scalar_grid", "No grid holds scalar numbers; the volume has {grids}. Choose another volume."
+)
+GRID_UNREADABLE = error(
+    "grid_unreadable",
+    "The grid “{grid}” is missing or cannot be read: {error}. Choose another file or grid.",
+)
+GRID_FRUSTUM = error(
+    "grid_frustum",
+    "The grid “{grid}” has a frustum transform. Resample it with a linear transform.",
+)
 GRID_FAR_FROM_ORIGIN = error(
-    "grid_far_from_origin", "The voxel indices of the grid “{grid}” are too far from zero. Move its origin nearer."
+    "grid_far_from_origin",
+    "The voxel indices of the grid “{grid}” are too far from zero. Move its origin nearer.",
 )
 GRID_NAMES_REPEATED = warning(
-    "grid_names_repeated", "Several grids have the same name; only the first counts. Rename the others."
+    "grid_names_repeated",
+    "Several grids have the same name; only the first counts. Rename the others.",
 )
 GRID_SIMPLIFIED = warning(
     "grid_simplified",
@@ -135,35 +182,48 @@ GRID_NEEDS_OPENVDB = error(
     "level set to a mesh by a Grid to Mesh node.",
 )
 TEMPORARY_FOLDER_FULL = error(
-    "temporary_folder_full", "Voxels cannot be written to the temporary folder. Free some disk space."
+    "temporary_folder_full",
+    "Voxels cannot be written to the temporary folder. Free some disk space.",
 )
 FLAT_OF_TYPE = error(
-    "flat_of_type", "Only meshes, 2D curves and texts can be flat shapes. Convert the object to a mesh."
+    "flat_of_type",
+    "Only meshes, 2D curves and texts can be flat shapes. Convert the object to a mesh.",
 )
-SECTION_MODIFIED_FILL = note("section_modified_fill", "Blender's fill with its modifiers was measured.")
+SECTION_MODIFIED_FILL = note(
+    "section_modified_fill", "Blender's fill with its modifiers was measured."
+)
 SECTION_SPLINES_OPEN = warning(
     "section_splines_open",
     "{count} open spline encloses nothing and was left out. Use Toggle Cyclic.",
     "{count} open splines enclose nothing and were left out. Use Toggle Cyclic.",
 )
-SECTION_NOT_FILLED = note("section_not_filled", "The curve is not filled; its outlines were measured as if filled.")
-SECTION_NO_SELECTED_FACE = error("section_no_selected_face", "No face is selected. Select the faces of the section.")
+SECTION_NOT_FILLED = note(
+    "section_not_filled", "The curve is not filled; its outlines were measured as if filled."
+)
+SECTION_NO_SELECTED_FACE = error(
+    "section_no_selected_face", "No face is selected. Select the faces of the section."
+)
 SECTION_NO_OUTLINE = error(
     "section_no_outline", "No closed outline. Close the splines with Toggle Cyclic, or type a text."
 )
 SECTION_TEXT_ON_CURVE = error(
-    "section_text_on_curve", "The text follows a curve and is not filled. Fill it, or use Object > Convert > Mesh."
+    "section_text_on_curve",
+    "The text follows a curve and is not filled. Fill it, or use Object > Convert > Mesh.",
 )
 SECTION_EXTRUDED = error(
     "section_extruded",
     "The curve is 3D, extruded, beveled or offset. Set it to 2D, and Extrude, Bevel Depth and Offset to 0, or use "
     "Object > Convert > Mesh.",
 )
-SCALE_ZERO_AXIS = error("scale_zero_axis", "A scale is zero along an axis: its own, a delta or a parent's. Set it.")
+SCALE_ZERO_AXIS = error(
+    "scale_zero_axis", "A scale is zero along an axis: its own, a delta or a parent's. Set it."
+)
 TOTAL_DOUBTFUL_PARTS = warning(
     "total_doubtful_parts", "{kind:word} count as bodies: {objects}. Leave out what is not a part."
 )
-NO_ACTIVE_ARMATURE = error("no_active_armature", "The active object is not an armature. Select one.")
+NO_ACTIVE_ARMATURE = error(
+    "no_active_armature", "The active object is not an armature. Select one."
+)
 ARMATURE_IN_EDIT_MODE = error("armature_in_edit_mode", "The armature is in Edit Mode. Leave it.")
 REFERENCE_OBJECT_MISSING = error(
     "reference_object_missing", "No object is chosen as the reference. Choose one in Object."

@@ -24,7 +24,9 @@ from ..settings.given import COLLIDER
 if TYPE_CHECKING:
     from ...core.measurement.settings import Settings
 
-SAME_SCALE_RTOL = 2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
+SAME_SCALE_RTOL = (
+    2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
+)
 MAX_LENGTH = 3e38  # largest length of an axis that float32 can store
 
 
@@ -63,14 +65,23 @@ def has_transform(obj: bpy.types.Object, key: str) -> bool:
 
 def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
     """Return the sign of the determinant and the lengths of the axes; None if sheared, flat or not finite."""
-    axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))  # pure Python: a panel asks for many objects
+    axes = list(
+        zip(*[row[:3] for row in obj.matrix_world[:3]])
+    )  # pure Python: a panel asks for many objects
     lengths = [math.hypot(*axis) for axis in axes]
     if not all([0.0 < length < MAX_LENGTH for length in lengths]):
         return None
-    (a, b, c), (d, e, f), (g, h, i) = [[entry / length for entry in axis] for axis, length in zip(axes, lengths)]
-    if max(abs(a * d + b * e + c * f), abs(d * g + e * h + f * i), abs(g * a + h * b + i * c)) > SAME_SCALE_RTOL:
+    (a, b, c), (d, e, f), (g, h, i) = [
+        [entry / length for entry in axis] for axis, length in zip(axes, lengths)
+    ]
+    if (
+        max(abs(a * d + b * e + c * f), abs(d * g + e * h + f * i), abs(g * a + h * b + i * c))
+        > SAME_SCALE_RTOL
+    ):
         return None
-    return "-" if a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g) < 0.0 else "+", lengths
+    return "-" if a * (e * i - f * h) + b * (f * g - d * i) + c * (
+        d * h - e * g
+    ) < 0.0 else "+", lengths
 
 
 def _moves_along(obj: bpy.types.Object) -> bool:
@@ -113,4 +124,6 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
 def current_settings(obj: bpy.types.Object, scene: bpy.types.Scene) -> Settings:
     """Return the current settings of the object, with the key of a varying density."""
     materials = str(obj.get("body_materials", "")).splitlines()
-    return replace(settings.options.object_settings(obj, scene), varying=density_key(obj, materials, scene))
+    return replace(
+        settings.options.object_settings(obj, scene), varying=density_key(obj, materials, scene)
+    )

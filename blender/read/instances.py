@@ -17,7 +17,14 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix, name_subject
+from ...core.bodies.reading import (
+    NO_VALUES,
+    FaceAttributes,
+    Part,
+    SplineReading,
+    float64_matrix,
+    name_subject,
+)
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import affine_matrices
 from ...core.verdict.finding import ReadError
@@ -47,10 +54,19 @@ class InstanceCollector:
         edges at the corners.
     """
 
-    def __init__(self, root, depsgraph, materials: bool = False, attribute: str | None = None, edges: bool = True):
+    def __init__(
+        self,
+        root,
+        depsgraph,
+        materials: bool = False,
+        attribute: str | None = None,
+        edges: bool = True,
+    ):
         self.root = root
         self.depsgraph = depsgraph
-        self.materials, self.attribute, self.edges = materials, attribute, edges
+        self.materials = materials
+        self.attribute = attribute
+        self.edges = edges
         # A geometry set owns the meshes that it returns, and the keys are their addresses.
         self._owners: list[object] = []
         self.collections: dict[bpy.types.Collection, None] = {}
@@ -117,7 +133,11 @@ class InstanceCollector:
             instanced = self._add_instances(geometry, matrices)
             if shows_itself(original, instanced):
                 self._add_own_geometry(evaluated, geometry, matrices)
-        if not instanced and original.instance_type == "COLLECTION" and evaluated.instance_collection:
+        if (
+            not instanced
+            and original.instance_type == "COLLECTION"
+            and evaluated.instance_collection
+        ):
             self._add_collection(evaluated.instance_collection, matrices)
         self._path.pop()
 
@@ -133,7 +153,9 @@ class InstanceCollector:
                 self.splines[evaluated] = spline_reading(evaluated, self.depsgraph, geometry.mesh)
             self._add_mesh(evaluated, geometry.mesh, matrices, evaluated)
         elif original.data.is_editmode:
-            self._add_surface(evaluated, lambda: self._edit_mode_surface(evaluated), matrices, evaluated)
+            self._add_surface(
+                evaluated, lambda: self._edit_mode_surface(evaluated), matrices, evaluated
+            )
         else:
             # Objects that share a mesh and do not modify it share its evaluated data too.
             self._add_mesh(evaluated.data, geometry.mesh, matrices, evaluated)
@@ -150,7 +172,8 @@ class InstanceCollector:
         cloud = geometry.instances_pointcloud()
         if cloud is None:  # there are no instances
             return False
-        count, values = len(cloud.points), cloud.attributes
+        count = len(cloud.points)
+        values = cloud.attributes
         columns = read_array(values["instance_transform"].data, "value", (count, 4, 4), np.float32)
         transforms = columns.transpose(0, 2, 1).astype(np.float64)
         chosen = read_array(values[".reference_index"].data, "value", (count,), np.int32)
@@ -159,8 +182,12 @@ class InstanceCollector:
         bounds = np.searchsorted(chosen[order], np.arange(len(references) + 1))
         for reference, start, end in zip(references, bounds[:-1], bounds[1:], strict=True):
             if start < end and reference is not None:
-                with np.errstate(invalid="ignore", over="ignore"):  # parts() counts what is not finite
-                    placed = (matrices[:, None] @ transforms[order[start:end]][None]).reshape(-1, 4, 4)
+                with np.errstate(
+                    invalid="ignore", over="ignore"
+                ):  # parts() counts what is not finite
+                    placed = (matrices[:, None] @ transforms[order[start:end]][None]).reshape(
+                        -1, 4, 4
+                    )
                 self._add_reference(reference, placed)
         return True
 
@@ -175,7 +202,9 @@ class InstanceCollector:
 
     def _add_collection(self, collection, matrices: NDArray) -> None:
         self.collections[collection.original] = None
-        matrices = matrices @ affine_matrices(np.eye(3), -np.array(collection.instance_offset[:], np.float64))
+        matrices = matrices @ affine_matrices(
+            np.eye(3), -np.array(collection.instance_offset[:], np.float64)
+        )
         for member in visible_objects(collection):
             evaluated = member.evaluated_get(self.depsgraph)
             self._add_object(evaluated, matrices @ float64_matrix(evaluated.matrix_world))
@@ -190,9 +219,14 @@ class InstanceCollector:
             if shows_itself(original, True):
                 self._add_own_geometry(self.root, geometry, instance_matrix)
         for instance in self.depsgraph.object_instances:
-            if instance.parent != self.root or instance.object.type != "MESH" or not instance.show_self:
+            if (
+                instance.parent != self.root
+                or instance.object.type != "MESH"
+                or not instance.show_self
+            ):
                 continue
-            source, mesh = instance.instance_object, instance.object.data
+            source = instance.instance_object
+            mesh = instance.object.data
             matrix = float64_matrix(instance.matrix_world)[None]
             self.sources[source.original] = None
             key = self._surface_key(mesh, source)
@@ -209,7 +243,9 @@ class InstanceCollector:
         if mesh is not None:
             if owner is not None and len(mesh.polygons):
                 self.drawn[owner.original] = None
-            self._add_surface(self._surface_key(key, owner), lambda: self._read(mesh, owner), matrices, owner)
+            self._add_surface(
+                self._surface_key(key, owner), lambda: self._read(mesh, owner), matrices, owner
+            )
 
     def _surface_key(self, key: Hashable, owner) -> Hashable:
         """Return the key of a mesh's surface; if materials are read, it includes the object's own material slots."""
@@ -232,13 +268,19 @@ class InstanceCollector:
             return FaceAttributes(vertex_values=vertices)
         slots = _slots(mesh, owner)
         # Blender shows a face that names a slot beyond the last one with the last one's material.
-        faces = np.clip(face_slots(mesh), 0, len(slots) - 1) if slots else np.full(len(mesh.polygons), -1)
+        faces = (
+            np.clip(face_slots(mesh), 0, len(slots) - 1)
+            if slots
+            else np.full(len(mesh.polygons), -1)
+        )
         return FaceAttributes(slots, faces, vertices)
 
     def _edit_mode_surface(self, evaluated) -> tuple[Surface, FaceAttributes]:
         """Return the surface of an object in Edit Mode of its mesh, with the modifiers that act there."""
         original = evaluated.original
-        acting = any(modifier.show_viewport and modifier.show_in_editmode for modifier in original.modifiers)
+        acting = any(
+            modifier.show_viewport and modifier.show_in_editmode for modifier in original.modifiers
+        )
         if not acting and not blends_keys(original):
             return from_edit_mesh(original.data, lambda copy: self._read(copy, evaluated))
         # The evaluated mesh may be a BMesh in disguise, which only to_mesh() turns into arrays.
@@ -247,12 +289,19 @@ class InstanceCollector:
         return read
 
     def _add_surface(
-        self, key: Hashable, read: Callable[[], tuple[Surface, FaceAttributes]], matrices: NDArray, owner
+        self,
+        key: Hashable,
+        read: Callable[[], tuple[Surface, FaceAttributes]],
+        matrices: NDArray,
+        owner,
     ) -> None:
         if key not in self._parts:
             surface, attributes = read()
             name = (self._path[-1] if owner is None else owner.original).name
-            self._parts[key] = Part(surface, NO_PLACES, attributes, self.splines.get(owner), name), []
+            self._parts[key] = (
+                Part(surface, NO_PLACES, attributes, self.splines.get(owner), name),
+                [],
+            )
         self._parts[key][1].append(matrices)
 
     def _count_surfaceless(self, geometry, count: int) -> None:
@@ -294,8 +343,17 @@ def shows_itself(obj, instanced: bool) -> bool:
 def _needs_instance_list(obj) -> bool:
     if obj.instance_type in {"VERTS", "FACES"}:
         return True
-    systems = [modifier for modifier in obj.modifiers if modifier.type == "PARTICLE_SYSTEM" and modifier.show_viewport]
-    return any([modifier.particle_system.settings.render_type in {"OBJECT", "COLLECTION"} for modifier in systems])
+    systems = [
+        modifier
+        for modifier in obj.modifiers
+        if modifier.type == "PARTICLE_SYSTEM" and modifier.show_viewport
+    ]
+    return any(
+        [
+            modifier.particle_system.settings.render_type in {"OBJECT", "COLLECTION"}
+            for modifier in systems
+        ]
+    )
 
 
 def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:

@@ -63,7 +63,9 @@ def constraint_connections(
         values, mimic, unusable = joint_values(holder)
         findings += unusable
         free = _freedom(constraint, values, unit)
-        connections.append(Connection(holder.name_full, names[0], names[1], _pose(holder, unit), free, mimic))
+        connections.append(
+            Connection(holder.name_full, names[0], names[1], _pose(holder, unit), free, mimic)
+        )
     connections.sort(key=lambda one: one.name)
     return connections, [bases[name] for name in sorted(bases)], findings
 
@@ -75,21 +77,30 @@ def _pose(obj: Object, unit: float) -> Pose:
     return Pose(matrix[:3, 3] * unit, turn * np.sign(np.linalg.det(turn)))
 
 
-def _freedom(constraint: RigidBodyConstraint, values: Mapping[str, float], unit: float) -> tuple[FreeAxis, ...]:
+def _freedom(
+    constraint: RigidBodyConstraint, values: Mapping[str, float], unit: float
+) -> tuple[FreeAxis, ...]:
     """Return the free axes of a constraint, with the values of its springs unless `values` states them."""
     free = []
     for kind, index, sign in CONSTRAINTS[constraint.type]:
-        turns, axis, lower, upper = kind == "rotate", "xyz"[index], -inf, inf
-        name, length = ("ang_" if turns else "lin_") + axis, 1.0 if turns else unit
+        turns = kind == "rotate"
+        axis = "xyz"[index]
+        lower = -inf
+        upper = inf
+        name = ("ang_" if turns else "lin_") + axis
+        length = 1.0 if turns else unit
         if constraint.type != "POINT" and getattr(constraint, "use_limit_" + name):
-            lower, upper = (getattr(constraint, "limit_{}_{}".format(name, end)) for end in ("lower", "upper"))
+            lower, upper = (
+                getattr(constraint, "limit_{}_{}".format(name, end)) for end in ("lower", "upper")
+            )
             if lower == upper:
                 continue
             # Bullet takes a lower limit above the upper one as none.
             ends = sorted((sign * lower * length, sign * upper * length))
             lower, upper = ends if lower < upper else (-inf, inf)
         spring = {}
-        name, torque = ("ang_" if turns else "") + axis, unit**2 if turns else 1.0
+        name = ("ang_" if turns else "") + axis
+        torque = unit**2 if turns else 1.0
         # Springs of the other type have a damping without a unit.
         is_spring = constraint.type == "GENERIC_SPRING" and constraint.spring_type == "SPRING2"
         if is_spring and getattr(constraint, "use_spring_" + name):
@@ -109,10 +120,19 @@ def joint_values(
         value: Any = owner.get("joint_" + name)
         is_number = isinstance(value, (int, float)) and isfinite(value)
         # A motor without effort or velocity would not move.
-        if is_number and (name.startswith("mimic") or value > 0 or value == 0 and name not in ("effort", "velocity")):
+        if is_number and (
+            name.startswith("mimic")
+            or value > 0
+            or value == 0
+            and name not in ("effort", "velocity")
+        ):
             values[name] = float(value)
         elif value is not None:
-            findings.append(finding(JOINT_VALUE_UNUSABLE, joint=owner.name, key="joint_" + name, value=str(value)))
+            findings.append(
+                finding(
+                    JOINT_VALUE_UNUSABLE, joint=owner.name, key="joint_" + name, value=str(value)
+                )
+            )
     factors = values.pop("mimic_multiplier", 1.0), values.pop("mimic_offset", 0.0)
     leader = owner.get("joint_mimic")
     return values, None if leader is None else Mimic(str(leader), *factors), findings
@@ -129,13 +149,18 @@ def bone_freedom(
     } | _bone_limits(bone, "LIMIT_ROTATION", "use_limit_")
     is_connected = bone.parent is not None and bone.bone.use_connect
     slides = {} if is_connected else _bone_limits(bone, "LIMIT_LOCATION", "use_min_", "use_max_")
-    rest = float64_matrix(bone.id_data.matrix_world)[:3, :3] @ float64_matrix(bone.bone.matrix_local)[:3, :3]
+    rest = (
+        float64_matrix(bone.id_data.matrix_world)[:3, :3]
+        @ float64_matrix(bone.bone.matrix_local)[:3, :3]
+    )
     free = []
     for index, axis in enumerate("xyz"):
         lower, upper = slides.get(axis, (0.0, 0.0))
         if lower < upper and not bone.lock_location[index]:
             length = unit * float(np.linalg.norm(rest[:, index]))
-            free.append(FreeAxis("translate", np.eye(3)[index], lower * length, upper * length, values))
+            free.append(
+                FreeAxis("translate", np.eye(3)[index], lower * length, upper * length, values)
+            )
     for index, axis in reversed([*enumerate("xyz")]):
         lower, upper = turns.get(axis, (-inf, inf))
         if lower < upper and not bone.lock_rotation[index] and not getattr(bone, "lock_ik_" + axis):

@@ -64,7 +64,9 @@ def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | Non
     """Return (n, 3) points of a `bpy.types.Mesh`, or None if the vertices at its corners are not `corners`."""
     if len(mesh.loops) != len(corners):
         return None
-    if not np.array_equal(_attribute(mesh, ".corner_vert", "value", corners.shape, np.int32), corners):
+    if not np.array_equal(
+        _attribute(mesh, ".corner_vert", "value", corners.shape, np.int32), corners
+    ):
         return None
     return vertex_points(mesh)
 
@@ -86,13 +88,17 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
     mesh.calc_loop_triangles()
     owners = read_array(mesh.loop_triangle_polygons, "value", (len(mesh.loop_triangles),), np.int32)
     # The owners are 0, 0, 1, 1, … if all faces are quads, and no triangle stands beside a pentagon.
-    if len(corners) == 4 * faces and np.array_equal(owners, np.arange(2 * faces, dtype=np.int32) >> 1):
+    if len(corners) == 4 * faces and np.array_equal(
+        owners, np.arange(2 * faces, dtype=np.int32) >> 1
+    ):
         return {"quads": corners.reshape(-1, 4)}
 
     sizes = np.bincount(owners, minlength=faces) + 2
     starts = sizes.cumsum() - sizes
-    three, four = (sizes == 3).nonzero()[0], (sizes == 4).nonzero()[0]
-    triangles, triangle_faces = corners[starts[three][:, None] + FACE_CORNERS[:3]], three
+    three = (sizes == 3).nonzero()[0]
+    four = (sizes == 4).nonzero()[0]
+    triangles = corners[starts[three][:, None] + FACE_CORNERS[:3]]
+    triangle_faces = three
     if len(three) + len(four) < faces:
         ngon_triangles = (sizes.take(owners) > 4).nonzero()[0]
         triangles = np.concatenate([triangles, _loop_triangles(mesh, ngon_triangles)])
@@ -132,7 +138,11 @@ def vertex_values(mesh, name: str) -> NDArray[np.float64]:
 
 def _attribute(mesh, name: str, member: str, shape: tuple[int, ...], dtype) -> NDArray:
     """Return the values of an attribute; without elements there may be no attribute either."""
-    return read_array(mesh.attributes[name].data, member, shape, dtype) if shape[0] else np.empty(shape, dtype)
+    return (
+        read_array(mesh.attributes[name].data, member, shape, dtype)
+        if shape[0]
+        else np.empty(shape, dtype)
+    )
 
 
 def read_array(data, member: str, shape: tuple[int, ...], dtype) -> NDArray:

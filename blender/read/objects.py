@@ -35,7 +35,9 @@ def read_object(
     obj = obj.original
     require_kind(obj)
     reading = locate(obj, depsgraph)
-    gathered = InstanceCollector(obj.evaluated_get(depsgraph), depsgraph, materials, attribute, edges)
+    gathered = InstanceCollector(
+        obj.evaluated_get(depsgraph), depsgraph, materials, attribute, edges
+    )
     gathered.collect()
     parts = gathered.parts()
     if not parts:
@@ -45,7 +47,8 @@ def read_object(
             if obj.type == "SURFACE" and nonpositive_weights(obj.data.splines):
                 raise ReadError(NON_POSITIVE_WEIGHTS, subject=obj.name)
             require_finite(obj, part.surface.points, part.source_object_name)
-    reading.parts, reading.findings = parts, list(reading_findings(obj, gathered, depsgraph))
+    reading.parts = parts
+    reading.findings = list(reading_findings(obj, gathered, depsgraph))
     return reading
 
 
@@ -67,7 +70,9 @@ def read_patches(obj, depsgraph) -> Reading | None:
         return None
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
     evaluated = obj.evaluated_get(depsgraph)
-    splines = spline_reading(evaluated, depsgraph, geometry.mesh if is_deformed(evaluated) else None)
+    splines = spline_reading(
+        evaluated, depsgraph, geometry.mesh if is_deformed(evaluated) else None
+    )
     if splines is None:
         return None
     nothing = Surface(np.zeros((0, 3), np.float32))

@@ -16,7 +16,12 @@ from .fingerprint import matrix_bytes, settings_hash
 from .tracking import tracking_paused
 from .visibility import measurable
 
-HOLDING = {"CHILD_OF", "COPY_TRANSFORMS", "COPY_LOCATION", "ARMATURE"}  # constraints that put objects into a hand
+HOLDING = {
+    "CHILD_OF",
+    "COPY_TRANSFORMS",
+    "COPY_LOCATION",
+    "ARMATURE",
+}  # constraints that put objects into a hand
 
 
 @contextmanager
@@ -52,7 +57,8 @@ def skinned_objects(armature: Object, objects: Iterable[Object]) -> list[Object]
 
 def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[Object, str]]:
     """Return (object, bone) of measurable objects below bones, except those in `skinned`."""
-    skinned, found = set(skinned), []
+    skinned = set(skinned)
+    found = []
     for child in sorted(armature.children, key=lambda obj: obj.name):
         if child.parent_type == "BONE" and child.parent_bone:
             for obj in (child, *child.children_recursive):
@@ -80,7 +86,11 @@ def _holding_bone(obj: Object, armature: Object, depsgraph: Depsgraph) -> str:
     for constraint in obj.evaluated_get(depsgraph).constraints:
         if constraint.type in HOLDING and not constraint.mute and constraint.influence > 0.0:
             for target in constraint.targets if constraint.type == "ARMATURE" else (constraint,):
-                if target.target is not None and target.target.original == armature and target.subtarget:
+                if (
+                    target.target is not None
+                    and target.target.original == armature
+                    and target.subtarget
+                ):
                     return target.subtarget
     return ""
 
@@ -90,11 +100,19 @@ def rig_hash(armature: Object, objects: Iterable[Object], scene: Scene) -> str:
     keys = []
     for bone in armature.data.bones:
         settings = armature.pose.bones[bone.name].body_moments
-        given = {"MESH": None, "DENSITY": settings.density, "MASS": settings.mass}[settings.mass_from]
+        given = {"MESH": None, "DENSITY": settings.density, "MASS": settings.mass}[
+            settings.mass_from
+        ]
         rest = matrix_bytes(bone.matrix_local).hex()
-        keys.append(repr((bone.name, bone.use_deform, round(bone.length, 7), rest, settings.mass_from, given)))
+        keys.append(
+            repr(
+                (bone.name, bone.use_deform, round(bone.length, 7), rest, settings.mass_from, given)
+            )
+        )
     for obj in objects:
-        keys.append(repr((obj.name, obj.hide_render, settings_hash(obj, scene), len(obj.vertex_groups))))
+        keys.append(
+            repr((obj.name, obj.hide_render, settings_hash(obj, scene), len(obj.vertex_groups)))
+        )
     keys.append(repr(list(armature.matrix_world.to_scale())))
     return digest("\n".join(keys).encode())
 

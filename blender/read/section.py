@@ -68,14 +68,18 @@ class SectionReading:
     findings: list[Finding] = field(default_factory=list)
 
 
-def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | None = None) -> SectionReading:
+def read_section(
+    obj, depsgraph, *, selected: bool = True, resolution: int | None = None
+) -> SectionReading:
     """Read an object's faces (in Edit Mode only the `selected` ones) or its outlines, or raise ReadError."""
     obj = obj.original
     if obj.type not in SECTION_TYPES:
         raise ReadError(FLAT_OF_TYPE, subject=obj.name)
     if selected and obj.type == "MESH" and obj.data.is_editmode:
         return _selected_faces(obj, depsgraph)
-    if obj.type in {"CURVE", "FONT"} and not any(modifier.show_viewport for modifier in obj.modifiers):
+    if obj.type in {"CURVE", "FONT"} and not any(
+        modifier.show_viewport for modifier in obj.modifiers
+    ):
         return _outlines(obj, depsgraph, resolution)
     reading = read_object(obj, depsgraph, edges=False)
     findings = list(reading.findings)
@@ -95,20 +99,35 @@ def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64
 
 
 def _section(
-    description: str, surface: Surface, triangles: NDArray, faces: NDArray, place: Reading, **more: Any
+    description: str,
+    surface: Surface,
+    triangles: NDArray,
+    faces: NDArray,
+    place: Reading,
+    **more: Any,
 ) -> SectionReading:
     """Return the reading of (m, 3) triangles of a surface, and the (m,) face of each; more: further fields."""
     shortest = np.sqrt((place.matrix[:, :3] ** 2).sum(axis=0)).min()
     axes = polar_rotation(place.matrix[None])[0][0] if shortest < ZERO_SCALE else place.rotation
     error = float(np.linalg.norm(surface.coordinate_error))
     return SectionReading(
-        place.name, description, surface.points, triangles, faces, error, axes, place.location, **more
+        place.name,
+        description,
+        surface.points,
+        triangles,
+        faces,
+        error,
+        axes,
+        place.location,
+        **more,
     )
 
 
 def _selected_faces(obj, depsgraph) -> SectionReading:
     def selected(copy: bpy.types.Mesh) -> tuple[NDArray[np.bool_], Surface]:
-        return read_array(copy.polygons, "select", (len(copy.polygons),), bool), mesh_surface(copy, edges=False)
+        return read_array(copy.polygons, "select", (len(copy.polygons),), bool), mesh_surface(
+            copy, edges=False
+        )
 
     chosen, surface = from_edit_mesh(obj.data, selected)
     if not chosen.any():
@@ -143,20 +162,32 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
         # Only the evaluated text follows its curve, and only its fill is there to be read.
         if filled is None:
             raise ReadError(SECTION_TEXT_ON_CURVE, subject=obj.name)
-        surface, loops = filled.transform(linear, place.matrix[:3, 3]), None
+        surface = filled.transform(linear, place.matrix[:3, 3])
+        loops = None
         triangles, faces = surface.all_triangles()
     else:
         surface = Surface(local).transform(linear, place.matrix[:3, 3])
-        fans = [np.stack([np.full(len(loop) - 2, loop[0]), loop[1:-1], loop[2:]], axis=1) for loop in loops]
+        fans = [
+            np.stack([np.full(len(loop) - 2, loop[0]), loop[1:-1], loop[2:]], axis=1)
+            for loop in loops
+        ]
         triangles = np.concatenate(fans)
         faces = np.arange(len(triangles))
         if filled is not None:
-            a, b, c = (filled.points.astype(np.float64)[filled.all_triangles()[0][:, i]] for i in range(3))
+            a, b, c = (
+                filled.points.astype(np.float64)[filled.all_triangles()[0][:, i]] for i in range(3)
+            )
             ab, ac = b - a, c - a
-            drawn = float(np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum() / 2.0 * np.sqrt(facing @ facing))
+            drawn = float(
+                np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum()
+                / 2.0
+                * np.sqrt(facing @ facing)
+            )
     require_finite(obj, surface.points)
     more = {"loops": loops, "facing": facing, "drawn_area": drawn, "findings": findings}
-    return _section("Text" if obj.type == "FONT" else "Curve", surface, triangles, faces, place, **more)
+    return _section(
+        "Text" if obj.type == "FONT" else "Curve", surface, triangles, faces, place, **more
+    )
 
 
 def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
@@ -167,9 +198,12 @@ def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
     if obj.type != "FONT" and all(spline.type == "POLY" for spline in obj.data.splines):
         return
     yield finding(DRAWN_AS_POLYGONS)
-    shown, rendered = obj.data.resolution_u, obj.data.render_resolution_u
+    shown = obj.data.resolution_u
+    rendered = obj.data.render_resolution_u
     if rendered not in (0, shown):
-        difference = finding(RENDER_LEVELS_DIFFER, name="Resolution U", viewport=shown, render=rendered)
+        difference = finding(
+            RENDER_LEVELS_DIFFER, name="Resolution U", viewport=shown, render=rendered
+        )
         yield finding(RENDER_DIFFERS, slight=True, differences=[difference.as_record()])
 
 
@@ -181,7 +215,9 @@ def _require_flat_outlines(obj) -> None:
         raise ReadError(SECTION_EXTRUDED, subject=obj.name)
 
 
-def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
+def _spline_outlines(
+    obj, resolution: int | None
+) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
     """Return (n, 3) spline points, the indices of each closed spline's points, and the number of open splines."""
     data = obj.data.copy()
     data.dimensions, data.fill_mode = "2D", "NONE"

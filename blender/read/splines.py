@@ -91,10 +91,16 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
             points = deform(evaluated, points, depsgraph)
         except ReadError:
             return None
-    if nonpositive_weights(splines) or not np.isfinite(coordinates).all() or not np.isfinite(points).all():
+    if (
+        nonpositive_weights(splines)
+        or not np.isfinite(coordinates).all()
+        or not np.isfinite(points).all()
+    ):
         return None
     starts = np.cumsum([0] + [len(row) for row in control_points])
-    patches, samples, left_out = [], [], 0
+    patches = []
+    samples = []
+    left_out = 0
     for spline, start, end in zip(splines, starts[:-1], starts[1:]):
         spaces = _spaces(spline)
         if spaces is None:
@@ -129,14 +135,19 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
         if proved is None:
             return None
         if proved is not patches:
-            patches, stored = proved, stored + RECOVERY_RTOL * size
+            patches = proved
+            stored = stored + RECOVERY_RTOL * size
             findings.append(finding(CONTROL_POINTS_RECOVERED))
     return SplineReading(tuple(patches), stored, tuple(findings))
 
 
 def nonpositive_weights(splines) -> int:
     """Return the number of control points with nonpositive weights, which make a patch unusable."""
-    return sum(int((~(weighted_points(spline)[:, 3] > 0.0)).sum()) for spline in splines if spline.type == "NURBS")
+    return sum(
+        int((~(weighted_points(spline)[:, 3] > 0.0)).sum())
+        for spline in splines
+        if spline.type == "NURBS"
+    )
 
 
 def weighted_points(spline) -> NDArray[np.float32]:
@@ -163,20 +174,32 @@ def _verified(
         piece.reshape(len(u), len(v), 3).swapaxes(0, 1).astype(np.float64)
         for piece, (v, u) in zip(np.split(shown, np.cumsum(counts)[:-1]), samples)
     ]
-    if all(_agrees(patch, sample, piece, tolerance) for patch, sample, piece in zip(patches, samples, pieces)):
+    if all(
+        _agrees(patch, sample, piece, tolerance)
+        for patch, sample, piece in zip(patches, samples, pieces)
+    ):
         return patches
-    attempts = [_interpolating_patch(patch, sample, piece) for patch, sample, piece in zip(patches, samples, pieces)]
+    attempts = [
+        _interpolating_patch(patch, sample, piece)
+        for patch, sample, piece in zip(patches, samples, pieces)
+    ]
     solved = [patch for patch in attempts if patch is not None]
-    if len(solved) < len(attempts) or not all(_agrees(*row, tolerance) for row in zip(solved, samples, pieces)):
+    if len(solved) < len(attempts) or not all(
+        _agrees(*row, tolerance) for row in zip(solved, samples, pieces)
+    ):
         return None
     return solved
 
 
-def _agrees(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray, tolerance: float) -> bool:
+def _agrees(
+    patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray, tolerance: float
+) -> bool:
     return bool(np.abs(patch.apply_weights(*sample) - piece).max() <= tolerance)
 
 
-def _interpolating_patch(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray) -> Patch | None:
+def _interpolating_patch(
+    patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray
+) -> Patch | None:
     """Return the patch with the same spaces and weights that interpolates the samples; None if singular."""
     inverses = []
     for table in sample:
@@ -187,7 +210,9 @@ def _interpolating_patch(patch: Patch, sample: tuple[NDArray, NDArray], piece: N
     if patch.weights is not None:
         piece = piece * np.einsum("ai,ij,bj->ab", sample[0], patch.weights, sample[1])[..., None]
     points = np.einsum("ia,abd,jb->ijd", inverses[0], piece, inverses[1])
-    return replace(patch, points=points if patch.weights is None else points / patch.weights[..., None])
+    return replace(
+        patch, points=points if patch.weights is None else points / patch.weights[..., None]
+    )
 
 
 def spline_modifiers(obj) -> tuple[list, list]:
@@ -271,7 +296,9 @@ def _apply_hook(evaluated, modifier, points: NDArray, depsgraph) -> NDArray[np.f
         if modifier.use_falloff_uniform:
             arms = arms @ float64_matrix(modifier.matrix_inverse)[:3, :3].T
         distance = np.linalg.norm(arms, axis=1) / modifier.falloff_radius
-        share = np.where(distance <= 1.0, share * FALLOFFS[modifier.falloff_type](np.minimum(distance, 1.0)), 0.0)
+        share = np.where(
+            distance <= 1.0, share * FALLOFFS[modifier.falloff_type](np.minimum(distance, 1.0)), 0.0
+        )
     after = before @ matrix[:3, :3].T + matrix[:3, 3]
     result = points.copy()
     result[indices] = before + share[:, None] * (after - before)

@@ -27,7 +27,13 @@ NODE_VOXELS = 128  # voxels along a side of the blocks that are read
 ROOT_VOXELS = 4096  # along a side of the largest nodes
 MAX_ROOTS = 100_000
 MAX_INDEX = 1 << 29  # above this index the module fails silently
-DTYPES = {"float": np.float32, "double": np.float64, "int32": np.int32, "int64": np.int64, "bool": np.bool_}
+DTYPES = {
+    "float": np.float32,
+    "double": np.float64,
+    "int32": np.int32,
+    "int64": np.int64,
+    "bool": np.bool_,
+}
 
 
 def openvdb() -> ModuleType | None:
@@ -64,12 +70,19 @@ class VdbGrid:
             raise ReadError(GRID_FRUSTUM, grid=name)
         self.background = float(self._grid.background)
         self.level_set = self._grid.gridClass == "level set"
-        places = np.array([transform.indexToWorld(voxel) for voxel in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))])
+        places = np.array(
+            [
+                transform.indexToWorld(voxel)
+                for voxel in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
+            ]
+        )
         self.to_object = affine_matrices((places[1:] - places[0]).T, places[0])
         low, high = (np.array(end, np.int64) for end in self._grid.evalActiveVoxelBoundingBox())
         if self._grid.activeVoxelCount() == 0:
-            low, high = np.zeros(3, np.int64), np.full(3, -1)
-        self.low, self.shape = low, high - low + 1
+            low = np.zeros(3, np.int64)
+            high = np.full(3, -1)
+        self.low = low
+        self.shape = high - low + 1
         if np.prod(high // ROOT_VOXELS - low // ROOT_VOXELS + 1.0) > MAX_ROOTS:
             raise ReadError(GRID_TOO_LARGE, grid=name, samples=self.shape.tolist())
         if np.abs([low, high]).max() > MAX_INDEX:
@@ -84,22 +97,37 @@ class VdbGrid:
             if depth < 1 and values.getValue(first) == self._grid.background:
                 continue
             start = np.array(first)
-            for corner in _cells(np.maximum(start, self.low), np.minimum(start + ROOT_VOXELS, end), NODE_VOXELS):
-                if values.getValueDepth(corner) < 2 and values.getValue(corner) == self._grid.background:
+            for corner in _cells(
+                np.maximum(start, self.low), np.minimum(start + ROOT_VOXELS, end), NODE_VOXELS
+            ):
+                if (
+                    values.getValueDepth(corner) < 2
+                    and values.getValue(corner) == self._grid.background
+                ):
                     continue
                 begin = np.maximum(corner, self.low)
-                array = np.zeros(np.minimum(np.array(corner) + NODE_VOXELS, end) - begin, self._dtype)
+                array = np.zeros(
+                    np.minimum(np.array(corner) + NODE_VOXELS, end) - begin, self._dtype
+                )
                 self._grid.copyToArray(array, ijk=tuple(begin.tolist()))
                 used = array != self._dtype(self._grid.background)
                 if used.any():  # a node may be empty but for a corner
-                    along = [np.flatnonzero(used.any(axis=others)) for others in ((1, 2), (0, 2), (0, 1))]
+                    along = [
+                        np.flatnonzero(used.any(axis=others)) for others in ((1, 2), (0, 2), (0, 1))
+                    ]
                     offset = begin - self.low + [where[0] for where in along]
-                    yield tuple(offset.tolist()), array[tuple(slice(where[0], where[-1] + 1) for where in along)]
+                    yield (
+                        tuple(offset.tolist()),
+                        array[tuple(slice(where[0], where[-1] + 1) for where in along)],
+                    )
 
     def polygons(self) -> Surface:
         """Return the zero surface of a level set, in the object's coordinates, facing outward."""
         points, _triangles, quads = self._grid.convertToPolygons()  # only quads without adaptivity
-        return Surface(np.ascontiguousarray(points, np.float32), quads=np.ascontiguousarray(quads[:, ::-1], np.int32))
+        return Surface(
+            np.ascontiguousarray(points, np.float32),
+            quads=np.ascontiguousarray(quads[:, ::-1], np.int32),
+        )
 
 
 def _cells(low: NDArray, end: NDArray, size: int) -> Iterator[tuple[int, int, int]]:

@@ -40,7 +40,9 @@ def measurable(obj) -> bool:
         # A wire needs no surface, and closed curves bound one for a shell.
         settings = getattr(obj, "body_moments", None)
         return _curve_has_surface(obj) or (settings is not None and settings.kind != "SOLID")
-    return obj.type in {*SURFACE_TYPES, "VOLUME"} or any(modifier.type == "NODES" for modifier in obj.modifiers)
+    return obj.type in {*SURFACE_TYPES, "VOLUME"} or any(
+        modifier.type == "NODES" for modifier in obj.modifiers
+    )
 
 
 def has_shape(obj) -> bool:
@@ -64,7 +66,9 @@ def measurable_objects(view_layer) -> list:
     """Return the measurable objects of a view layer by name, hidden ones included, objects measured with others not."""
     # A view layer that has not been updated knows neither its new objects nor their visibility.
     view_layer.update()
-    objects = [obj for obj in view_layer.objects if measurable(obj) and not instanced_by_parent(obj)]
+    objects = [
+        obj for obj in view_layer.objects if measurable(obj) and not instanced_by_parent(obj)
+    ]
     mothers = {family[0] for family in metaball_families(view_layer)}
     objects = [obj for obj in objects if obj.type != "META" or obj in mothers]
     hidden = {obj for obj in objects if not obj.visible_get(view_layer=view_layer)}
@@ -86,7 +90,9 @@ def metaball_families(view_layer) -> list[list]:
     for obj in view_layer.objects:
         if obj.type == "META":
             families.setdefault(_split_name(obj.name)[0], []).append(obj)
-    return [sorted(family, key=lambda obj: _split_name(obj.name)[1]) for family in families.values()]
+    return [
+        sorted(family, key=lambda obj: _split_name(obj.name)[1]) for family in families.values()
+    ]
 
 
 def require_kind(obj) -> None:
@@ -129,8 +135,14 @@ def why_not_evaluated(obj, depsgraph) -> Finding:
 
 def _sculpt_mode_reason(obj) -> Finding | None:
     """Return the reason why the viewport shows something else than the evaluated mesh in Sculpt Mode, or None."""
-    levels = [modifier for modifier in obj.modifiers if modifier.type == "MULTIRES" and modifier.show_viewport]
-    is_sculpted = obj.use_dynamic_topology_sculpting or any([modifier.sculpt_levels for modifier in levels])
+    levels = [
+        modifier
+        for modifier in obj.modifiers
+        if modifier.type == "MULTIRES" and modifier.show_viewport
+    ]
+    is_sculpted = obj.use_dynamic_topology_sculpting or any(
+        [modifier.sculpt_levels for modifier in levels]
+    )
     return finding(SCULPTED_MESH) if is_sculpted else None
 
 
@@ -139,19 +151,29 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     if obj.visible_get(view_layer=depsgraph.view_layer):
         return None
     homes = set(obj.users_collection)
-    branches = [path for path in _branches(depsgraph.view_layer.layer_collection) if path[-1].collection in homes]
+    branches = [
+        path
+        for path in _branches(depsgraph.view_layer.layer_collection)
+        if path[-1].collection in homes
+    ]
     if not branches:
         return finding(NOT_IN_SCENE, scene=depsgraph.scene.name)
     if obj.hide_viewport:
         return finding(HIDDEN_IN_VIEWPORT, name=obj.name, switch="monitor icon")
-    reasons, barred = [], set()
+    reasons = []
+    barred = set()
     for blocks, switch in (
         (lambda layer: layer.exclude, "check box"),
         (lambda layer: layer.collection.hide_viewport, "monitor icon"),
         (lambda layer: layer.hide_viewport, "eye icon"),
     ):
-        blocking = {k: layer for k, path in enumerate(branches) for layer in islice(filter(blocks, path), 1)}
-        named = [finding(HIDDEN_IN_VIEWPORT, name=layer.collection.name, switch=switch) for layer in blocking.values()]
+        blocking = {
+            k: layer for k, path in enumerate(branches) for layer in islice(filter(blocks, path), 1)
+        }
+        named = [
+            finding(HIDDEN_IN_VIEWPORT, name=layer.collection.name, switch=switch)
+            for layer in blocking.values()
+        ]
         if len(blocking) == len(branches):
             return named[0]
         reasons += named
@@ -171,7 +193,11 @@ def blends_keys(obj) -> bool:
 def _curve_has_surface(obj) -> bool:
     curve = obj.data
     filled = curve.dimensions == "2D" and curve.fill_mode != "NONE"
-    thick = curve.extrude != 0.0 or curve.bevel_depth != 0.0 or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
+    thick = (
+        curve.extrude != 0.0
+        or curve.bevel_depth != 0.0
+        or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
+    )
     return bool(filled or thick or obj.modifiers)
 
 

@@ -184,7 +184,10 @@ def _open_grid(
 
 def _unchanged_file(obj, volume: bpy.types.Volume) -> str | None:
     """Return the file of the grids, if they were not changed after loading."""
-    if any(modifier.show_viewport for modifier in obj.modifiers) or obj.data.packed_file is not None:
+    if (
+        any(modifier.show_viewport for modifier in obj.modifiers)
+        or obj.data.packed_file is not None
+    ):
         return None
     path = volume.grids.frame_filepath
     return path if os.path.isfile(path) else None
@@ -198,15 +201,19 @@ class SampledGrid:
     def __init__(self, obj, depsgraph, grid, bound_box) -> None:
         if grid.data_type not in KINDS or (bpy.app.version < (5, 0) and grid.data_type != "FLOAT"):
             raise ReadError(GRID_NEEDS_OPENVDB, grid=grid.name)
-        self._obj, self._depsgraph, self._name = obj, depsgraph, grid.name
+        self._obj = obj
+        self._depsgraph = depsgraph
+        self._name = grid.name
         self._kind, self._dtype = KINDS[grid.data_type]
         self.to_object = float64_matrix(grid.matrix_object)
         if not abs(np.linalg.det(self.to_object[:3, :3])) > 0.0:
             raise ReadError(GRID_TRANSFORM_SINGULAR)
         corners = np.array([[*corner] for corner in bound_box], np.float64)
         index = (corners - self.to_object[:3, 3]) @ np.linalg.inv(self.to_object[:3, :3]).T
-        low, high = np.floor(index.min(axis=0)).astype(np.int64) - 1, np.ceil(index.max(axis=0)).astype(np.int64) + 1
-        self.low, self.shape = low, high - low + 1
+        low = np.floor(index.min(axis=0)).astype(np.int64) - 1
+        high = np.ceil(index.max(axis=0)).astype(np.int64) + 1
+        self.low = low
+        self.shape = high - low + 1
         if np.prod(self.shape.astype(float)) > MAX_VOXELS:
             raise ReadError(GRID_TOO_LARGE, grid=grid.name, samples=self.shape.tolist())
         with self._sampler() as sample:
@@ -226,7 +233,8 @@ class SampledGrid:
     @contextmanager
     def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
         """Yield a function that takes the first voxel of a block and its shape, and returns the values."""
-        name, made = "Body Moments Reading", []
+        name = "Body Moments Reading"
+        made = []
         try:
             made.append(mesh := bpy.data.meshes.new(name))
             made.append(tree := bpy.data.node_groups.new(name, "GeometryNodeTree"))
@@ -242,7 +250,9 @@ class SampledGrid:
                 positions = np.empty((*shape, 3), np.float32)
                 steps = np.ogrid[tuple(slice(a, a + n) for a, n in zip(first.tolist(), shape))]
                 for axis, (*row, offset) in enumerate(self.to_object[:3]):
-                    positions[..., axis] = sum(factor * step for factor, step in zip(row, steps)) + offset
+                    positions[..., axis] = (
+                        sum(factor * step for factor, step in zip(row, steps)) + offset
+                    )
                 if len(mesh.vertices) != count:
                     mesh.clear_geometry()
                     mesh.vertices.add(count)
@@ -268,7 +278,9 @@ def _layer_at_frame_of(shown, scene):
     `frame_set` evaluates this scene alone, but calls handlers, so they are removed meanwhile. The layer is new because
     the next content of an evaluated layer would be reported as changed.
     """
-    handlers = [getattr(bpy.app.handlers, name) for name in ("frame_change_pre", "frame_change_post")]
+    handlers = [
+        getattr(bpy.app.handlers, name) for name in ("frame_change_pre", "frame_change_post")
+    ]
     kept = [functions[:] for functions in handlers]
     try:
         for functions in handlers:

@@ -21,7 +21,18 @@ from ...core.verdict.findings import LINKED_OBJECT
 Planned = TypeVar("Planned")
 SceneChange = Generator[None, Depsgraph, None]  # yields once before it does anything
 # Types through which objects refer to each other: a curve by its bevel, shape keys by drivers, particles by objects.
-LINKING_TYPES = {"ARMATURE", "COLLECTION", "CURVE", "KEY", "LATTICE", "MESH", "META", "NODETREE", "PARTICLE", "TEXTURE"}
+LINKING_TYPES = {
+    "ARMATURE",
+    "COLLECTION",
+    "CURVE",
+    "KEY",
+    "LATTICE",
+    "MESH",
+    "META",
+    "NODETREE",
+    "PARTICLE",
+    "TEXTURE",
+}
 
 
 def require_editable(data: ID) -> None:
@@ -32,7 +43,9 @@ def require_editable(data: ID) -> None:
 
 def require_storable_data(obj: Object) -> None:
     """Raise EditRefusedError for a linked object, and for a library override."""
-    if not obj.is_editable or obj.override_library is not None:  # a file keeps only overridable properties of it
+    if (
+        not obj.is_editable or obj.override_library is not None
+    ):  # a file keeps only overridable properties of it
         raise EditRefusedError(LINKED_OBJECT)
 
 
@@ -99,7 +112,9 @@ def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
         while front:
             front = {user for data in front for user in users[data]} - reachable
             reachable |= front
-        return {data for data in reachable if isinstance(data, Object)}  # lying in one collection ties nothing
+        return {
+            data for data in reachable if isinstance(data, Object)
+        }  # lying in one collection ties nothing
 
     return {obj: reached(obj) for obj in objects}
 
@@ -135,14 +150,18 @@ class MadeCollection:
 
     def __init__(self, context: Context, armature: Object, key: str, name: str):
         self._armature, self._key = armature, key
-        self._collection = made_collection(context, key, armature, "{:s} {:s}".format(armature.name, name))
+        self._collection = made_collection(
+            context, key, armature, "{:s} {:s}".format(armature.name, name)
+        )
         self._clear()
 
     def _clear(self) -> None:
         made = [obj for obj in self._collection.objects if obj.get(self._key) == self._armature]
         meshes = {obj.data for obj in made if obj.data is not None}
         bpy.data.batch_remove(made)
-        bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])  # other meshes have users of their own
+        bpy.data.batch_remove(
+            [mesh for mesh in meshes if not mesh.users]
+        )  # other meshes have users of their own
 
     def link(self, obj: Object) -> None:
         obj[self._key] = self._armature
@@ -151,7 +170,8 @@ class MadeCollection:
 
 def _include(context: Context, collection: Collection) -> None:
     """Include a collection in the view layer, as Blender adds rigid bodies and joints only to objects in it."""
-    layers, found = [context.view_layer.layer_collection], []
+    layers = [context.view_layer.layer_collection]
+    found = []
     for layer in layers:
         layers += layer.children
         if layer.collection == collection:

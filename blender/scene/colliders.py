@@ -27,7 +27,9 @@ from ..read.mesh import mesh_surface
 from ..settings.given import COLLIDER
 from .changes import made_collection
 
-SEGMENTS, RINGS = 32, 17  # odd, so that no ring lies on the equator
+# odd, so that no ring lies on the equator
+SEGMENTS = 32
+RINGS = 17
 COLLECTION = "body_moments_colliders"  # ID property of the collection
 HULL, CYLINDER = "mesh", "cylinder"
 PREFIXES = {"box": "UBX", "sphere": "USP", "capsule": "UCP"}  # Unreal knows no other primitives.
@@ -43,7 +45,10 @@ NAMES = {
 def colliders_by_body(objects: Iterable[Object]) -> dict[Object, list[Object]]:
     """Return the colliders of each body that has any, by name."""
     found: dict[Object, list[Object]] = {}
-    for obj in sorted((obj for obj in objects if COLLIDER in obj and obj.parent is not None), key=lambda obj: obj.name):
+    for obj in sorted(
+        (obj for obj in objects if COLLIDER in obj and obj.parent is not None),
+        key=lambda obj: obj.name,
+    ):
         found.setdefault(obj.parent, []).append(obj)
     return found
 
@@ -58,7 +63,10 @@ def as_stored(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Shape:
     if shape.surface is None:
         return shape
     local = _local_points(shape, stretch, unit)
-    return replace(shape, surface=Surface.from_triangles(local @ stretch.T * unit, shape.surface.all_triangles()[0]))
+    return replace(
+        shape,
+        surface=Surface.from_triangles(local @ stretch.T * unit, shape.surface.all_triangles()[0]),
+    )
 
 
 def _local_points(shape: Shape, stretch: NDArray[np.float64], unit: float) -> NDArray[np.float64]:
@@ -84,7 +92,8 @@ def place_colliders(
 ) -> list[Object]:  # fmt: skip
     """Give an object these colliders in place of its `old` ones, which are used again, and return them."""
     collection = made_collection(context, COLLECTION, True, "Colliders")
-    kept, unneeded = list(old[: len(shapes)]), list(old[len(shapes) :])
+    kept = list(old[: len(shapes)])
+    unneeded = list(old[len(shapes) :])
     for collider in kept:
         collider.name = "Collider"  # no name stands in the way of another
     replaced = {collider.data for collider in old}
@@ -96,14 +105,22 @@ def place_colliders(
             collection.objects.link(kept[index])
         collider = kept[index]
         collider.data = mesh
-        collider.display_type, collider.hide_render = "WIRE", True
-        collider.parent, collider.matrix_parent_inverse = obj, undo_scale if shape.surface is None else Matrix()
+        collider.display_type = "WIRE"
+        collider.hide_render = True
+        collider.parent = obj
+        collider.matrix_parent_inverse = undo_scale if shape.surface is None else Matrix()
         pose = shape.pose if shape.surface is None else Pose()
         collider.matrix_basis = Matrix()
         collider.rotation_mode = "QUATERNION"
-        collider.location, collider.rotation_quaternion = pose.position / unit, quaternion(pose.rotation)
-        collider[COLLIDER] = {"kind": shape.kind, "size": [float(size) for size in shape.size], "mass": shape.mass}
-        collider.body_moments.mass_from, collider.body_moments.mass = "MASS", shape.mass
+        collider.location = pose.position / unit
+        collider.rotation_quaternion = quaternion(pose.rotation)
+        collider[COLLIDER] = {
+            "kind": shape.kind,
+            "size": [float(size) for size in shape.size],
+            "mass": shape.mass,
+        }
+        collider.body_moments.mass_from = "MASS"
+        collider.body_moments.mass = shape.mass
     for number, (collider, shape) in enumerate(zip(kept, shapes), 1):
         names = {"name": obj.name, "number": number, "prefix": PREFIXES.get(shape.kind, "UCX")}
         collider.name = collider.data.name = NAMES[engine].format(**names)
@@ -113,7 +130,8 @@ def place_colliders(
 
 def remove_colliders(colliders: Sequence[Object]) -> None:
     """Remove colliders with their meshes, and their collection if nothing is left in it."""
-    meshes, collections = {obj.data for obj in colliders}, {one for obj in colliders for one in obj.users_collection}
+    meshes = {obj.data for obj in colliders}
+    collections = {one for obj in colliders for one in obj.users_collection}
     bpy.data.batch_remove(colliders)
     bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])
     for collection in collections:
@@ -121,15 +139,21 @@ def remove_colliders(colliders: Sequence[Object]) -> None:
             bpy.data.collections.remove(collection)
 
 
-def read_colliders(colliders: Iterable[Object], rotation: NDArray[np.float64], unit: float) -> list[Shape]:
+def read_colliders(
+    colliders: Iterable[Object], rotation: NDArray[np.float64], unit: float
+) -> list[Shape]:
     """Return colliders as shapes in the frame of their body, in m; `rotation` is that of the frame."""
     shapes = []
     for collider in colliders:
-        stored, relative = collider[COLLIDER], float64_matrix(collider.matrix_parent_inverse)
+        stored = collider[COLLIDER]
+        relative = float64_matrix(collider.matrix_parent_inverse)
         relative = relative @ float64_matrix(collider.matrix_basis)
         place = unit * stretch_of(collider.parent, rotation) @ relative[:3]
-        to_frame, place = place[:, :3], place[:, 3]
-        kind, size, mass = str(stored["kind"]), np.array(stored["size"]), float(stored["mass"])
+        to_frame = place[:, :3]
+        place = place[:, 3]
+        kind = str(stored["kind"])
+        size = np.array(stored["size"])
+        mass = float(stored["mass"])
         if kind == HULL:
             surface = mesh_surface(collider.data, edges=False).transform(to_frame, place)
             shapes.append(Shape(kind, surface=surface, mass=mass))
@@ -140,22 +164,32 @@ def read_colliders(colliders: Iterable[Object], rotation: NDArray[np.float64], u
             scale = np.array([(scale[0] * scale[1]) ** 0.5, scale[2]])[: len(size)]
         pose = Pose(place, turn * np.sign(np.linalg.det(turn)))
         shapes.append(
-            Shape(kind, tuple((size * np.where(np.abs(scale - 1.0) < 1e-6, 1.0, scale)).tolist()), pose, mass=mass)
+            Shape(
+                kind,
+                tuple((size * np.where(np.abs(scale - 1.0) < 1e-6, 1.0, scale)).tolist()),
+                pose,
+                mass=mass,
+            )
         )
     return shapes
 
 
 def _draw_primitive(mesh: Mesh, shape: Shape, unit: float) -> None:
     """Fill a mesh with the faces of a primitive."""
-    made, size = bmesh.new(), [length / unit for length in shape.size]
+    made = bmesh.new()
+    size = [length / unit for length in shape.size]
     if shape.kind == "box":
         bmesh.ops.create_cube(made, size=1.0, matrix=Matrix.Diagonal((*size, 1.0)))
     elif shape.kind == CYLINDER:
         radius, depth = size
-        bmesh.ops.create_cone(made, cap_ends=True, segments=SEGMENTS, radius1=radius, radius2=radius, depth=depth)
+        bmesh.ops.create_cone(
+            made, cap_ends=True, segments=SEGMENTS, radius1=radius, radius2=radius, depth=depth
+        )
     else:
         scale = Matrix.Diagonal((*(size if shape.kind == "ellipsoid" else 3 * size[:1]), 1.0))
-        bmesh.ops.create_uvsphere(made, u_segments=SEGMENTS, v_segments=RINGS, radius=1.0, matrix=scale)
+        bmesh.ops.create_uvsphere(
+            made, u_segments=SEGMENTS, v_segments=RINGS, radius=1.0, matrix=scale
+        )
     for vertex in made.verts if shape.kind == "capsule" else ():
         vertex.co.z += copysign(size[1] / 2.0, vertex.co.z)
     made.to_mesh(mesh)

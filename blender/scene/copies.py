@@ -42,14 +42,43 @@ from .transforms import FLOAT32, driven_channels, world
 MAX_TURNS = 48  # similarities of one pair whose layers are compared
 NORMAL_TOLERANCE = 1e-3
 # Attributes that are compared otherwise, or are the interface's state.
-UNSEEN = ("position", "custom_normal", ".select", ".hide", ".corner_", ".edge_verts", ".vs.", ".es.", ".pn.")
-DTYPES = {"FLOAT": np.float32, "INT": np.int32, "BOOLEAN": bool}  # of attributes' values, by their type in RNA
-PLACES = (bpy.types.Collection, bpy.types.Scene, bpy.types.WindowManager, bpy.types.Screen, bpy.types.WorkSpace)
+UNSEEN = (
+    "position",
+    "custom_normal",
+    ".select",
+    ".hide",
+    ".corner_",
+    ".edge_verts",
+    ".vs.",
+    ".es.",
+    ".pn.",
+)
+DTYPES = {
+    "FLOAT": np.float32,
+    "INT": np.int32,
+    "BOOLEAN": bool,
+}  # of attributes' values, by their type in RNA
+PLACES = (
+    bpy.types.Collection,
+    bpy.types.Scene,
+    bpy.types.WindowManager,
+    bpy.types.Screen,
+    bpy.types.WorkSpace,
+)
 CHANNELS = ("location", "rotation", "scale", "delta")  # beginnings of animated data paths
 # Nodes that show a mesh's own axes: outputs, by the node's type, or values of a setting.
 OWN_AXES_OUTPUTS = {"TEX_COORD": {"Object", "Generated", "Normal"}, "OBJECT_INFO": {"Location"}}
 OWN_AXES_VALUES = {"OBJECT", "BLENDER_OBJECT", "RADIAL"}
-GENERATED = {"NOISE", "VORONOI", "WAVE", "MAGIC", "CHECKER", "BRICK", "GRADIENT", "GABOR"}  # if nothing is linked
+GENERATED = {
+    "NOISE",
+    "VORONOI",
+    "WAVE",
+    "MAGIC",
+    "CHECKER",
+    "BRICK",
+    "GRADIENT",
+    "GABOR",
+}  # if nothing is linked
 
 
 class MeshData:
@@ -61,21 +90,35 @@ class MeshData:
     """
 
     def __init__(self, mesh: Mesh, may_differ: set[str]):
-        self.mesh, self.may_differ, keys = mesh, may_differ, mesh.shape_keys
+        self.mesh = mesh
+        self.may_differ = may_differ
+        keys = mesh.shape_keys
         points = _read(mesh.attributes["position"].data if mesh.vertices else ())
         corners = _read(mesh.loops, "vertex_index")[:, 0]
         starts = np.append(_read(mesh.polygons, "loop_start")[:, 0], len(corners))
-        self.elements = Elements(points.astype(float), _read(mesh.edges, "vertices").astype(np.intp), corners, starts)
+        self.elements = Elements(
+            points.astype(float), _read(mesh.edges, "vertices").astype(np.intp), corners, starts
+        )
         layers = [layer for layer in mesh.attributes if not layer.name.startswith(UNSEEN)]
-        self.layers = {layer.name: (layer.data_type, layer.domain, _read(layer.data)) for layer in layers}
+        self.layers = {
+            layer.name: (layer.data_type, layer.domain, _read(layer.data)) for layer in layers
+        }
         self.normals = _read(mesh.corner_normals) if mesh.has_custom_normals else None
         blocks = () if keys is None else keys.key_blocks
         self.keys = [_read(block.data, "co") for block in blocks]
-        arrays = [corners, starts, self.elements.edges, *self.keys, *(values for _, _, values in self.layers.values())]
+        arrays = [
+            corners,
+            starts,
+            self.elements.edges,
+            *self.keys,
+            *(values for _, _, values in self.layers.values()),
+        ]
         self.bytes = points.nbytes + sum(array.nbytes for array in arrays)
         self.is_animated = any(data is not None and data.animation_data for data in (mesh, keys))
         names = ("name", "value", "mute", "interpolation", "vertex_group")
-        relations = [(block.relative_key.name, *(getattr(block, name) for name in names)) for block in blocks]
+        relations = [
+            (block.relative_key.name, *(getattr(block, name) for name in names)) for block in blocks
+        ]
         space = () if mesh.use_auto_texspace else (*mesh.texspace_location, *mesh.texspace_size)
         self.traits = {
             "UV": [layer.name for layer in mesh.uv_layers if layer.active_render],
@@ -88,17 +131,24 @@ class MeshData:
     @cached_property
     def weights(self) -> list[dict[int, float]]:
         """The weights of each vertex by the number of the group; Blender gives them one by one only."""
-        return [{entry.group: entry.weight for entry in vertex.groups} for vertex in self.mesh.vertices]
+        return [
+            {entry.group: entry.weight for entry in vertex.groups} for vertex in self.mesh.vertices
+        ]
 
     @cached_property
     def labels(self) -> NDArray[np.float64]:
         """The (n,) numbers of the vertices, by the layers that have to agree."""
-        found, elements = np.zeros(len(self.mesh.vertices)), self.elements
+        found = np.zeros(len(self.mesh.vertices))
+        elements = self.elements
         sizes = np.diff(elements.starts)
         for name, (data_type, domain, values) in self.layers.items():
             if _aspect(name, data_type, domain) in self.may_differ or values.dtype == object:
                 continue
-            number = values @ np.cos(np.arange(values.shape[1])) / max(np.abs(values).max(initial=0), 1.0)
+            number = (
+                values
+                @ np.cos(np.arange(values.shape[1]))
+                / max(np.abs(values).max(initial=0), 1.0)
+            )
             if domain == "POINT":
                 found += number
             elif domain == "EDGE":
@@ -122,28 +172,44 @@ def _read(items: bpy_prop_collection, name: str | int = 1) -> NDArray:
 
 
 def _differing_aspects(
-    first: MeshData, second: MeshData, groups: list[list[str]], found: Correspondence, tolerance: float
+    first: MeshData,
+    second: MeshData,
+    groups: list[list[str]],
+    found: Correspondence,
+    tolerance: float,
 ) -> set[str]:
     """Return the aspects in which two equal surfaces do not agree. groups: names of their vertex groups."""
     differing = {name for name, trait in first.traits.items() if trait != second.traits[name]}
     if first.is_animated or second.is_animated:
         differing.add("ANIMATION")
-    maps = {"POINT": found.vertices, "EDGE": found.edges, "FACE": found.faces, "CORNER": found.corners}
+    maps = {
+        "POINT": found.vertices,
+        "EDGE": found.edges,
+        "FACE": found.faces,
+        "CORNER": found.corners,
+    }
     for name in first.layers.keys() | second.layers.keys():
-        one, other = first.layers.get(name), second.layers.get(name)
+        one = first.layers.get(name)
+        other = second.layers.get(name)
         if one is None or other is None:
             data_type, domain, values = one or other or ("", "", maps["POINT"])
             is_alike = not values.any()  # a layer that is missing has zeros
         else:
             data_type, domain, values = one
-            is_alike = one[:2] == other[:2] and domain in maps and _agree(values, other[2][maps[domain]])
+            is_alike = (
+                one[:2] == other[:2] and domain in maps and _agree(values, other[2][maps[domain]])
+            )
         if not is_alike:
             differing.add(_aspect(name, data_type, domain))
     if first.normals is not None and second.normals is not None:
         turned = first.normals @ (found.linear / np.cbrt(abs(np.linalg.det(found.linear)))).T
         if np.abs(turned - second.normals[found.corners]).max(initial=0.0) > NORMAL_TOLERANCE:
             differing.add("ATTRIBUTES")
-    if groups[0] != groups[1] or groups[0] and first.weights != [second.weights[i] for i in found.vertices]:
+    if (
+        groups[0] != groups[1]
+        or groups[0]
+        and first.weights != [second.weights[i] for i in found.vertices]
+    ):
         differing.add("GROUPS")
     for points, others in zip(first.keys, second.keys):
         off = points @ found.linear.T + found.offset - others[found.vertices]
@@ -186,7 +252,10 @@ class Copies:
 
 
 def find_copies(
-    objects: Sequence[Object], tolerance: float, may_differ: set[str], progress: Callable[[float], None]
+    objects: Sequence[Object],
+    tolerance: float,
+    may_differ: set[str],
+    progress: Callable[[float], None],
 ) -> list[Copies]:
     """Return the kinds of meshes of mesh objects. progress: called with the number of compared objects."""
     users: dict[Mesh, list[Object]] = {}
@@ -200,14 +269,20 @@ def find_copies(
         same_counts = by_counts.setdefault(counts, [])
         new = Copies(MeshData(mesh, may_differ), own)
         for kind in same_counts:
-            groups = [[group.name for group in each.objects[0].vertex_groups] for each in (kind, new)]
+            groups = [
+                [group.name for group in each.objects[0].vertex_groups] for each in (kind, new)
+            ]
             labels = kind.data.labels, new.data.labels
             pair = kind.data.elements, new.data.elements
             # If the layers do not agree, the turn counts with the fewest differences.
-            found_turns = chain(correspondences(*pair, tolerance, labels), correspondences(*pair, tolerance))
+            found_turns = chain(
+                correspondences(*pair, tolerance, labels), correspondences(*pair, tolerance)
+            )
             best: tuple[set[str], Correspondence] | None = None
             for found in islice(found_turns, MAX_TURNS):
-                differing = _differing_aspects(kind.data, new.data, groups, found, tolerance) - may_differ
+                differing = (
+                    _differing_aspects(kind.data, new.data, groups, found, tolerance) - may_differ
+                )
                 if best is None or len(differing) < len(best[0]):
                     best = differing, found
                 if not differing:
@@ -243,10 +318,17 @@ def link_copies(
     progress: Callable[[float], None] = lambda done: None,
 ) -> Linked:
     """Let the members of each kind share its mesh; no vertex moves by more than the tolerance, relative to the size."""
-    left_out = [(obj, kind.reason) for kind in kinds if kind.reason and not kind.members for obj in kind.objects]
+    left_out = [
+        (obj, kind.reason)
+        for kind in kinds
+        if kind.reason and not kind.members
+        for obj in kind.objects
+    ]
     plans: list[reframe.Plan] = []
     members: dict[Object, tuple] = {}  # own and shared mesh, places of the vertices, materials
-    followers = _followers({obj for kind in kinds for obj, _, found in kind.members if not _is_mere_exchange(found)})
+    followers = _followers(
+        {obj for kind in kinds for obj, _, found in kind.members if not _is_mere_exchange(found)}
+    )
     for kind in kinds:
         for obj, data, found in kind.members:
             try:
@@ -254,29 +336,43 @@ def link_copies(
             except MeasureError as error:
                 left_out.append((obj, error.finding))
                 continue
-            matrix, change = world(obj), np.eye(4)
-            change[:3, :3], change[:3, 3] = found.linear, found.offset
+            matrix = world(obj)
+            change = np.eye(4)
+            change[:3, :3] = found.linear
+            change[:3, 3] = found.offset
             points = data.elements.points[found.vertices] @ matrix[:3, :3].T + matrix[:3, 3]
             members[obj] = data, kind.data, points, [slot.material for slot in obj.material_slots]
             if not _is_mere_exchange(found):
-                size = np.linalg.norm(points - points.mean(axis=0), axis=1).max() * tolerance / SAME_SHAPE_RTOL
+                size = (
+                    np.linalg.norm(points - points.mean(axis=0), axis=1).max()
+                    * tolerance
+                    / SAME_SHAPE_RTOL
+                )
                 order = None if found.is_ordered else found.vertices
-                plans.append(reframe.Plan(obj, matrix @ change, float(size), False, mesh=kind.data.mesh, order=order))
-    refused, farthest = dict(reframe.reframe(context, plans, progress)[1]), 0.0
+                plans.append(
+                    reframe.Plan(
+                        obj, matrix @ change, float(size), False, mesh=kind.data.mesh, order=order
+                    )
+                )
+    refused = dict(reframe.reframe(context, plans, progress)[1])
+    farthest = 0.0
     linked = [obj for obj in members if obj not in refused]
     for obj in linked:
         _, shared, points, materials = members[obj]
         obj.data = shared.mesh
         for slot, material in zip(obj.material_slots, materials):
             if keep_materials and slot.material != material:
-                slot.link, slot.material = "OBJECT", material
+                slot.link = "OBJECT"
+                slot.material = material
         matrix = world(obj)
         off = shared.elements.points @ matrix[:3, :3].T + matrix[:3, 3] - points
         farthest = max(farthest, float(np.linalg.norm(off, axis=1).max()))
     unused = {data for data, *_ in members.values() if data.mesh.users == 0}
     bpy.data.batch_remove([data.mesh for data in unused])
     context.view_layer.update()
-    return Linked(linked, left_out + [*refused.items()], farthest, sum(data.bytes for data in unused))
+    return Linked(
+        linked, left_out + [*refused.items()], farthest, sum(data.bytes for data in unused)
+    )
 
 
 def _is_mere_exchange(found: Correspondence) -> bool:
@@ -302,25 +398,43 @@ def _followers(objects: set[Object]) -> dict[Object, ID]:
 
 def _check(obj: Object, found: Correspondence, follower: ID | None) -> None:
     """Raise MeasureError if any part of the object depends on its axes or numbering, perhaps at another time."""
-    if not (obj.is_editable and obj.data.is_editable) or obj.override_library or obj.data.override_library:
+    if (
+        not (obj.is_editable and obj.data.is_editable)
+        or obj.override_library
+        or obj.data.override_library
+    ):
         raise EditRefusedError(LINKED_OBJECT)
     if _is_mere_exchange(found):
         return
     reframe.check(obj)
     if follower is not None:
         raise EditRefusedError(FOLLOWS_MOVED, follower=follower.name, target=obj.name)
-    own = [each.name for each in obj.modifiers if each.type not in reframe.FRAME_INDEPENDENT_MODIFIERS]
+    own = [
+        each.name for each in obj.modifiers if each.type not in reframe.FRAME_INDEPENDENT_MODIFIERS
+    ]
     if own:
         raise EditRefusedError(MODIFIERS_CHANGE_SHAPE, modifiers=own)
     if any(not constraint.mute for constraint in obj.constraints):
         raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location")
-    channel = next((name for name in CHANNELS if any(path.startswith(name) for path in driven_channels(obj))), None)
+    channel = next(
+        (name for name in CHANNELS if any(path.startswith(name) for path in driven_channels(obj))),
+        None,
+    )
     if channel is not None:
         raise EditRefusedError(CHANNEL_LOCKED, channel=channel)
-    if obj.rigid_body or obj.rigid_body_constraint or obj.field is not None and obj.field.type != "NONE":
+    if (
+        obj.rigid_body
+        or obj.rigid_body_constraint
+        or obj.field is not None
+        and obj.field.type != "NONE"
+    ):
         raise EditRefusedError(OWN_AXES_USED, cause="Physics")
     for material in [slot.material for slot in obj.material_slots if not found.is_still]:
-        if material is not None and material.node_tree is not None and _uses_own_axes(material.node_tree, set()):
+        if (
+            material is not None
+            and material.node_tree is not None
+            and _uses_own_axes(material.node_tree, set())
+        ):
             raise EditRefusedError(OWN_AXES_USED, cause=material.name)
 
 
@@ -335,10 +449,17 @@ def _uses_own_axes(tree: NodeTree, seen: set[NodeTree]) -> bool:
 
 
 def _shows_own_axes(node: Node) -> bool:
-    outputs, vector = OWN_AXES_OUTPUTS.get(node.type, ()), node.inputs.get("Vector")
-    if getattr(node, "object", None) is None and any(out.is_linked and out.name in outputs for out in node.outputs):
+    outputs = OWN_AXES_OUTPUTS.get(node.type, ())
+    vector = node.inputs.get("Vector")
+    if getattr(node, "object", None) is None and any(
+        out.is_linked and out.name in outputs for out in node.outputs
+    ):
         return True
     if node.type.removeprefix("TEX_") in GENERATED and vector is not None and not vector.is_linked:
         return True
-    choices = [each.identifier for each in node.bl_rna.properties if each.type == "ENUM" and not each.is_enum_flag]
+    choices = [
+        each.identifier
+        for each in node.bl_rna.properties
+        if each.type == "ENUM" and not each.is_enum_flag
+    ]
     return any(getattr(node, name) in OWN_AXES_VALUES for name in choices)

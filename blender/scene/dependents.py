@@ -24,7 +24,9 @@ from .transforms import FLOAT32, Matrix4, world
 SAME_SHAPE_RTOL = 1e-5
 # Points compared in each of many instances; the first instance is compared point by point.
 SAMPLES = 64
-SORT_DIRECTION = np.array([1.0, 0.7548776662, 0.5698402910])  # a direction along which hardly anything is symmetric
+SORT_DIRECTION = np.array(
+    [1.0, 0.7548776662, 0.5698402910]
+)  # a direction along which hardly anything is symmetric
 
 Shape = list[tuple[NDArray[np.float64], NDArray[np.float64]]]
 
@@ -56,7 +58,8 @@ def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
     for part in reading.parts:
         points = np.asarray(part.surface.points, np.float64)
         sample_index = np.linspace(0, len(points) - 1, min(SAMPLES, len(points))).astype(int)
-        linear, offset = part.matrices[:, :3, :3], part.matrices[:, :3, 3]
+        linear = part.matrices[:, :3, :3]
+        offset = part.matrices[:, :3, 3]
         first = points @ linear[0].T + offset[0]
         rest = np.einsum("kij,nj->kni", linear[1:], points[sample_index]) + offset[1:, None]
         shapes.append((first, rest))
@@ -68,7 +71,8 @@ def transform_shape(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape |
     way = now @ np.linalg.pinv(was)
     if before is None:
         return None
-    linear, offset = way[:3, :3].T, way[:3, 3]
+    linear = way[:3, :3].T
+    offset = way[:3, 3]
     return [(first @ linear + offset, rest @ linear + offset) for first, rest in before]
 
 
@@ -80,8 +84,11 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
     if len(before) == len(after) and all(first.shape == second.shape for first, second in pairs):
         return all(_nearly_equal(*pair, size) for pair in pairs)
     # Objects that shared a mesh are separate parts once one of them has a copy.
-    samples, others = _sample_instances(before), _sample_instances(after)
-    return samples.keys() == others.keys() and all(_nearly_equal(samples[n], others[n], size) for n in samples)
+    samples = _sample_instances(before)
+    others = _sample_instances(after)
+    return samples.keys() == others.keys() and all(
+        _nearly_equal(samples[n], others[n], size) for n in samples
+    )
 
 
 def _sample_instances(shape: Shape) -> dict[int, NDArray[np.float64]]:
@@ -89,7 +96,9 @@ def _sample_instances(shape: Shape) -> dict[int, NDArray[np.float64]]:
     by_count: dict[int, list[NDArray[np.float64]]] = {}
     for first, rest in shape:
         sample_index = np.linspace(0, len(first) - 1, rest.shape[1]).astype(int)
-        by_count.setdefault(len(first), []).append(np.concatenate([first[sample_index][None], rest]))
+        by_count.setdefault(len(first), []).append(
+            np.concatenate([first[sample_index][None], rest])
+        )
     every = {count: np.concatenate(instance_points) for count, instance_points in by_count.items()}
     return {
         count: instance_points[np.argsort(instance_points.mean(axis=1) @ SORT_DIRECTION)]
@@ -122,7 +131,9 @@ class DependentsGuard:
             key=lambda dependent: dependent.name_full,
         )
         linked = [
-            dependent for dependent in dependents if dependent.library is not None and dependent.parent in self.changed
+            dependent
+            for dependent in dependents
+            if dependent.library is not None and dependent.parent in self.changed
         ]
         if linked:
             raise EditRefusedError(CHILD_NOT_HELD, object=linked[0].name)
@@ -184,7 +195,9 @@ class DependentsGuard:
 
 def _has_derived_shape(obj: Object) -> bool:
     """Return whether an object's shape is more than its own data, so that it may depend on other objects."""
-    return bool(obj.modifiers or obj.type in {"CURVE", "FONT"} or getattr(obj.data, "shape_keys", None))
+    return bool(
+        obj.modifiers or obj.type in {"CURVE", "FONT"} or getattr(obj.data, "shape_keys", None)
+    )
 
 
 def _child_of(obj: Object) -> list[Constraint]:

@@ -15,7 +15,15 @@ from numpy.typing import NDArray
 from ...core.verdict.finding import EditRefusedError
 from ..read.findings import SCALE_ZERO_AXIS
 from ..read.tracking import tracking_paused
-from .changes import SceneChange, ancestors, dependents, independent_rounds, require_editable, run_change, run_together
+from .changes import (
+    SceneChange,
+    ancestors,
+    dependents,
+    independent_rounds,
+    require_editable,
+    run_change,
+    run_together,
+)
 from .findings import CHILD_NOT_HELD, FOLLOWS_MOVED, TRANSFORM_CONSTRAINED
 from .snap_targets import SnapTarget, targets_in_turn
 from .transforms import TransformChannels, basis, world
@@ -35,7 +43,9 @@ def place_empties(
 ) -> tuple[list[SnapTarget], dict[Object, Exception]]:
     """Put or move empties to objects' principal frames; return the bodies whose empties were elsewhere, and errors."""
     existing = {
-        empty[OBJECT_KEY]: empty for empty in context.scene.objects if empty.type == "EMPTY" and OBJECT_KEY in empty
+        empty[OBJECT_KEY]: empty
+        for empty in context.scene.objects
+        if empty.type == "EMPTY" and OBJECT_KEY in empty
     }
     placed: list[SnapTarget] = []
     failures: dict[Object, Exception] = {}
@@ -56,15 +66,24 @@ def place_empties(
         except Exception as error:
             failures[obj] = error
 
-    followers = dependents(existing.values())  # objects that move with an empty are measured after it
-    for several in independent_rounds((obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects):
+    followers = dependents(
+        existing.values()
+    )  # objects that move with an empty are measured after it
+    for several in independent_rounds(
+        (obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects
+    ):
         target_in_turn = targets_in_turn(context, several)
         run_change(context, run_together(map(add, several)))
     return placed, failures
 
 
 def _place(
-    existing: Object | None, context: Context, body: SnapTarget, is_parent: bool, display: str, size: float
+    existing: Object | None,
+    context: Context,
+    body: SnapTarget,
+    is_parent: bool,
+    display: str,
+    size: float,
 ) -> Generator[None, Depsgraph, bool]:
     """Move the empty, or a new one, to the body's frame; return whether it was elsewhere. Raises EditRefusedError."""
     parent = body.obj if is_parent else None
@@ -95,7 +114,9 @@ def _new_empty(context: Context, obj: Object) -> Object:
     return empty
 
 
-def _moved(empty: Object, body: SnapTarget, parent: Object | None, size: float) -> Generator[None, Depsgraph, bool]:
+def _moved(
+    empty: Object, body: SnapTarget, parent: Object | None, size: float
+) -> Generator[None, Depsgraph, bool]:
     """Move the empty to the body's frame; return whether it was elsewhere. EditRefusedError if it cannot be there."""
     if _follows(body.obj, empty):
         raise EditRefusedError(FOLLOWS_MOVED, follower=body.obj.name, target=empty.name)
@@ -115,12 +136,16 @@ def _moved(empty: Object, body: SnapTarget, parent: Object | None, size: float) 
         empty.empty_display_size = size * body.size
         empty.matrix_world = Matrix(frame)
         yield
-        if parent is not None and not _is_there(empty, body):  # a curve also lays its children along its path
+        if parent is not None and not _is_there(
+            empty, body
+        ):  # a curve also lays its children along its path
             outer = np.linalg.solve(basis(empty).T, world(empty).T).T
             inverse = np.array(empty.matrix_parent_inverse, np.float64) @ np.linalg.inv(outer)
-            empty.matrix_parent_inverse, empty.matrix_basis = Matrix(inverse), Matrix(frame)
+            empty.matrix_parent_inverse = Matrix(inverse)
+            empty.matrix_basis = Matrix(frame)
             yield
-        held, follows = not _is_there(empty, body), (world(body.obj) != was).any()
+        held = not _is_there(empty, body)
+        follows = (world(body.obj) != was).any()
         if held or follows:
             if follows:
                 raise EditRefusedError(FOLLOWS_MOVED, follower=body.obj.name, target=empty.name)
@@ -135,7 +160,8 @@ def _moved(empty: Object, body: SnapTarget, parent: Object | None, size: float) 
 
 def _follows(obj: Object, empty: Object) -> bool:
     return any(
-        ancestor == empty or any(getattr(constraint, "target", None) == empty for constraint in ancestor.constraints)
+        ancestor == empty
+        or any(getattr(constraint, "target", None) == empty for constraint in ancestor.constraints)
         for ancestor in ancestors(obj)
     )
 
@@ -143,7 +169,10 @@ def _follows(obj: Object, empty: Object) -> bool:
 def _is_there(empty: Object, body: SnapTarget) -> bool:
     now = world(empty)
     off = np.abs(now[:3, 3] - body.center).max()
-    return bool(off <= 1e-6 * body.size + 1e-6 * np.abs(body.center).max() and body.is_principal(now[:3, :3]))
+    return bool(
+        off <= 1e-6 * body.size + 1e-6 * np.abs(body.center).max()
+        and body.is_principal(now[:3, :3])
+    )
 
 
 def move_parent(context: Context, empty: Object, center: Sequence[float]) -> None:
@@ -166,9 +195,13 @@ def move_parent(context: Context, empty: Object, center: Sequence[float]) -> Non
             for child in children:
                 child.matrix_parent_inverse = Matrix(change @ np.array(inverses[child], np.float64))
             context.view_layer.update()
-            moved = [child for child, place in places.items() if not _is_at(child, place, tolerance)]
+            moved = [
+                child for child, place in places.items() if not _is_at(child, place, tolerance)
+            ]
             if np.abs(world(empty)[:3, 3] - center).max() > tolerance:
-                raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location", subject=empty.name)
+                raise EditRefusedError(
+                    TRANSFORM_CONSTRAINED, channel="location", subject=empty.name
+                )
             if moved:
                 raise EditRefusedError(CHILD_NOT_HELD, subject=empty.name, object=moved[0].name)
         except BaseException:
@@ -182,4 +215,6 @@ def move_parent(context: Context, empty: Object, center: Sequence[float]) -> Non
 def _is_at(obj: Object, place: NDArray, tolerance: float) -> bool:
     """Return whether an object is at a place: within `tolerance`, and with equal rotation and scale to rounding."""
     off = np.abs(world(obj) - place)
-    return bool(off[:, 3].max() <= tolerance and off[:, :3].max() <= PLACE_RTOL * np.abs(place[:, :3]).max())
+    return bool(
+        off[:, 3].max() <= tolerance and off[:, :3].max() <= PLACE_RTOL * np.abs(place[:, :3]).max()
+    )

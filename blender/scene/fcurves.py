@@ -11,7 +11,9 @@ import numpy as np
 from bpy.types import FCurve, Object
 from numpy.typing import NDArray
 
-CONSTANT, LINEAR = 0, 1  # values of an F-curve's interpolation
+# values of an F-curve's interpolation
+CONSTANT = 0
+LINEAR = 1
 Channel = tuple[str, int]  # data path and index
 
 
@@ -45,7 +47,10 @@ def all_curves(obj: Object) -> Iterator[FCurve]:
     """Yield the F-curves of an object's action and of the strips of its NLA."""
     animation = obj.animation_data
     if animation is not None:
-        for keyed in (animation, *(strip for track in animation.nla_tracks for strip in track.strips)):
+        for keyed in (
+            animation,
+            *(strip for track in animation.nla_tracks for strip in track.strips),
+        ):
             yield from _curves_of(keyed)
 
 
@@ -63,7 +68,8 @@ def is_shared(obj: Object) -> bool:
     if animation.action.library is not None:
         return False
     # ActionSlot.users() can crash Blender 5.2.
-    slot, users = animation.action_slot, bpy.data.user_map(subset=[animation.action])[animation.action]
+    slot = animation.action_slot
+    users = bpy.data.user_map(subset=[animation.action])[animation.action]
     owners = (getattr(user, "animation_data", None) for user in users)
     return sum(owner is not None and owner.action_slot == slot for owner in owners) > 1
 
@@ -71,7 +77,9 @@ def is_shared(obj: Object) -> bool:
 def has_strips(obj: Object) -> bool:
     """Return whether the NLA animates an object."""
     animation = obj.animation_data
-    return animation is not None and any(len(track.strips) and not track.mute for track in animation.nla_tracks)
+    return animation is not None and any(
+        len(track.strips) and not track.mute for track in animation.nla_tracks
+    )
 
 
 def is_keyed(obj: Object, path: str, count: int) -> bool:
@@ -81,7 +89,9 @@ def is_keyed(obj: Object, path: str, count: int) -> bool:
 
 def find(curves: Iterable[FCurve], channel: Channel) -> FCurve | None:
     """Return the curve of a channel, None if there is none."""
-    return next((curve for curve in curves if (curve.data_path, curve.array_index) == channel), None)
+    return next(
+        (curve for curve in curves if (curve.data_path, curve.array_index) == channel), None
+    )
 
 
 def keys(curve: FCurve) -> NDArray[np.float64]:
@@ -91,7 +101,9 @@ def keys(curve: FCurve) -> NDArray[np.float64]:
     return points.reshape(-1, 2).astype(np.float64)
 
 
-def write_keys(curves, channel: Channel, frames: NDArray, values: NDArray, interpolation: int = LINEAR) -> None:
+def write_keys(
+    curves, channel: Channel, frames: NDArray, values: NDArray, interpolation: int = LINEAR
+) -> None:
     """Put keys on a channel, in place of all earlier ones; without keys, remove its curve."""
     curve = find(curves, channel)
     if curve is not None:
@@ -102,7 +114,9 @@ def write_keys(curves, channel: Channel, frames: NDArray, values: NDArray, inter
     curve.keyframe_points.add(len(frames))
     points = np.stack([frames, values], axis=1).astype(np.float32).ravel()
     curve.keyframe_points.foreach_set("co", points)
-    curve.keyframe_points.foreach_set("interpolation", np.full(len(frames), interpolation, np.int32))
+    curve.keyframe_points.foreach_set(
+        "interpolation", np.full(len(frames), interpolation, np.int32)
+    )
     curve.update()
 
 
@@ -112,7 +126,8 @@ def replace_section(curve: FCurve, first: int, last: int, values: NDArray) -> No
     The frames before and after, up to the next keys, get a key each, so that they stay as they are.
     """
     frames = keys(curve)[:, 0]
-    before, after = frames[frames <= first].max(initial=-np.inf), frames[frames >= last].min(initial=np.inf)
+    before = frames[frames <= first].max(initial=-np.inf)
+    after = frames[frames >= last].min(initial=np.inf)
     shift = first + len(values) - 1 - last
     # Beyond all keys, one more keeps a linear extrapolation.
     around = [*range(int(np.ceil(before)) if np.isfinite(before) else first - 1, first)]
@@ -137,15 +152,23 @@ def add_layer(obj: Object, name: str, frames: NDArray, channels: Mapping[Channel
     animation = obj.animation_data_create()
     action = animation.action
     if action is not None:
-        is_combined = has_strips(obj)  # without strips below, Blender ignores how the action is combined
-        strip = animation.nla_tracks.new().strips.new(action.name, int(action.frame_range[0]), action)
+        is_combined = has_strips(
+            obj
+        )  # without strips below, Blender ignores how the action is combined
+        strip = animation.nla_tracks.new().strips.new(
+            action.name, int(action.frame_range[0]), action
+        )
         strip.action_slot = animation.action_slot
         if is_combined:
-            strip.blend_type, strip.influence = animation.action_blend_type, animation.action_influence
-            strip.use_animated_influence, strip.extrapolation = True, animation.action_extrapolation
+            strip.blend_type = animation.action_blend_type
+            strip.influence = animation.action_influence
+            strip.use_animated_influence = True
+            strip.extrapolation = animation.action_extrapolation
         # Cycles and keys outside a manual frame range go on.
-        scene, (start, end) = bpy.context.scene, action.curve_frame_range
-        strip.action_frame_start, strip.action_frame_end = min(start, scene.frame_start), max(end, scene.frame_end)
+        scene = bpy.context.scene
+        (start, end) = action.curve_frame_range
+        strip.action_frame_start = min(start, scene.frame_start)
+        strip.action_frame_end = max(end, scene.frame_end)
         strip.frame_start_ui = strip.action_frame_start
         animation.action = None
     layer = bpy.data.actions.new(name)
@@ -156,4 +179,6 @@ def add_layer(obj: Object, name: str, frames: NDArray, channels: Mapping[Channel
     track = animation.nla_tracks.new()
     track.name = name
     strip = track.strips.new(name, int(frames[0]), layer)
-    strip.action_slot, strip.blend_type, strip.extrapolation = slot, "COMBINE", "NOTHING"
+    strip.action_slot = slot
+    strip.blend_type = "COMBINE"
+    strip.extrapolation = "NOTHING"

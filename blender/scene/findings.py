@@ -9,14 +9,16 @@ OPEN_OBJECT = error(
     "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind to Shell.",
 )
 BALANCE_NO_VERTICES = error(
-    "balance_no_vertices", "No vertices may move. Select some in Edit Mode, or choose a vertex group that has some."
+    "balance_no_vertices",
+    "No vertices may move. Select some in Edit Mode, or choose a vertex group that has some.",
 )
 BALANCE_SETTINGS = error(
     "balance_settings",
     "Balancing needs uniform density and a thin shell or a solid. Set Density From to One Value, and Wall to Thin.",
 )
 BALANCE_TRIANGULATION_VARIES = error(
-    "balance_triangulation_varies", "The triangulation changes with every move. Use Face > Triangulate Faces."
+    "balance_triangulation_varies",
+    "The triangulation changes with every move. Use Face > Triangulate Faces.",
 )
 BALANCE_UNCLEAN = error(
     "balance_unclean",
@@ -24,17 +26,20 @@ BALANCE_UNCLEAN = error(
     " set Kind to Shell.",
 )
 SHAPE_OF_MODIFIERS = error(
-    "shape_of_modifiers", "The measured shape is made by {modifiers}, not by the mesh alone. Apply or hide them."
+    "shape_of_modifiers",
+    "The measured shape is made by {modifiers}, not by the mesh alone. Apply or hide them.",
 )
 SHAPE_NOT_OF_MESH = error(
     "shape_not_of_mesh",
     "The measured shape is made by shape keys, animation, constraints or instances. Apply or remove them.",
 )
 FOLLOWS_MOVED = error(
-    "follows_moved", "“{follower}” follows “{target}” and would move along. Clear that parent or constraint."
+    "follows_moved",
+    "“{follower}” follows “{target}” and would move along. Clear that parent or constraint.",
 )
 MIRROR_IMAGE = error(
-    "mirror_image", "A mirror image of the active object, which it cannot match. Mirror it, or turn a flat shape over."
+    "mirror_image",
+    "A mirror image of the active object, which it cannot match. Mirror it, or turn a flat shape over.",
 )
 SCAN_NON_FINITE = error("scan_non_finite", "Some samples are not finite. Remove them.")
 SURFACES_ROUNDED = note(
@@ -42,17 +47,21 @@ SURFACES_ROUNDED = note(
     "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to {share:percent} of the "
     "size.",
 )
-PARENT_SHEARS = error("parent_shears", "The parent shears the object. Clear the parent, or apply its scale.")
+PARENT_SHEARS = error(
+    "parent_shears", "The parent shears the object. Clear the parent, or apply its scale."
+)
 CHANNEL_LOCKED = error(
     "channel_locked",
     "The {channel:word} is locked, animated or driven. Unlock it in Object Properties > Transform, or remove the "
     "animation.",
 )
 TRANSFORM_CONSTRAINED = error(
-    "transform_constrained", "A constraint or the parent holds the {channel:word}. Apply or remove it."
+    "transform_constrained",
+    "A constraint or the parent holds the {channel:word}. Apply or remove it.",
 )
 SHOWS_INSTANCES = error(
-    "shows_instances", "It shows instances in place of its own geometry. Use Object > Apply > Make Instances Real."
+    "shows_instances",
+    "It shows instances in place of its own geometry. Use Object > Apply > Make Instances Real.",
 )
 DATA_WITHOUT_TRANSFORM = error(
     "data_without_transform",
@@ -72,13 +81,15 @@ OWN_AXES_USED = error(
     "“{cause}” may depend on the object's own origin or axes, which would change. Show and apply it, or remove it.",
 )
 COPY_DIFFERS = error(
-    "copy_differs", "Equal to “{object}” in shape, but not in {aspects}. Allow that under May Differ, or make it equal."
+    "copy_differs",
+    "Equal to “{object}” in shape, but not in {aspects}. Allow that under May Differ, or make it equal.",
 )
 SHAPE_WOULD_CHANGE = error(
     "shape_would_change", "The shape would change. Apply the scale, or use Object > Convert > Mesh."
 )
 MODIFIERS_CHANGE_SHAPE = error(
-    "modifiers_change_shape", "The shape would change, by {modifiers}. Apply or remove these modifiers."
+    "modifiers_change_shape",
+    "The shape would change, by {modifiers}. Apply or remove these modifiers.",
 )
 CHILD_NOT_HELD = error(
     "child_not_held",
@@ -90,9 +101,12 @@ DEPENDENT_SHAPE_CHANGES = error(
 )
 DATA_COPIED = note("data_copied", "The data was copied, as other objects use it.")
 FOLLOWER_MOVED = warning("follower_moved", "“{object}” follows by a constraint and moved along.")
-RIGID_BODY_NEEDS_MESH = error("rigid_body_needs_mesh", "Only meshes can be rigid bodies. Use Object > Convert > Mesh.")
+RIGID_BODY_NEEDS_MESH = error(
+    "rigid_body_needs_mesh", "Only meshes can be rigid bodies. Use Object > Convert > Mesh."
+)
 RIGID_BODY_MASS_TOO_SMALL = error(
-    "rigid_body_mass_too_small", "The mass {mass:.3g} kg is below the {limit:.3g} kg of a rigid body. Raise Density."
+    "rigid_body_mass_too_small",
+    "The mass {mass:.3g} kg is below the {limit:.3g} kg of a rigid body. Raise Density.",
 )
 RIGID_WORLD_LINKED = error(
     "rigid_world_linked",

@@ -30,7 +30,13 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.nurbs.blender_knots import bezier_space
 from ...core.nurbs.flat_face import FlatFace
 from ...core.nurbs.splines import Face, Patch
-from ...core.scans.formats import Positions, place_samples, read_all_positions, read_scan, sample_matrix
+from ...core.scans.formats import (
+    Positions,
+    place_samples,
+    read_all_positions,
+    read_scan,
+    sample_matrix,
+)
 from ...core.scans.numpy_files import read_raw
 from ...core.scans.scan import Scan
 from ...core.scans.scan_files import Limits, scan_suffix
@@ -46,7 +52,9 @@ GRID_NAME = "density"
 SAMPLES_PER_SLAB = 1 << 22  # samples at a time
 
 
-def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> tuple[Object, float]:
+def surface_object(
+    name: str, patches: Sequence[Patch], factor: float = 1.0
+) -> tuple[Object, float]:
     """Return a surface object of *Bézier* patches in no collection, and the effect of float32 as a share."""
     data, moved, origin = surface_data(name, patches, factor)
     obj = bpy.data.objects.new(name, data)
@@ -54,11 +62,14 @@ def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> 
     return obj, moved
 
 
-def surface_data(name: str, patches: Sequence[Patch], factor: float) -> tuple[Curve, float, NDArray[np.float32]]:
+def surface_data(
+    name: str, patches: Sequence[Patch], factor: float
+) -> tuple[Curve, float, NDArray[np.float32]]:
     """Return the data of `surface_object`, its points' movement as a share of the size, and its origin's place."""
     low = factor * np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
     high = factor * np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
-    size, distance = float((high - low).max()), float(np.abs([low, high]).max())
+    size = float((high - low).max())
+    distance = float(np.abs([low, high]).max())
     origin = np.zeros(3, np.float32)
     if distance > MAX_DISTANCE * size > 0.0:
         origin = ((low + high) / 2.0).astype(np.float32)
@@ -132,13 +143,16 @@ def _active(scene: Scene, obj: Object, selected: Sequence[Object]) -> Iterator[N
         one.select_set(True, view_layer=layer)
     names = ("object", "active_object", "edit_object")
     lists = ("selected_objects", "selected_editable_objects")
-    with bpy.context.temp_override(scene=scene, **dict.fromkeys(names, obj), **dict.fromkeys(lists, list(selected))):
+    with bpy.context.temp_override(
+        scene=scene, **dict.fromkeys(names, obj), **dict.fromkeys(lists, list(selected))
+    ):
         yield
 
 
 def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
     """Return surface data with one spline of (count_v, count_u) points at arbitrary places."""
-    rows, columns = max(shape[0], MIN_LOFTED_POINTS), shape[1]
+    rows = max(shape[0], MIN_LOFTED_POINTS)
+    columns = shape[1]
     data = bpy.data.curves.new("Body Moments Import", "SURFACE")
     for _ in range(columns):
         spline = data.splines.new("NURBS")
@@ -158,7 +172,9 @@ def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
     bpy.data.objects.remove(obj)
     (spline,) = data.splines
     if (spline.point_count_v, spline.point_count_u) != shape:
-        raise RuntimeError("Blender lofted {} x {} points".format(spline.point_count_v, spline.point_count_u))
+        raise RuntimeError(
+            "Blender lofted {} x {} points".format(spline.point_count_v, spline.point_count_u)
+        )
     return data
 
 
@@ -168,15 +184,20 @@ def import_bodies(
     """Add an object of each body, of patches alone, to a collection; return the pairs of `surface_object`."""
     made = []
     for body in bodies:
-        obj, moved = surface_object(body.name, [patch for patch in body.patches if isinstance(patch, Patch)], factor)
+        obj, moved = surface_object(
+            body.name, [patch for patch in body.patches if isinstance(patch, Patch)], factor
+        )
         collection.objects.link(obj)
         made.append((obj, moved))
     return made
 
 
-def show_bodies(bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float) -> list[Object]:
+def show_bodies(
+    bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float
+) -> list[Object]:
     """Add an object for each body to a collection; it shows the body's faces and is measured by them."""
-    made, readings = [], {}
+    made = []
+    readings = {}
     for body in bodies:
         obj, _ = surface_object(body.name, list(map(_shown, body.patches)), factor)
         for spline in obj.data.splines:
@@ -197,7 +218,9 @@ def _shown(face: Face) -> Patch:
     if isinstance(face, FlatFace):
         a, b, c, d = np.moveaxis(face.quads(SHOWN_SAMPLES), 1, 0)
         # A band along all trapezoids, with folds of no width between them.
-        points = np.stack([np.stack([a, b, c, d], axis=1), np.stack([a, a, d, d], axis=1)], axis=2).reshape(-1, 2, 3)
+        points = np.stack(
+            [np.stack([a, b, c, d], axis=1), np.stack([a, a, d, d], axis=1)], axis=2
+        ).reshape(-1, 2, 3)
     else:
         assert isinstance(face, Patch)
         if max(space.order for space in face.spaces) <= MAX_ORDER and is_storable(face):
@@ -228,7 +251,9 @@ def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -
     order = max(space.order for patch in patches for space in patch.spaces)
     moved = max(share for _, share in made)
     rounded = [finding(SURFACES_ROUNDED, share=moved)] if moved else []
-    return ImportedSurfaces([obj for obj, _ in made], len(patches), order, [*rounded, *file.refused, *file.notes])
+    return ImportedSurfaces(
+        [obj for obj, _ in made], len(patches), order, [*rounded, *file.refused, *file.notes]
+    )
 
 
 class PlacedScan(NamedTuple):
@@ -255,14 +280,20 @@ def read_placed(
     """Read a scan and place its samples; files: of their positions, in `unit` meters, by axis. Raises FileError."""
     try:
         is_raw = scan_suffix(path) == ".raw"
-        scan = read_raw(path, *raw, limits) if raw is not None and is_raw else read_scan(path, limits)
+        scan = (
+            read_raw(path, *raw, limits) if raw is not None and is_raw else read_scan(path, limits)
+        )
         positions = read_all_positions(files, scan.samples.shape)
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-    matrix, findings = sample_matrix(scan, tuple(map(shortest_decimal, spacing)) if spacing else None, None, None)
+    matrix, findings = sample_matrix(
+        scan, tuple(map(shortest_decimal, spacing)) if spacing else None, None, None
+    )
     matrix, positions = place_samples(matrix, positions, shortest_decimal(unit))
     for axis, row in enumerate(positions):
-        if row is not None:  # Blender's voxels are even: the first and the last are where they belong
+        if (
+            row is not None
+        ):  # Blender's voxels are even: the first and the last are where they belong
             matrix[:3, axis] *= row[-1] / (len(row) - 1)
     target = path.with_name(path.name[: -len(scan_suffix(path))] + ".vdb")
     return PlacedScan(scan, matrix, positions, (*scan.findings, *findings), target)
@@ -270,9 +301,12 @@ def read_placed(
 
 def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
     """Write the scan whole, with `unit` meters per unit and a background of 0 or less; return the least value."""
-    scan, target, matrix = placed.scan, placed.target, placed.matrix.copy()
+    scan = placed.scan
+    target = placed.target
+    matrix = placed.matrix.copy()
     matrix[:3] /= unit
-    least, exact = np.inf, True
+    least = np.inf
+    exact = True
     for _, slab in _slabs(scan):
         if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):
             raise FileError(SCAN_NON_FINITE)
@@ -297,7 +331,10 @@ def _slabs(scan: Scan) -> Iterator[tuple[int, NDArray[np.float64]]]:
     samples = scan.samples
     planes = max(1, SAMPLES_PER_SLAB // (samples.shape[1] * samples.shape[2]))
     for start in range(0, samples.shape[0], planes):
-        yield start, samples[start : start + planes].astype(np.float64) * scan.slope + scan.intercept
+        yield (
+            start,
+            samples[start : start + planes].astype(np.float64) * scan.slope + scan.intercept,
+        )
 
 
 def add_volume(context: Context, placed: PlacedScan) -> Object:
@@ -306,7 +343,8 @@ def add_volume(context: Context, placed: PlacedScan) -> Object:
     volume = bpy.data.volumes.new(path.stem)
     volume.filepath = str(path)
     obj = bpy.data.objects.new(path.stem, volume)
-    obj.body_moments.grid, obj.body_moments.sample_positions = GRID_NAME, positions_text(placed.positions)
+    obj.body_moments.grid = GRID_NAME
+    obj.body_moments.sample_positions = positions_text(placed.positions)
     context.collection.objects.link(obj)
     for previous in context.selected_objects:
         previous.select_set(False)

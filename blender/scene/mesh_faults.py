@@ -65,7 +65,10 @@ def require_editable_mesh(obj: Object) -> None:
 def defects_by_kind(measurement: Measurement) -> dict[str, np.ndarray]:
     """Return the elements of each kind of defect that a mesh has: (k, 2) vertices of edges, or (k,) faces."""
     elements = measurement.health.defective_elements
-    arrays = {field.name: np.asarray(getattr(elements, field.name), np.int64) for field in fields(elements)}
+    arrays = {
+        field.name: np.asarray(getattr(elements, field.name), np.int64)
+        for field in fields(elements)
+    }
     return {name: indices for name, indices in arrays.items() if len(indices)}
 
 
@@ -122,7 +125,9 @@ def delete_faces(mesh: bpy.types.Mesh, indices: Sequence[int]) -> int:
     """Delete faces, with edges and vertices that nothing else uses; return the number."""
     if len(indices):
         with _edited(mesh) as edited:
-            bmesh.ops.delete(edited, geom=[edited.faces[index] for index in indices], context="FACES")
+            bmesh.ops.delete(
+                edited, geom=[edited.faces[index] for index in indices], context="FACES"
+            )
     return len(indices)
 
 
@@ -138,6 +143,7 @@ def merge_by_distance(mesh: bpy.types.Mesh) -> int:
     points = np.empty((before, 3), np.float32)
     mesh.vertices.foreach_get("co", points.ravel())
     with _edited(mesh) as edited:
-        size, error = float(np.linalg.norm(np.ptp(points, axis=0))), float(np.spacing(np.abs(points).max()))
+        size = float(np.linalg.norm(np.ptp(points, axis=0)))
+        error = float(np.spacing(np.abs(points).max()))
         bmesh.ops.remove_doubles(edited, verts=edited.verts[:], dist=welding_tolerance(size, error))
     return before - len(mesh.vertices)

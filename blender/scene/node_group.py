@@ -19,7 +19,8 @@ from bpy.types import Context, GeometryNodeTree, Node, NodeSocket, Object
 from ...core.numerics.float32 import shortest_decimal
 from ..settings.density import object_density
 
-GROUP_NAME, MARKER_NAME = "Center of Mass", "Center of Mass Marker"
+GROUP_NAME = "Center of Mass"
+MARKER_NAME = "Center of Mass Marker"
 KEY = "body_moments_nodes"  # ID property of our groups: the version of their nodes
 VERSION = 2
 COLUMN = 180  # distance of two nodes
@@ -42,7 +43,12 @@ class _Builder(NamedTuple):
         self.tree.links.new(source, target)
 
     def vector(
-        self, operation: str, column: float, row: float, *inputs: NodeSocket, scale: NodeSocket | None = None
+        self,
+        operation: str,
+        column: float,
+        row: float,
+        *inputs: NodeSocket,
+        scale: NodeSocket | None = None,
     ) -> Node:
         node = self.node("ShaderNodeVectorMath", column, row, operation=operation)
         for source, target in zip(inputs, node.inputs):
@@ -51,8 +57,12 @@ class _Builder(NamedTuple):
             self.link(scale, node.inputs["Scale"])
         return node
 
-    def sum(self, kind: str, column: float, row: float, faces: NodeSocket, value: NodeSocket) -> NodeSocket:
-        node = self.node("GeometryNodeAttributeStatistic", column, row, data_type=kind, domain="FACE")
+    def sum(
+        self, kind: str, column: float, row: float, faces: NodeSocket, value: NodeSocket
+    ) -> NodeSocket:
+        node = self.node(
+            "GeometryNodeAttributeStatistic", column, row, data_type=kind, domain="FACE"
+        )
         self.link(faces, node.inputs["Geometry"])
         self.link(value, node.inputs["Attribute"])
         return node.outputs["Sum"]
@@ -75,13 +85,16 @@ def center_of_mass_group() -> GeometryNodeTree:
     interface.new_socket("Mass", in_out="OUTPUT", socket_type="NodeSocketFloat")
     _build(_Builder(group))
     group.asset_mark()
-    group.asset_data.description = "Center of mass, volume and mass of a closed mesh, in the units of the geometry"
+    group.asset_data.description = (
+        "Center of mass, volume and mass of a closed mesh, in the units of the geometry"
+    )
     group.asset_data.tags.new("Body Moments")
     return group
 
 
 def _build(make: _Builder) -> None:
-    inputs, outputs = make.node("NodeGroupInput", 0), make.node("NodeGroupOutput", 12)
+    inputs = make.node("NodeGroupInput", 0)
+    outputs = make.node("NodeGroupOutput", 12)
     realized = make.node("GeometryNodeRealizeInstances", 1)
     triangles = make.node("GeometryNodeTriangulate", 2)
     if hasattr(triangles, "quad_method"):  # Blender 4.5; later a socket
@@ -98,7 +111,9 @@ def _build(make: _Builder) -> None:
     position = make.node("GeometryNodeInputPosition", 3, 2)
     corners = [_corner(make, index, position, middle) for index in range(3)]
     cross = make.vector("CROSS_PRODUCT", 7, 2, *corners[1:])
-    determinant = make.vector("DOT_PRODUCT", 8, 2, corners[0], cross.outputs["Vector"]).outputs["Value"]
+    determinant = make.vector("DOT_PRODUCT", 8, 2, corners[0], cross.outputs["Vector"]).outputs[
+        "Value"
+    ]
     pair = make.vector("ADD", 7, 3, *corners[:2])
     three = make.vector("ADD", 8, 3, pair.outputs["Vector"], corners[2])
     weighed = make.vector("SCALE", 9, 3, three.outputs["Vector"], scale=determinant)
@@ -130,10 +145,14 @@ def _corner(make: _Builder, index: int, position: Node, middle: Node) -> NodeSoc
     corner.inputs["Sort Index"].default_value = index
     vertex = make.node("GeometryNodeVertexOfCorner", 5, row)
     make.link(corner.outputs["Corner Index"], vertex.inputs["Corner Index"])
-    there = make.node("GeometryNodeFieldAtIndex", 5.5, row, domain="POINT", data_type="FLOAT_VECTOR")
+    there = make.node(
+        "GeometryNodeFieldAtIndex", 5.5, row, domain="POINT", data_type="FLOAT_VECTOR"
+    )
     make.link(position.outputs["Position"], there.inputs["Value"])
     make.link(vertex.outputs["Vertex Index"], there.inputs["Index"])
-    return make.vector("SUBTRACT", 6, row, there.outputs["Value"], middle.outputs["Vector"]).outputs["Vector"]
+    return make.vector(
+        "SUBTRACT", 6, row, there.outputs["Value"], middle.outputs["Vector"]
+    ).outputs["Vector"]
 
 
 def add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object:
@@ -148,7 +167,9 @@ def add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object
     source.inputs["Object"].default_value = obj
     nodes = make.node("GeometryNodeGroup", 2, node_tree=group)
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
-    nodes.inputs["Density"].default_value = object_density(obj.body_moments, context.scene) * unit**3
+    nodes.inputs["Density"].default_value = (
+        object_density(obj.body_moments, context.scene) * unit**3
+    )
     make.link(source.outputs["Geometry"], nodes.inputs["Geometry"])
     ball = make.node("GeometryNodeMeshIcoSphere", 2, 1)
     ball.inputs["Radius"].default_value = MARKER_SHARE * max(obj.dimensions)
@@ -157,7 +178,9 @@ def add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object
     make.link(ball.outputs["Mesh"], placed.inputs["Geometry"])
     make.link(nodes.outputs["Center"], placed.inputs["Translation"])
     make.link(placed.outputs["Geometry"], outputs.inputs["Geometry"])
-    made = bpy.data.objects.new("{:s} {:s}".format(obj.name, GROUP_NAME), bpy.data.meshes.new(MARKER_NAME))
+    made = bpy.data.objects.new(
+        "{:s} {:s}".format(obj.name, GROUP_NAME), bpy.data.meshes.new(MARKER_NAME)
+    )
     modifier = made.modifiers.new(MARKER_NAME, "NODES")
     modifier.node_group = tree
     made.show_in_front = True

@@ -30,8 +30,23 @@ from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ...core.verdict.findings import LINKED_OBJECT
 from ..read.findings import SCALE_ZERO_AXIS
 from ..settings.density import density_anchor
-from .changes import SceneChange, ancestors, dependents, independent_rounds, run_change, run_together
-from .dependents import SAME_SHAPE_RTOL, DependentsGuard, Shape, referring, same_shape, shape, transform_shape
+from .changes import (
+    SceneChange,
+    ancestors,
+    dependents,
+    independent_rounds,
+    run_change,
+    run_together,
+)
+from .dependents import (
+    SAME_SHAPE_RTOL,
+    DependentsGuard,
+    Shape,
+    referring,
+    same_shape,
+    shape,
+    transform_shape,
+)
 from .findings import (
     BOUND_TO_ARMATURE,
     DATA_COPIED,
@@ -97,7 +112,9 @@ def check(obj: Object) -> None:
     unseen = [
         modifier.name
         for modifier in obj.modifiers
-        if modifier.show_render and not modifier.show_viewport and modifier.type not in FRAME_INDEPENDENT_MODIFIERS
+        if modifier.show_render
+        and not modifier.show_viewport
+        and modifier.type not in FRAME_INDEPENDENT_MODIFIERS
     ]
     if unseen:
         raise EditRefusedError(OWN_AXES_USED, cause=unseen[0])
@@ -115,7 +132,11 @@ def reframe(
     users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
     refused: dict[Object, Finding] = {}
     # objects that share a mesh are changed in one way, so that they go on sharing it
-    others = {plan.obj.data for plan in plans if plan.mesh is not None or not shows_own_mesh(plan.obj, users)}
+    others = {
+        plan.obj.data
+        for plan in plans
+        if plan.mesh is not None or not shows_own_mesh(plan.obj, users)
+    }
     own = [plan for plan in plans if plan.obj.data not in others]
     carried_out = set(reframe_own_meshes(context, own))
     done = len(carried_out)
@@ -129,7 +150,9 @@ def reframe(
             if again is not None:
                 again.append(group)
                 return
-            refused.update(dict.fromkeys((plan.obj for plan in group), internal_error.finding_of(error)))
+            refused.update(
+                dict.fromkeys((plan.obj for plan in group), internal_error.finding_of(error))
+            )
         done += len(group)
         progress(done)
 
@@ -174,7 +197,8 @@ def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> Scene
     around = DependentsGuard(objects, users, depsgraph)
     was = {obj: world(obj) for obj in objects}
     channels = [TransformChannels(obj) for obj in objects]
-    trial, change = None, np.eye(4)
+    trial = None
+    change = np.eye(4)
     succeeded = False
     try:
         yield from run_together(set_world_matrix(plan) for plan in group)
@@ -228,7 +252,11 @@ def check_movable(obj: Object) -> None:
         raise EditRefusedError(LINKED_OBJECT)
     if density_anchor(obj) == "world":
         raise EditRefusedError(DENSITY_COORDINATES, frame="world")
-    bound = [modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE" and modifier.show_viewport]
+    bound = [
+        modifier.object
+        for modifier in obj.modifiers
+        if modifier.type == "ARMATURE" and modifier.show_viewport
+    ]
     if obj.parent_type == "ARMATURE":
         bound.append(obj.parent)
     for armature in bound:  # in rest pose, too, though it deforms nothing yet
@@ -238,12 +266,16 @@ def check_movable(obj: Object) -> None:
 
 def move(context: Context, plan: Plan) -> None:
     """Move an object by `set_world_matrix`; put it back and raise the error if its shape or a lock prevents that."""
-    obj, saved = plan.obj, TransformChannels(plan.obj)
-    was, before = world(obj), shape(obj, context.evaluated_depsgraph_get())
+    obj = plan.obj
+    saved = TransformChannels(plan.obj)
+    was = world(obj)
+    before = shape(obj, context.evaluated_depsgraph_get())
     try:
         run_change(context, set_world_matrix(plan))
         if not same_shape(
-            transform_shape(before, was, world(obj)), shape(obj, context.evaluated_depsgraph_get()), plan.size
+            transform_shape(before, was, world(obj)),
+            shape(obj, context.evaluated_depsgraph_get()),
+            plan.size,
         ):
             raise EditRefusedError(_reason_of_change(obj, set()))
     except BaseException:
@@ -325,12 +357,20 @@ def _transform_points(key, change: Matrix4) -> NDArray[np.float32]:
 
 def _translate_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
     offset = change[:3, 3]
-    if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(np.abs(offset).max(), text.size):
+    if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(
+        np.abs(offset).max(), text.size
+    ):
         raise EditRefusedError(DATA_WITHOUT_TRANSFORM)
     text.offset_x += offset[0]
     text.offset_y += offset[1]
 
 
 def _reason_of_change(obj: Object, harmless: set[str]) -> Finding:
-    names = [modifier.name for modifier in obj.modifiers if modifier.show_viewport and modifier.type not in harmless]
-    return finding(MODIFIERS_CHANGE_SHAPE, modifiers=names) if names else finding(SHAPE_WOULD_CHANGE)
+    names = [
+        modifier.name
+        for modifier in obj.modifiers
+        if modifier.show_viewport and modifier.type not in harmless
+    ]
+    return (
+        finding(MODIFIERS_CHANGE_SHAPE, modifiers=names) if names else finding(SHAPE_WOULD_CHANGE)
+    )

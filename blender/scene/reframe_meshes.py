@@ -58,7 +58,9 @@ class Plan:
 
 def location_tolerance(obj: Object, size: float) -> float:
     """Return the tolerance of an origin's location, by float32 rounding of the size and of all ancestors' locations."""
-    return rounding_of_locations(size, max(np.abs(world(ancestor)[:3, 3]).max() for ancestor in ancestors(obj)))
+    return rounding_of_locations(
+        size, max(np.abs(world(ancestor)[:3, 3]).max() for ancestor in ancestors(obj))
+    )
 
 
 def rounding_of_locations(size: PerBody, reach: PerBody) -> PerBody:
@@ -98,7 +100,8 @@ def shows_own_mesh(obj: Object, users: dict[Object, set[Object]]) -> bool:
         and obj.rotation_mode not in {"QUATERNION", "AXIS_ANGLE"}
         and data.shape_keys is None
         and data.animation_data is None
-        and (tuple(obj.delta_location), tuple(obj.delta_rotation_euler), tuple(obj.delta_scale)) == UNCHANGED
+        and (tuple(obj.delta_location), tuple(obj.delta_rotation_euler), tuple(obj.delta_scale))
+        == UNCHANGED
         and not (any(obj.lock_location) or any(obj.lock_rotation) or any(obj.lock_scale))
     )
 
@@ -135,7 +138,8 @@ def _reframe_alike(
     context: Context, plans: Sequence[Plan], channels: Sequence[TransformChannels], move_only: bool
 ) -> list[Object]:
     objects = [plan.obj for plan in plans]
-    targets, was = np.array([plan.target for plan in plans]), _worlds(objects)
+    targets = np.array([plan.target for plan in plans])
+    was = _worlds(objects)
     fits = np.ones(len(plans), bool)
     for obj, location in zip(objects, targets[:, :3, 3].tolist()):
         obj.location = location
@@ -146,17 +150,28 @@ def _reframe_alike(
     change = data_change(was, now, move_only)
     size = np.array([plan.size for plan in plans])
     off = np.abs(now - targets)
-    fits &= off[:, :3, 3].max(axis=1) <= rounding_of_locations(size, np.abs(now[:, :3, 3]).max(axis=1))
-    fits &= off[:, :3, :3].max(axis=(1, 2)) <= MAX_SHEAR * np.abs(targets[:, :3, :3]).max(axis=(1, 2))
+    fits &= off[:, :3, 3].max(axis=1) <= rounding_of_locations(
+        size, np.abs(now[:, :3, 3]).max(axis=1)
+    )
+    fits &= off[:, :3, :3].max(axis=(1, 2)) <= MAX_SHEAR * np.abs(targets[:, :3, :3]).max(
+        axis=(1, 2)
+    )
     # Rounding may move points far from their origin by this much.
-    boxes = np.array([obj.bound_box for obj in objects]) @ change[:, :3, :3].swapaxes(1, 2) + change[:, None, :3, 3]
+    boxes = (
+        np.array([obj.bound_box for obj in objects]) @ change[:, :3, :3].swapaxes(1, 2)
+        + change[:, None, :3, 3]
+    )
     largest = np.abs(now[:, :3, :3]).sum(axis=2).max(axis=1)
     fits &= FLOAT32 * np.abs(boxes).max(axis=(1, 2)) * largest <= SAME_SHAPE_RTOL * size
     for i in np.flatnonzero(~fits).tolist():
         channels[i].restore()
     chosen = np.flatnonzero(fits)
-    wanted = data_change(was, targets, move_only)  # without the rounding of places far from the origin
-    owners = _give_meshes([plans[i] for i in chosen.tolist()], wanted[chosen], np.abs(boxes[chosen]).max(axis=(1, 2)))
+    wanted = data_change(
+        was, targets, move_only
+    )  # without the rounding of places far from the origin
+    owners = _give_meshes(
+        [plans[i] for i in chosen.tolist()], wanted[chosen], np.abs(boxes[chosen]).max(axis=(1, 2))
+    )
     transform_meshes([objects[chosen[i]].data for i in owners], change[chosen[owners]])
     context.view_layer.update()
     return [objects[i] for i in chosen.tolist()]
@@ -170,7 +185,9 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
     owners: list[int] = []
     for mesh, members in sharing.items():
         is_all = mesh.users - mesh.use_fake_user == len(members)
-        groups = _group_changes(changes[members], reach[members], [SAME_SHAPE_RTOL * plans[i].size for i in members])
+        groups = _group_changes(
+            changes[members], reach[members], [SAME_SHAPE_RTOL * plans[i].size for i in members]
+        )
         for number, group in enumerate(groups):
             owners.append(members[group[0]])
             if number or not is_all:
@@ -183,7 +200,8 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
 
 def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[list[int]]:
     """Return groups of indices of changes that move any point within `reach` to almost the same place, to `within`."""
-    groups, left = [], np.arange(len(changes))
+    groups = []
+    left = np.arange(len(changes))
     while len(left):
         first = left[0]
         is_near = largest_move(changes[left] - changes[first], float(reach[first])) <= within[first]
@@ -199,7 +217,9 @@ def _worlds(objects: Sequence[Object]) -> NDArray[np.float64]:
 
 def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> NDArray[np.bool_]:
     """Set objects' rotations and scales to (n, 3, 3) matrices; return a mask of matrices that have no shear."""
-    turns, scales, fits = rotation_and_scale(linear, np.array([obj.scale for obj in objects], np.float64))
+    turns, scales, fits = rotation_and_scale(
+        linear, np.array([obj.scale for obj in objects], np.float64)
+    )
     rows_by_mode: dict[str, list[int]] = {}
     for row, obj in enumerate(objects):
         rows_by_mode.setdefault(obj.rotation_mode, []).append(row)
@@ -226,7 +246,9 @@ def transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
         moved += changes[owner, :3, axis] * points[:, axis, None].astype(np.float64)
     moved_points = moved.astype(np.float32)
     with ExitStack() as put_back:
-        for mesh, start, end, change, is_flipped in zip(meshes, ends, ends[1:], changes, flips.tolist()):
+        for mesh, start, end, change, is_flipped in zip(
+            meshes, ends, ends[1:], changes, flips.tolist()
+        ):
             put_back.callback(mesh.update)
             put_back.callback(_set_points, mesh, points[start:end])
             _change_mesh(mesh, change, moved_points[start:end], is_flipped, put_back)

@@ -31,8 +31,11 @@ def add_center(context: Context, rig: Rig) -> None:
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     made = MadeCollection(context, armature, CENTER_OF, "Center of Mass")
     center = bpy.data.objects.new("{:s} Center of Mass".format(armature.name), None)
-    center.empty_display_type, center.show_in_front = "SPHERE", True
-    center.empty_display_size = 0.1 * float(rig.measurement.mass_properties.radii_of_gyration.max()) / unit
+    center.empty_display_type = "SPHERE"
+    center.show_in_front = True
+    center.empty_display_size = (
+        0.1 * float(rig.measurement.mass_properties.radii_of_gyration.max()) / unit
+    )
     made.link(center)
     mass = 0.0
     for part in rig.parts:
@@ -46,7 +49,9 @@ def add_center(context: Context, rig: Rig) -> None:
     context.view_layer.update()
 
 
-def _follower(context: Context, made: MadeCollection, armature: Object, part: BonePart, unit: float) -> Object:
+def _follower(
+    context: Context, made: MadeCollection, armature: Object, part: BonePart, unit: float
+) -> Object:
     """Add an empty at the center of a bone's part, parented to the bone, and return it."""
     bone = armature.data.bones[part.name]
     empty = bpy.data.objects.new("{:s} {:s} Center".format(armature.name, part.name), None)
@@ -54,9 +59,13 @@ def _follower(context: Context, made: MadeCollection, armature: Object, part: Bo
     made.link(empty)
     rest = np.array(armature.matrix_world @ bone.matrix_local, np.float64)
     local = np.linalg.solve(rest, np.append(part.mass.center / unit, 1.0))[:3]
-    empty.parent, empty.parent_type, empty.parent_bone = armature, "BONE", bone.name
+    empty.parent = armature
+    empty.parent_type = "BONE"
+    empty.parent_bone = bone.name
     empty.matrix_parent_inverse = Matrix.Identity(4)
-    empty.location = Vector(local) - Vector((0.0, bone.length, 0.0))  # children of a bone start at its tail
+    empty.location = Vector(local) - Vector(
+        (0.0, bone.length, 0.0)
+    )  # children of a bone start at its tail
     empty.hide_set(True)
     return empty
 
@@ -67,7 +76,10 @@ def create_physics_rig(context: Context, rig: Rig) -> tuple[int, int]:
     for part in parts:
         if part.mass.total < MIN_MASS:
             raise EditRefusedError(
-                RIGID_BODY_MASS_TOO_SMALL, subject=part.name, mass=float(part.mass.total), limit=MIN_MASS
+                RIGID_BODY_MASS_TOO_SMALL,
+                subject=part.name,
+                mass=float(part.mass.total),
+                limit=MIN_MASS,
             )
     require_rigid_world(context.scene, joints=True)
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
@@ -76,11 +88,14 @@ def create_physics_rig(context: Context, rig: Rig) -> tuple[int, int]:
     add_rigid_bodies(context, list(bodies.values()))
     for part in parts:
         physics = bodies[part.name].rigid_body
-        physics.mass, physics.collision_shape = part.mass.total, "CONVEX_HULL"
+        physics.mass = part.mass.total
+        physics.collision_shape = "CONVEX_HULL"
     joints = 0
     for name, body in bodies.items():
         bone = rig.armature.pose.bones[name]
-        above = next((bodies[parent.name] for parent in bone.parent_recursive if parent.name in bodies), None)
+        above = next(
+            (bodies[parent.name] for parent in bone.parent_recursive if parent.name in bodies), None
+        )
         if above is not None:
             _joint(context, made, bone, above, body)
             joints += 1
@@ -93,8 +108,11 @@ def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -
     assert part.measurement is not None
     body = part.measurement.mass_properties
     frame = np.eye(4)
-    frame[:3, :3], frame[:3, 3] = body.principal.axes, body.center / unit
-    surface = join_surfaces([piece.transform(matrix[:3, :3], matrix[:3, 3]) for piece, matrix in part.surfaces])
+    frame[:3, :3] = body.principal.axes
+    frame[:3, 3] = body.center / unit
+    surface = join_surfaces(
+        [piece.transform(matrix[:3, :3], matrix[:3, 3]) for piece, matrix in part.surfaces]
+    )
     mesh = bpy.data.meshes.new("{:s} {:s}".format(armature.name, part.name))
     points = (surface.points / unit - frame[:3, 3]) @ frame[:3, :3]
     mesh.from_pydata(points, [], surface.triangles)
@@ -104,23 +122,32 @@ def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -
     obj.rotation_mode = "QUATERNION"
     obj.matrix_world = Matrix(frame)
     settings = obj.body_moments
-    settings.mass_from, settings.mass = "MASS", part.mass.total
+    settings.mass_from = "MASS"
+    settings.mass = part.mass.total
     return obj
 
 
-def _joint(context: Context, made: MadeCollection, bone: PoseBone, above: Object, below: Object) -> None:
+def _joint(
+    context: Context, made: MadeCollection, bone: PoseBone, above: Object, below: Object
+) -> None:
     """Add a joint at a bone's head, along its axes, with the limits of its inverse kinematics."""
     armature = bone.id_data
     joint = bpy.data.objects.new("{:s} {:s} Joint".format(armature.name, bone.name), None)
-    joint.empty_display_size = 0.25 * bone.bone.length * float(np.mean(armature.matrix_world.to_scale()))
+    joint.empty_display_size = (
+        0.25 * bone.bone.length * float(np.mean(armature.matrix_world.to_scale()))
+    )
     made.link(joint)
     location, turn, _scale = (armature.matrix_world @ bone.bone.matrix_local).decompose()
     joint.rotation_mode = "QUATERNION"
-    joint.location, joint.rotation_quaternion = location, turn
+    joint.location = location
+    joint.rotation_quaternion = turn
     constraint = add_joint(context, joint, "GENERIC")
-    constraint.object1, constraint.object2, constraint.disable_collisions = above, below, True
+    constraint.object1 = above
+    constraint.object2 = below
+    constraint.disable_collisions = True
     for axis in "xyz":
-        locked, limited = getattr(bone, "lock_ik_" + axis), getattr(bone, "use_ik_limit_" + axis)
+        locked = getattr(bone, "lock_ik_" + axis)
+        limited = getattr(bone, "use_ik_limit_" + axis)
         setattr(constraint, "use_limit_lin_" + axis, True)
         setattr(constraint, "use_limit_ang_" + axis, locked or limited)
         for end, of_bone in (("lower", "min"), ("upper", "max")):

@@ -34,7 +34,9 @@ def require_rigid_world(scene: Scene, joints: bool = False) -> None:
     if world is None:
         return
     for collection in (world.collection, world.constraints if joints else None):
-        if collection is not None and (not collection.is_editable or collection.override_library is not None):
+        if collection is not None and (
+            not collection.is_editable or collection.override_library is not None
+        ):
             raise EditRefusedError(RIGID_WORLD_LINKED, collection=collection.name)
 
 

@@ -79,7 +79,8 @@ class _EditedMesh(_Vertices):
     """The selected vertices in Edit Mode; a BMesh gives and takes its vertices one by one only."""
 
     def __init__(self, obj: Object):
-        self.mesh, vertices = obj.data, bmesh.from_edit_mesh(obj.data).verts
+        self.mesh = obj.data
+        vertices = bmesh.from_edit_mesh(obj.data).verts
         self.start = np.array([vertex.co[:] for vertex in vertices], np.float32).reshape(-1, 3)
         self.choose(np.array([vertex.select for vertex in vertices], np.float64))
 
@@ -98,7 +99,9 @@ class _StoredMesh(_Vertices):
     """The vertices of one of the vertex groups of an object in Object Mode; without groups, all of them, which lean."""
 
     def __init__(self, obj: Object, name: str):
-        self.mesh, self.start, self.leans = obj.data, vertex_points(obj.data), not (name or obj.vertex_groups)
+        self.mesh = obj.data
+        self.start = vertex_points(obj.data)
+        self.leans = not (name or obj.vertex_groups)
         group = obj.vertex_groups.get(name) if name else obj.vertex_groups.active
         weights = np.full(len(self.start), float(self.leans))
         if group is not None:
@@ -111,8 +114,12 @@ class _StoredMesh(_Vertices):
     def set_points(self, points: NDArray[np.float32]) -> None:
         """Move all vertices to (n, 3) points."""
         self.is_changed = True
-        self.mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(points).ravel())
-        self.mesh.vertices[0].co = self.mesh.vertices[0].co  # makes Blender update normals and bounding box
+        self.mesh.attributes["position"].data.foreach_set(
+            "vector", np.ascontiguousarray(points).ravel()
+        )
+        self.mesh.vertices[0].co = self.mesh.vertices[
+            0
+        ].co  # makes Blender update normals and bounding box
 
 
 @tracking_paused()  # a trial that is undone is not an edit
@@ -121,37 +128,62 @@ def balance_mesh(
 ) -> Balanced:
     """Move vertices so that the center of mass comes over a point, or raise MeasureError and leave them in place."""
     mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _StoredMesh(obj, group)
-    up, unit = -down(context.scene), shortest_decimal(context.scene.unit_settings.scale_length)
+    up = -down(context.scene)
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
     across = np.eye(3) if align == "ALL" else np.linalg.svd(up[None])[2][1:]
     target = np.array(point, np.float64) * unit
     _require_balanceable(obj)
     part = _read_surface(context, obj, mesh)
     before = _measure(context, obj)
-    linear, offset = part.matrices[0, :3, :3] * unit, part.matrices[0, :3, 3] * unit
+    linear = part.matrices[0, :3, :3] * unit
+    offset = part.matrices[0, :3, 3] * unit
     start = part.surface.transform(linear, offset)
     size = float(np.linalg.norm(np.ptp(start.points, axis=0)))
     tolerance = REACHED_RTOL * size + 4.0 * FLOAT32 * np.abs(start.points).max()
-    limit, shell, movable, weights = longest * unit or size, before.kind == "shell", mesh.movable, mesh.weights
+    limit = longest * unit or size
+    shell = before.kind == "shell"
+    movable = mesh.movable
+    weights = mesh.weights
     try:
-        surface, moves, center = start, np.zeros_like(start.points), before.mass_properties.center
+        surface = start
+        moves = np.zeros_like(start.points)
+        center = before.mass_properties.center
         for _ in range(MAX_ATTEMPTS):
             if mesh.leans:
-                moves += _lean(start.points, before.mass_properties.center, across.T @ (across @ (target - center)), up)
+                moves += _lean(
+                    start.points,
+                    before.mass_properties.center,
+                    across.T @ (across @ (target - center)),
+                    up,
+                )
                 far = float(np.linalg.norm(moves, axis=1).max())
                 if far > limit:
                     short = float(np.linalg.norm(across @ (target - center))) * (1.0 - limit / far)
                     raise MeasureError(BALANCE_SHORT, distance=short, limit=limit)
             else:
-                found = balance(surface, movable, target, across=across, weights=weights, limit=limit, shell=shell)
+                found = balance(
+                    surface,
+                    movable,
+                    target,
+                    across=across,
+                    weights=weights,
+                    limit=limit,
+                    shell=shell,
+                )
                 moves = found.points - start.points
             points = mesh.start.copy()  # vertices that are not movable stay to the bit
-            points[movable] = mesh.start[movable].astype(np.float64) + np.linalg.solve(linear, moves[movable].T).T
+            points[movable] = (
+                mesh.start[movable].astype(np.float64) + np.linalg.solve(linear, moves[movable].T).T
+            )
             mesh.set_points(points)
             after = _measure(context, obj)
             center = after.mass_properties.center
             if np.abs(across @ (target - center)).max() <= tolerance:
                 break
-            surface = replace(_read_surface(context, obj, None).surface.transform(linear, offset), points=start.points)
+            surface = replace(
+                _read_surface(context, obj, None).surface.transform(linear, offset),
+                points=start.points,
+            )
         else:
             raise EditRefusedError(BALANCE_TRIANGULATION_VARIES)
     except BaseException:
@@ -161,7 +193,8 @@ def balance_mesh(
         raise
     obj.data.update_tag()  # for other objects with the mesh it is an edit
     moved = (points[movable].astype(np.float64) - mesh.start[movable]) @ linear.T
-    number, largest = int(np.count_nonzero(moved.any(axis=1))), float(np.linalg.norm(moved, axis=1).max())
+    number = int(np.count_nonzero(moved.any(axis=1)))
+    largest = float(np.linalg.norm(moved, axis=1).max())
     centers = [
         np.where(np.abs(center) < ROUNDING * size, 0.0, center).tolist()
         for center in (before.mass_properties.center, after.mass_properties.center)
@@ -196,7 +229,9 @@ def _measure(context: Context, obj: Object) -> Measurement:
     measurement = measure_object(obj, context.evaluated_depsgraph_get())
     if measurement.mass_moments[0].measure == Measure.MASS:
         raise EditRefusedError(BALANCE_SETTINGS)
-    if measurement.kind == "solid" and (measurement.method != Method(Procedure.EXACT) or measurement.health.welded):
+    if measurement.kind == "solid" and (
+        measurement.method != Method(Procedure.EXACT) or measurement.health.welded
+    ):
         raise EditRefusedError(BALANCE_UNCLEAN)
     return measurement
 
@@ -211,5 +246,9 @@ def _read_surface(context: Context, obj: Object, mesh: _Vertices | None) -> Part
         raise EditRefusedError(SHAPE_NOT_OF_MESH)
     if mesh is not None and not np.array_equal(part.surface.points, mesh.start):
         shown = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
-        raise (EditRefusedError(SHAPE_OF_MODIFIERS, modifiers=shown) if shown else EditRefusedError(SHAPE_NOT_OF_MESH))
+        raise (
+            EditRefusedError(SHAPE_OF_MODIFIERS, modifiers=shown)
+            if shown
+            else EditRefusedError(SHAPE_NOT_OF_MESH)
+        )
     return part

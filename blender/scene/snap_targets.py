@@ -63,7 +63,9 @@ class SnapTarget:
     is_unique: bool = False
 
     @classmethod
-    def of_body(cls, obj: Object, body: MassProperties, principal: PrincipalFrame, unit: float) -> SnapTarget:
+    def of_body(
+        cls, obj: Object, body: MassProperties, principal: PrincipalFrame, unit: float
+    ) -> SnapTarget:
         """Return the target of a measured body; `unit` is the scene's scale."""
         return cls(
             obj=obj,
@@ -73,7 +75,9 @@ class SnapTarget:
             gyration=body.radii_of_gyration / unit,
             mass=body.mass,
             finding=principal.finding,
-            shape_axes=tuple(i for i in EQUAL_AXES[principal.symmetry] if i not in principal.undetermined_axes),
+            shape_axes=tuple(
+                i for i in EQUAL_AXES[principal.symmetry] if i not in principal.undetermined_axes
+            ),
             is_unique=principal.is_unique,
         )
 
@@ -110,10 +114,14 @@ def targets_in_turn(context: Context, objects: Sequence[Object]) -> Callable[[Ob
 
 def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarget:
     """Measure an object for snapping, or raise EditRefusedError; strict: by Zhang and Chen's rule."""
-    return target_of(context, obj, measure_body(obj, context.evaluated_depsgraph_get(), POSE), strict)
+    return target_of(
+        context, obj, measure_body(obj, context.evaluated_depsgraph_get(), POSE), strict
+    )
 
 
-def target_of(context: Context, obj: Object, measured: Measured | Stacked, strict: bool) -> SnapTarget:
+def target_of(
+    context: Context, obj: Object, measured: Measured | Stacked, strict: bool
+) -> SnapTarget:
     """Return the `snap_target` of a measured object."""
     if measured.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT)
@@ -144,7 +152,9 @@ def matrix_along_axes(obj: Object, body: SnapTarget) -> NDArray | None:
     """Return the matrix of the body's center and principal axes, or None if the object has them already."""
     now = world(obj)
     linear = now[:3, :3]
-    is_rotation = np.abs(linear.T @ linear - np.eye(3)).max() <= UNIT_SCALE and np.linalg.det(linear) > 0.0
+    is_rotation = (
+        np.abs(linear.T @ linear - np.eye(3)).max() <= UNIT_SCALE and np.linalg.det(linear) > 0.0
+    )
     if is_rotation and matrix_at_center(obj, body) is None and body.is_principal(linear):
         return None
     target = np.eye(4)
@@ -152,7 +162,9 @@ def matrix_along_axes(obj: Object, body: SnapTarget) -> NDArray | None:
     return target
 
 
-def align_to_world(context: Context, obj: Object, order: str, at_origin: bool, strict: bool) -> bool:
+def align_to_world(
+    context: Context, obj: Object, order: str, at_origin: bool, strict: bool
+) -> bool:
     """Turn an object's principal axes along the world's in an order; return whether it had to be moved."""
     frame = np.eye(3)[:, ["XYZ".index(letter) for letter in order]]
     frame[:, 2] *= np.linalg.det(frame)
@@ -178,7 +190,11 @@ def require_matchable(context: Context, obj: Object) -> None:
 
 
 def plan_match(
-    context: Context, obj: Object, shape: Shape | FlatShape, target: Shape | FlatShape, match: RigidMatch
+    context: Context,
+    obj: Object,
+    shape: Shape | FlatShape,
+    target: Shape | FlatShape,
+    match: RigidMatch,
 ) -> reframe.Plan:
     """Return the plan that lays the object onto the target; raise EditRefusedError for a mirror image."""
     if match.is_mirror_image:
@@ -198,7 +214,9 @@ def is_copy(match: RigidMatch, size: float) -> bool:
 def move_to_match(context: Context, plan: reframe.Plan) -> bool:
     """Carry out a plan; return False if the object was in place already."""
     off = np.abs(plan.target - world(plan.obj))
-    if off[:, :3].max() <= 1e-7 and off[:, 3].max() <= reframe.location_tolerance(plan.obj, plan.size):
+    if off[:, :3].max() <= 1e-7 and off[:, 3].max() <= reframe.location_tolerance(
+        plan.obj, plan.size
+    ):
         return False
     reframe.move(context, plan)
     return True

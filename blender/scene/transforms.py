@@ -96,7 +96,9 @@ def _rotation(obj: Object) -> Matrix3:
 def _delta_rotation(obj: Object) -> Matrix3:
     if obj.rotation_mode == "QUATERNION":
         return rotation_matrix(obj.delta_rotation_quaternion)
-    if obj.rotation_mode == "AXIS_ANGLE":  # its delta has no place in Blender's interface and is not shown
+    if (
+        obj.rotation_mode == "AXIS_ANGLE"
+    ):  # its delta has no place in Blender's interface and is not shown
         return np.eye(3)
     return euler_matrix(np.array(obj.delta_rotation_euler), obj.rotation_mode)
 
@@ -116,14 +118,18 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
     _assign(obj, "location", channel_location, obj.lock_location, tolerance)
 
 
-def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
+def rotation_and_scale(
+    linear: NDArray, scale: NDArray
+) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
     """Return rotations and scales, signed as `scale`, of (..., 3, 3) maps, and a mask of maps without shear or zero."""
     length = np.linalg.norm(linear, axis=-2)
     sign = np.where(scale < 0.0, -1.0, 1.0)
     sign[..., 0] *= np.where(np.prod(sign, axis=-1) * np.linalg.det(linear) < 0.0, -1.0, 1.0)
     is_scaled = length.min(axis=-1) > 0.0
     with np.errstate(divide="ignore", invalid="ignore"):
-        unscaled = np.where(is_scaled[..., None, None], linear / (length * sign)[..., None, :], np.eye(3))
+        unscaled = np.where(
+            is_scaled[..., None, None], linear / (length * sign)[..., None, :], np.eye(3)
+        )
     u, _, vt = np.linalg.svd(unscaled)
     off = np.abs(unscaled.swapaxes(-1, -2) @ unscaled - np.eye(3)).max(axis=(-2, -1))
     return u @ vt, length * sign, is_scaled & (off <= MAX_SHEAR)
@@ -149,14 +155,20 @@ def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
             _assign(obj, "rotation_quaternion", q, locks)
             return
         angle = 2.0 * atan2(np.linalg.norm(q[1:]), q[0])
-        axis = q[1:] / np.linalg.norm(q[1:]) if angle > 1e-12 else np.array(obj.rotation_axis_angle[1:])
+        axis = (
+            q[1:] / np.linalg.norm(q[1:])
+            if angle > 1e-12
+            else np.array(obj.rotation_axis_angle[1:])
+        )
         _assign(obj, "rotation_axis_angle", np.array([angle, *axis]), locks)
         return
     near = np.array(obj.rotation_euler, np.float64)
     _assign(obj, "rotation_euler", euler_angles(rotation, mode, near), obj.lock_rotation)
 
 
-def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], tolerance: float = 1e-6) -> None:
+def _assign(
+    obj: Object, channel: str, value: NDArray, locks: Sequence[bool], tolerance: float = 1e-6
+) -> None:
     before = np.array(getattr(obj, channel), np.float64)
     moved = np.abs(value - before) > max(tolerance, 1e-6 * np.abs(before).max())
     if np.any(moved & np.array(locks, bool)) or (np.any(moved) and channel in driven_channels(obj)):

@@ -27,7 +27,9 @@ from .findings import BALANCE_GROUP_EMPTY_GROUP, BALANCE_GROUP_WITHOUT_CONTACTS,
 from .live.motion import Motion
 from .stored import balance_groups
 
-REACH = 0.01  # contact with the ground within this distance, relative to the contact objects' extent
+REACH = (
+    0.01  # contact with the ground within this distance, relative to the contact objects' extent
+)
 
 SUMS = (MemberKind.COLLECTION, MemberKind.EMPTY)
 
@@ -39,11 +41,19 @@ class BalanceGroup:
     Blender units for each frame so far. supports: a support for each frame, None if nothing touches the ground.
     """
 
-    def __init__(self, context: Context, collection: str, contacts: str, ground: float, reach: float):
-        self._context, self._ground, self._reach = context, ground, reach
+    def __init__(
+        self, context: Context, collection: str, contacts: str, ground: float, reach: float
+    ):
+        self._context = context
+        self._ground = ground
+        self._reach = reach
         self._assembly: Collection | None = None  # the collection, if its mass is given
         self.objects = self._members(collection)
-        self.feet = [obj for obj in _collection(contacts).all_objects if measurable(obj)] if contacts else []
+        self.feet = (
+            [obj for obj in _collection(contacts).all_objects if measurable(obj)]
+            if contacts
+            else []
+        )
         if contacts and not self.feet:
             raise EditRefusedError(BALANCE_GROUP_WITHOUT_CONTACTS, collection=contacts)
         self.centers: list[NDArray] = []
@@ -56,8 +66,14 @@ class BalanceGroup:
             depsgraph = context.evaluated_depsgraph_get()
             root = members_of(_collection(collection), depsgraph)
             objects: Iterable[Object] = counted(root)
-            given = [settings_of(member.data).mass_from == "MASS" for member in root.walk() if member.kind in SUMS]
-            self._assembly = root.data if any(given) else None  # it need not weigh as much as its objects
+            given = [
+                settings_of(member.data).mass_from == "MASS"
+                for member in root.walk()
+                if member.kind in SUMS
+            ]
+            self._assembly = (
+                root.data if any(given) else None
+            )  # it need not weigh as much as its objects
         else:
             objects = context.view_layer.objects.selected
             if context.mode == "POSE":
@@ -76,7 +92,8 @@ class BalanceGroup:
 
     def follow(self, scene: Scene, frames: Sequence[float]) -> Generator[int, None, None]:
         """Measure frame after frame, yield the number of finished frames, and restore the scene's frame at the end."""
-        before, subframe = scene.frame_current, scene.frame_subframe
+        before = scene.frame_current
+        subframe = scene.frame_subframe
         motion = Motion(len(frames))
         self._frames = frames
         try:
@@ -93,12 +110,15 @@ class BalanceGroup:
 
     def _add_frame(self, motion: Motion, depsgraph: Depsgraph) -> None:
         self.centers.append(self._center(motion, depsgraph))
-        gravity, touching = down(depsgraph.scene), np.zeros((0, 3))
+        gravity = down(depsgraph.scene)
+        touching = np.zeros((0, 3))
         if self.feet:
             points = np.concatenate([motion.hull_points(obj, depsgraph) for obj in self.feet])
             reach = self._reach or REACH * float(np.ptp(points, axis=0).max())
             _, touching, _ = find_contacts(points, np.eye(4), gravity, self._ground, reach)
-        self.supports.append(support_of_contacts(touching, self.centers[-1], gravity) if len(touching) else None)
+        self.supports.append(
+            support_of_contacts(touching, self.centers[-1], gravity) if len(touching) else None
+        )
 
     def _center(self, motion: Motion, depsgraph: Depsgraph) -> NDArray[np.float64]:
         """Return the common center at this frame, in Blender's units."""
@@ -106,7 +126,9 @@ class BalanceGroup:
             body = measure_assembly(self._assembly, depsgraph).measurement.mass_properties
             return body.center / shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         masses, centers = zip(*[motion.mass_and_center(obj, depsgraph) for obj in self.objects])
-        return centers[0] + np.einsum("i,ij->j", np.array(masses) / np.sum(masses), np.array(centers) - centers[0])
+        return centers[0] + np.einsum(
+            "i,ij->j", np.array(masses) / np.sum(masses), np.array(centers) - centers[0]
+        )
 
     def store(
         self,
@@ -115,18 +137,22 @@ class BalanceGroup:
         spans: Sequence[tuple[float, float, float, float]] = (),
     ) -> Object:
         """Store the path as keys of the group's empty, which is added if there is none, and return the empty."""
-        signals, centers = dict(signals or {}), np.array(self.centers)
+        signals = dict(signals or {})
+        centers = np.array(self.centers)
         if self.feet:
             stands = [support is not None and support.stands for support in self.supports]
             signals[balance_groups.INSIDE] = np.array(stands)
         empty = balance_groups.find(context.scene, self.objects)
         if empty is None:
             empty = bpy.data.objects.new("Balance", None)
-            empty.empty_display_type, empty.show_in_front = "SPHERE", True
+            empty.empty_display_type = "SPHERE"
+            empty.show_in_front = True
             empty.empty_display_size = 0.05 * float(np.ptp(centers, axis=0).max())
             empty[BALANCE_GROUP] = balance_groups.group_text(self.objects)
             context.scene.collection.objects.link(empty)
-        balance_groups.store(empty, np.array(self._frames, np.float64), centers, signals, self.supports, spans)
+        balance_groups.store(
+            empty, np.array(self._frames, np.float64), centers, signals, self.supports, spans
+        )
         context.view_layer.update()
         return empty
 

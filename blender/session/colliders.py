@@ -49,7 +49,12 @@ class Plan:
 
 
 def plan_colliders(
-    obj: Object, depsgraph: Depsgraph, wanted: Wanted, is_share: bool, correct: str, known: dict[str, Plan]
+    obj: Object,
+    depsgraph: Depsgraph,
+    wanted: Wanted,
+    is_share: bool,
+    correct: str,
+    known: dict[str, Plan],
 ) -> Generator[float, None, Plan]:
     """Plan the colliders of an object, in steps that yield the completed share; MeasureError if it cannot have any.
 
@@ -58,7 +63,8 @@ def plan_colliders(
     """
     require_storable_data(obj)
     measured = measure_body(obj, depsgraph, WITHOUT_AXES)
-    measurement, unit = measured.measurement, shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    measurement = measured.measurement
+    unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
     surface = _surface(obj, measured)
     stretch = scene.stretch_of(obj, measurement.rotation)
     if are_singular(stretch[None])[0]:
@@ -91,7 +97,8 @@ def plan_colliders(
 
 def _mesh_key(obj: Object, measured: Measured) -> str:
     """Return a key that is equal for objects with the same settings and meshes in the same places of their frames."""
-    measurement, parts = measured.measurement, []
+    measurement = measured.measurement
+    parts = []
     to_frame = Pose(measurement.location, measurement.rotation).inverse()
     for solid, matrices in getattr(measured.body, "solids", ()):
         linear = to_frame.rotation @ matrices[:, :3, :3]
@@ -126,17 +133,38 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
     made = []
     for plan in plans:
         if plan.key not in meshes:
-            meshes[plan.key] = [scene.collider_mesh(shape, plan.stretch, unit) for shape in plan.shapes]
+            meshes[plan.key] = [
+                scene.collider_mesh(shape, plan.stretch, unit) for shape in plan.shapes
+            ]
         made += scene.place_colliders(
-            *(context, plan.obj, earlier.get(plan.obj, ()), plan.shapes, meshes[plan.key], plan.stretch, unit, engine)
+            *(
+                context,
+                plan.obj,
+                earlier.get(plan.obj, ()),
+                plan.shapes,
+                meshes[plan.key],
+                plan.stretch,
+                unit,
+                engine,
+            )
         )
     context.view_layer.update()
     for plan in plans:
         staleness.note_edits(plan.obj)
-        marks = {"fingerprint": plan.fingerprint, "digest": colliders_digest(plan.obj), "engine": engine}
-        known = {key: one for key, one in plan.record.items() if None not in (one if isinstance(one, list) else [one])}
+        marks = {
+            "fingerprint": plan.fingerprint,
+            "digest": colliders_digest(plan.obj),
+            "engine": engine,
+        }
+        known = {
+            key: one
+            for key, one in plan.record.items()
+            if None not in (one if isinstance(one, list) else [one])
+        }
         plan.obj[COLLIDERS] = {**known, **marks}
-    fresh = [(plan.obj, stamp) for plan in plans if (stamp := stamps.of_colliders(plan.obj)) is not None]
+    fresh = [
+        (plan.obj, stamp) for plan in plans if (stamp := stamps.of_colliders(plan.obj)) is not None
+    ]
     staleness.mark_stamps(context, fresh)
     return made
 
@@ -149,20 +177,30 @@ def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
     by_body = scene.colliders_by_body(context.scene.objects)
     orphans = [obj for obj in objects if COLLIDER in obj and obj.parent is None]
     chosen = [obj for obj in objects if obj in by_body or COLLIDERS in obj]
-    scene.remove_colliders([*orphans, *(collider for obj in chosen for collider in by_body.get(obj, ()))])
+    scene.remove_colliders(
+        [*orphans, *(collider for obj in chosen for collider in by_body.get(obj, ()))]
+    )
     for obj in chosen:
         obj.pop(COLLIDERS, None)
     return len(chosen) + len(orphans)
 
 
-def collider_record(obj: Object, measurement: Measurement, context: Context) -> dict[str, Any] | None:
+def collider_record(
+    obj: Object, measurement: Measurement, context: Context
+) -> dict[str, Any] | None:
     """Return the effect of an object's colliders for its record, with the reason if it is out of date; else None."""
     stamp = stamps.of_colliders(obj)
     if stamp is None:
         return None
-    stored = {key: value.to_list() if hasattr(value, "to_list") else value for key, value in obj[COLLIDERS].items()}
+    stored = {
+        key: value.to_list() if hasattr(value, "to_list") else value
+        for key, value in obj[COLLIDERS].items()
+    }
     reason = staleness.stale_reason(obj, context.scene, stamps.of_colliders)
     if reason is None and stamps.Stamp.parse(measurement.fingerprint).geometry != stamp.geometry:
         reason = stamps.Stale.GEOMETRY
     shown = stored.keys() - {"fingerprint", "digest"}
-    return {**{key: stored[key] for key in stored if key in shown}, "out_of_date": reason and str(reason)}
+    return {
+        **{key: stored[key] for key in stored if key in shown},
+        "out_of_date": reason and str(reason),
+    }

@@ -77,11 +77,17 @@ def describe(
         If an object, a frame or an option does not exist, or an option has a wrong value.
     """
     if frame not in FRAMES:
-        raise ValueError("frame must be one of {}, not {!r}".format(", ".join(map(repr, FRAMES)), frame))
+        raise ValueError(
+            "frame must be one of {}, not {!r}".format(", ".join(map(repr, FRAMES)), frame)
+        )
     _check(options)
     chosen = _chosen(objects)
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    found = [pair for batch in measure_many(chosen, depsgraph, MeasureOptions(**options)) for pair in batch]
+    found = [
+        pair
+        for batch in measure_many(chosen, depsgraph, MeasureOptions(**options))
+        for pair in batch
+    ]
     if store:
         measured = [(obj, one) for obj, one in found if not isinstance(one, Exception)]
         refused = store_measured(bpy.context, measured)
@@ -94,12 +100,17 @@ def _check(options: dict[str, Any]) -> None:
     """Raise ValueError for an unknown option, and for a value that it cannot have."""
     for name, value in options.items():
         if name in WORDS:
-            is_right, expected = value in WORDS[name], "one of " + ", ".join(map(repr, WORDS[name]))
+            is_right = value in WORDS[name]
+            expected = "one of " + ", ".join(map(repr, WORDS[name]))
         elif name in QUANTITIES:
             is_right = isinstance(value, (int, float)) and 0.0 < value < inf
             expected = "a positive number in SI units"
         else:
-            raise ValueError("no option is called {!r}; there are {}".format(name, ", ".join((*WORDS, *QUANTITIES))))
+            raise ValueError(
+                "no option is called {!r}; there are {}".format(
+                    name, ", ".join((*WORDS, *QUANTITIES))
+                )
+            )
         if not is_right:
             raise ValueError("{} must be {}, not {!r}".format(name, expected, value))
 
@@ -115,19 +126,32 @@ def _chosen(objects: Object | str | Iterable[Object | str] | None) -> list[Objec
         name = one if isinstance(one, str) else one.name
         if name not in scene_objects:
             raise ValueError("no object of this view layer is called {!r}".format(name))
-        chosen[scene_objects[name] if isinstance(one, str) else one] = None  # a linked object may have the same name
+        chosen[scene_objects[name] if isinstance(one, str) else one] = (
+            None  # a linked object may have the same name
+        )
     return list(chosen)
 
 
 def _description(
-    obj: Object, found: Measured | Stacked | Exception, frame: str, is_stored: bool, is_overridden: bool
+    obj: Object,
+    found: Measured | Stacked | Exception,
+    frame: str,
+    is_stored: bool,
+    is_overridden: bool,
 ) -> dict[str, Any]:
     """Return the dictionary of one object. is_overridden: whether an option replaces its density or mass."""
     if isinstance(found, Exception):
-        entry: dict[str, Any] = {"name": obj.name, "verdict": "not measured", "numbers": None, "error_bound": None}
+        entry: dict[str, Any] = {
+            "name": obj.name,
+            "verdict": "not measured",
+            "numbers": None,
+            "error_bound": None,
+        }
         entry |= record.described([internal_error.finding_of(found)])
     else:
-        measurement = found.measurement if is_overridden else noted(obj, found.measurement, bpy.context.scene)
+        measurement = (
+            found.measurement if is_overridden else noted(obj, found.measurement, bpy.context.scene)
+        )
         entry = record.record(replace(measurement, name=obj.name), frame)
         entry["numbers"] = {name: entry[name] for name in NUMBERS}
     findings = [
@@ -153,4 +177,8 @@ def _description(
 
 def _call(remedy: str) -> str:
     """Return the call of a remedy, a key of REMEDIES or the idname of an operator."""
-    return "bpy.ops.{}(remedy={!r})".format(REPAIR, remedy) if remedy in REMEDIES else CALL.format(remedy)
+    return (
+        "bpy.ops.{}(remedy={!r})".format(REPAIR, remedy)
+        if remedy in REMEDIES
+        else CALL.format(remedy)
+    )

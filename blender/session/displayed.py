@@ -109,19 +109,26 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
     now = None if current is None else current.result
     if current is not None and now is not None and (measurement := now.measurement) is not None:
         own = live.live.map_properties(obj, current, measurement, scene)
-        method, findings, lag = measurement.method, measurement.findings, following.lag(obj)
+        method = measurement.method
+        findings = measurement.findings
+        lag = following.lag(obj)
         reason = stale_reason(obj, scene, following.stamp_of)
         is_behind = reason is not None or lag == Lag.BEHIND
     else:
         own = properties.stored(obj) if "body_mass" in obj else None
-        method, findings, lag = properties.method(obj), properties.findings(obj), Lag.NONE
+        method = properties.method(obj)
+        findings = properties.findings(obj)
+        lag = Lag.NONE
         reason = stale_reason(obj, scene)
-        is_behind, now = reason is not None, None
+        is_behind = reason is not None
+        now = None
     if own is None:
         return None
     verdict = Verdict.OUT_OF_DATE if is_behind else find_verdict(method, findings)
     unit = shortest_decimal(scene.unit_settings.scale_length)
-    return Displayed(own, own.in_world(obj.matrix_world, unit), unit, method, findings, verdict, reason, now, lag)
+    return Displayed(
+        own, own.in_world(obj.matrix_world, unit), unit, method, findings, verdict, reason, now, lag
+    )
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
@@ -133,7 +140,12 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
     """Return `drawn` of many objects, cached until Blender or the session reports a change of the object."""
     global _drawn_in
     settings = scene.body_moments
-    key = scene.session_uid, scene.unit_settings.scale_length, settings.default_material, settings.default_density
+    key = (
+        scene.session_uid,
+        scene.unit_settings.scale_length,
+        settings.default_material,
+        settings.default_density,
+    )
     if key != _drawn_in:
         _drawn.clear()
         _drawn_in = key
@@ -156,11 +168,17 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
         if before is not None and stamp is not None and has_transform(obj, stamp.transform):
             shown = before._replace(world=before.numbers.in_world(obj.matrix_world, before.unit))
         else:
-            shown = displayed(obj, scene) if "body_mass" in obj or obj in following.followed else None
+            shown = (
+                displayed(obj, scene) if "body_mass" in obj or obj in following.followed else None
+            )
     if shown is None or not shown.world.mass > 0.0:
         return None
     shows_others = obj.instance_type != "NONE" or len(obj.particle_systems)
-    depends = obj.type == "ARMATURE" or shown.method == ASSEMBLY or obj.body_moments.density_from in BY_OTHERS
+    depends = (
+        obj.type == "ARMATURE"
+        or shown.method == ASSEMBLY
+        or obj.body_moments.density_from in BY_OTHERS
+    )
     if not (shows_others or depends or shown.live is not None):
         _drawn[obj.session_uid] = shown
         _moved.discard(obj.session_uid)
@@ -185,12 +203,15 @@ def forget_drawn(data: ID | None = None) -> None:
 
 def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     """Return the numbers of an original armature's bone at the bone's current place, or None if there are none."""
-    armature, own = bone.id_data, properties.stored(bone)
+    armature = bone.id_data
+    own = properties.stored(bone)
     if own is None:
         return None
     unit = shortest_decimal(scene.unit_settings.scale_length)
     world = own.in_world(armature.matrix_world @ bone.matrix, unit)
-    method, findings, reason = properties.method(bone), properties.findings(armature), stale_reason(armature, scene)
+    method = properties.method(bone)
+    findings = properties.findings(armature)
+    reason = stale_reason(armature, scene)
     verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
     return Displayed(own, world, unit, method, findings, verdict, reason)
 
@@ -205,9 +226,14 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
     rest = properties.optional(armature, "body_mass")
     if rest is not None:  # posing stretches and squeezes the skin, and leaves the mass
         factor = rest / world.mass
-        inertia, moments = ([factor * value for value in entries] for entries in (world.inertia, world.moments))
+        inertia, moments = (
+            [factor * value for value in entries] for entries in (world.inertia, world.moments)
+        )
         world = world._replace(
-            mass=rest, density=factor * world.density, inertia=tuple(inertia), moments=tuple(moments)
+            mass=rest,
+            density=factor * world.density,
+            inertia=tuple(inertia),
+            moments=tuple(moments),
         )
     own = world.in_object(armature.matrix_world, unit)
     worst = max(known, key=lambda part: tuple(Verdict).index(part.verdict))
@@ -216,14 +242,17 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
 
 def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     """Return a character whose weight is shown, by its bones in the present pose; None for others."""
-    depsgraph, character = bpy.context.view_layer.depsgraph, loaded_module(live, "character")
+    depsgraph = bpy.context.view_layer.depsgraph
+    character = loaded_module(live, "character")
     if not armature.body_moments_weight.show or character is None or depsgraph is None:
         return None
     weight = character.weight(armature, depsgraph)
     if weight is None:
         return None
     unit = shortest_decimal(scene.unit_settings.scale_length)
-    method, findings, reason = properties.method(armature), properties.findings(armature), stale_reason(armature, scene)
+    method = properties.method(armature)
+    findings = properties.findings(armature)
+    reason = stale_reason(armature, scene)
     verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
     own = weight.body.in_object(armature.matrix_world, unit)
     return Displayed(own, weight.body, unit, method, findings, verdict, reason, is_posed=True)
@@ -252,7 +281,9 @@ def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
 
 def _sum(context: Context) -> Total:
     chosen = armatures.subjects(context.view_layer.objects.selected)
-    selected, parts, missing = set(chosen), {}, []
+    selected = set(chosen)
+    parts = {}
+    missing = []
     for obj in chosen:
         if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(_members(obj, selected)):
             continue  # its members count by themselves
@@ -276,7 +307,11 @@ def _sum(context: Context) -> Total:
             *read.assembly.total_caveats(parts, context.view_layer),
         ),
         max((shown.verdict for shown in parts.values()), key=tuple(Verdict).index, default=None),
-        tuple(grouped((obj.name_full, found) for obj, shown in parts.items() for found in shown.findings)),
+        tuple(
+            grouped(
+                (obj.name_full, found) for obj, shown in parts.items() for found in shown.findings
+            )
+        ),
     )
 
 
@@ -288,15 +323,24 @@ class SortBy(StrEnum):
     VERDICT = "VERDICT"  # the least trustworthy first
 
 
-_masses: SessionCache[tuple[tuple, dict[int, str]]] = SessionCache()  # by scene: the last query, and its answer
-_listings: SessionCache[tuple[tuple, Listing]] = SessionCache()  # by scene: the last query, and its answer
+_masses: SessionCache[tuple[tuple, dict[int, str]]] = (
+    SessionCache()
+)  # by scene: the last query, and its answer
+_listings: SessionCache[tuple[tuple, Listing]] = (
+    SessionCache()
+)  # by scene: the last query, and its answer
 
 
-def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
+def listing(
+    scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool
+) -> Listing:
     """Return two lists over a view layer's objects: whether each is listed, and its line, warnings first on request."""
     key = (handlers.generation(), view_layer.name, name, sort_by, warnings_first)
     return current_value(
-        _listings, scene, key, lambda: _listing(scene, view_layer, name.lower(), sort_by, warnings_first)
+        _listings,
+        scene,
+        key,
+        lambda: _listing(scene, view_layer, name.lower(), sort_by, warnings_first),
     )
 
 
@@ -306,17 +350,29 @@ def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
 
     def list_masses() -> dict[int, str]:
         objects = list(view_layer.objects)
-        masses = {obj: body.world.mass for obj, body in zip(objects, all_drawn(objects, scene)) if body is not None}
-        return dict(zip([obj.session_uid for obj in masses], units.texts("mass", list(masses.values()))))
+        masses = {
+            obj: body.world.mass
+            for obj, body in zip(objects, all_drawn(objects, scene))
+            if body is not None
+        }
+        return dict(
+            zip([obj.session_uid for obj in masses], units.texts("mass", list(masses.values())))
+        )
 
-    return current_value(_masses, scene, (handlers.generation(), view_layer.name, units), list_masses)
+    return current_value(
+        _masses, scene, (handlers.generation(), view_layer.name, units), list_masses
+    )
 
 
-def _listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
+def _listing(
+    scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool
+) -> Listing:
     objects = list(view_layer.objects)
     all_bodies = zip(objects, all_drawn(objects, scene))
     bodies = [body if name in obj.name.lower() else None for obj, body in all_bodies]
-    order = sorted(range(len(objects)), key=lambda i: _rank(objects[i], bodies[i], sort_by, warnings_first))
+    order = sorted(
+        range(len(objects)), key=lambda i: _rank(objects[i], bodies[i], sort_by, warnings_first)
+    )
     lines = [0] * len(objects)
     for line, i in enumerate(order):
         lines[i] = line

@@ -29,7 +29,9 @@ NUDGE = 1e-3
 REACHED = 1e-5  # distance from the target
 STAYED = 5e-5  # move of a contact
 SLIP = 0.05  # contacts that move this far with a bone, relative to its or the center's move, hang on it
-LEAST_SHIFT, LEAST_TURN = 0.05, 0.02  # moves of the center that are smaller, by a bone's move or turn, are no use
+# moves of the center that are smaller, by a bone's move or turn, are no use
+LEAST_SHIFT = 0.05
+LEAST_TURN = 0.02
 FARTHEST = 1.0  # moves and, in radians, turns of a bone
 TORN = 0.05  # share of the mass above a bone that its location may leave behind
 MAX_TRIALS = 60
@@ -38,7 +40,9 @@ UNMOVABLE = (
     "No bone that may move leaves the contacts in place. Unlock the hips, remove drivers, give the legs inverse "
     "kinematics, or choose another bone."
 )
-TOO_FAR = "“{bone}” cannot bring the center nearer than {gap:length} to its target. Choose another bone."
+TOO_FAR = (
+    "“{bone}” cannot bring the center nearer than {gap:length} to its target. Choose another bone."
+)
 STRETCHED = "Balancing with “{bone}” would move the contacts by {slip:length}. Lower the hips, or choose another bone."
 IN_AIR = "Nothing touches the ground: the lowest point is {height:length} above it. Lower the pose, or set Ground."
 NO_CONTACT = "No mesh of “{armature}” can touch the ground. Show its meshes, or turn off Contact of bones without any."
@@ -50,7 +54,11 @@ class _Handle:
     def __init__(self, bone: PoseBone, turns: bool):
         self.bone, self.turns = bone, turns
         mode = bone.rotation_mode.lower()
-        self.channel = "rotation_{:s}".format(mode if mode == "quaternion" else "euler") if turns else "location"
+        self.channel = (
+            "rotation_{:s}".format(mode if mode == "quaternion" else "euler")
+            if turns
+            else "location"
+        )
         self.start = getattr(bone, self.channel).copy()
         locks = bone.lock_rotation if turns else bone.lock_location
         self.free = [axis for axis in range(3) if not locks[axis]]
@@ -63,7 +71,11 @@ class _Handle:
             turn = Vector(change)
             self.bone.rotation_quaternion = self.start @ Quaternion(turn, turn.length)
         else:
-            setattr(self.bone, self.channel, [value + float(add) for value, add in zip(self.start, change)])
+            setattr(
+                self.bone,
+                self.channel,
+                [value + float(add) for value, add in zip(self.start, change)],
+            )
 
 
 class _Search:
@@ -72,18 +84,30 @@ class _Search:
     noise: float32 rounding of places in the world, which inverse kinematics see. failure: of the first suitable bone.
     """
 
-    def __init__(self, context: Context, armature: Object, known: Character, weight: Weight, margin: float | None):
+    def __init__(
+        self,
+        context: Context,
+        armature: Object,
+        known: Character,
+        weight: Weight,
+        margin: float | None,
+    ):
         assert weight.support is not None
-        self.context, self.armature, self.known = context, armature, known
+        self.context = context
+        self.armature = armature
+        self.known = known
         self.unit = shortest_decimal(context.scene.unit_settings.scale_length)
         self.failure = Refused(UNMOVABLE)
         self.axes = ground_axes(-weight.support.up)
         self.target = weight.support.target(margin)
         is_carried = weight.contacts.bones >= 0
-        self.bones, self.points = weight.contacts.bones[is_carried], weight.contacts.points[is_carried]
+        self.bones = weight.contacts.bones[is_carried]
+        self.points = weight.contacts.points[is_carried]
         matrices = bone_matrices(armature, context.evaluated_depsgraph_get())[self.bones]
         self.noise = float(np.finfo(np.float32).eps * np.abs(weight.contacts.points).max())
-        self.local = np.linalg.solve(matrices[:, :3, :3], (self.points - matrices[:, :3, 3])[:, :, None])
+        self.local = np.linalg.solve(
+            matrices[:, :3, :3], (self.points - matrices[:, :3, 3])[:, :, None]
+        )
 
     def gap(self, center: NDArray) -> NDArray[np.float64]:
         """Return the (2,) displacement along the ground from a center to the target."""
@@ -104,10 +128,15 @@ class _Search:
     def balance(self, handle: _Handle) -> bool:
         """Move the bone and return True, or if that is impossible, leave it and return False."""
         center, head, _ = self.look(handle, np.zeros(3))
-        size, up = self.known.size, self.axes[:, 2]
-        nudge, reached = max(NUDGE * size, 10.0 * self.noise), REACHED * size + self.noise
+        size = self.known.size
+        up = self.axes[:, 2]
+        nudge = max(NUDGE * size, 10.0 * self.noise)
+        reached = REACHED * size + self.noise
         scale = size if handle.turns else max(map(abs, self.armature.matrix_world.to_scale()))
-        units, shifts, moves = [], [], []  # of usable channels, and how they move the center and the bone
+        # of usable channels, and how they move the center and the bone
+        units = []
+        shifts = []
+        moves = []
         for axis, sign in ((axis, sign) for axis in handle.free for sign in (1.0, -1.0)):
             unit = sign * np.eye(3)[axis]
             shown, moved, slip = self.look(handle, nudge / scale * unit)
@@ -123,11 +152,20 @@ class _Search:
                 units.append(unit)
                 shifts.append((shown - center) / nudge)
                 moves.append(move / nudge)
-        least, tolerance = LEAST_TURN if handle.turns else LEAST_SHIFT, STAYED * size + self.noise
+        least = LEAST_TURN if handle.turns else LEAST_SHIFT
+        tolerance = STAYED * size + self.noise
         if len(units) > 1 and np.linalg.svd(np.array(shifts) @ self.axes[:, :2])[1][-1] >= least:
-            inverse = np.linalg.inv(np.linalg.qr(np.transpose(moves))[1])  # from moves of the bone to changes
-            rows = [*self.axes[:, :2].T @ np.transpose(shifts), *([] if handle.turns else [up @ np.transpose(moves)])]
-            solve, change, gap, slip = inverse @ np.linalg.pinv(rows @ inverse), np.zeros(len(units)), np.inf, np.inf
+            inverse = np.linalg.inv(
+                np.linalg.qr(np.transpose(moves))[1]
+            )  # from moves of the bone to changes
+            rows = [
+                *self.axes[:, :2].T @ np.transpose(shifts),
+                *([] if handle.turns else [up @ np.transpose(moves)]),
+            ]
+            solve = inverse @ np.linalg.pinv(rows @ inverse)
+            change = np.zeros(len(units))
+            gap = np.inf
+            slip = np.inf
             for _ in range(MAX_TRIALS):
                 center, moved, slip = self.look(handle, change @ units / scale)
                 missing = [*self.gap(center), *([] if handle.turns else [up @ (head - moved)])]
@@ -139,13 +177,19 @@ class _Search:
                 change = solve @ (np.array(rows) @ change + missing)
                 change *= min(1.0, FARTHEST * size / max(np.linalg.norm(change), size))
             if self.failure.text == UNMOVABLE:
-                values = {"bone": handle.bone.name, "gap": gap * self.unit, "slip": slip * self.unit}
+                values = {
+                    "bone": handle.bone.name,
+                    "gap": gap * self.unit,
+                    "slip": slip * self.unit,
+                }
                 self.failure = Refused(TOO_FAR if slip <= tolerance else STRETCHED, **values)
         setattr(handle.bone, handle.channel, handle.start)
         return False
 
 
-def balance_pose(context: Context, armature: Object, name: str, margin: float | None) -> dict[str, str | float]:
+def balance_pose(
+    context: Context, armature: Object, name: str, margin: float | None
+) -> dict[str, str | float]:
     """Move a bone of a posed character so that it is balanced, or leave it and raise Refused or MeasureError.
 
     name: of the bone, "" for the active bone or another suitable one. margin: in Blender's units, None for the middle.
@@ -156,7 +200,8 @@ def balance_pose(context: Context, armature: Object, name: str, margin: float | 
     if name and name not in armature.pose.bones:
         raise EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
     character.prepare(context, armature)
-    weight, known = character.weight(armature, context.evaluated_depsgraph_get()), character.character(armature, unit)
+    weight = character.weight(armature, context.evaluated_depsgraph_get())
+    known = character.character(armature, unit)
     assert weight is not None and known is not None
     if weight.contacts.height is None:
         raise Refused(NO_CONTACT, armature=armature.name)
@@ -182,12 +227,16 @@ def balance_pose(context: Context, armature: Object, name: str, margin: float | 
 
 def _handles(context: Context, armature: Object, known: Character, name: str) -> Iterator[_Handle]:
     """Yield the channels to try from the root on: locations of bones that no heavy part is above, then rotations."""
-    chosen, masses = context.active_pose_bone, dict(zip(known.names, known.masses))
+    chosen = context.active_pose_bone
+    masses = dict(zip(known.names, known.masses))
     bones = [bone for bone in context.visible_pose_bones or () if bone.id_data == armature]
     bones.sort(key=lambda bone: (bone != chosen, len(bone.parent_recursive)))
     bones = [armature.pose.bones[name]] if name else bones
     for bone in bones:
-        if sum(masses.get(above.name, 0.0) for above in bone.parent_recursive) <= TORN * known.masses.sum():
+        if (
+            sum(masses.get(above.name, 0.0) for above in bone.parent_recursive)
+            <= TORN * known.masses.sum()
+        ):
             yield _Handle(bone, turns=False)
     for bone in bones:
         yield _Handle(bone, turns=True)

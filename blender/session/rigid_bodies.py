@@ -25,7 +25,13 @@ from ..scene import reframe
 from ..scene.changes import require_storable_data
 from ..scene.colliders import colliders_by_body
 from ..scene.findings import OPEN_OBJECT, RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
-from ..scene.rigid_world import MIN_MASS, add_joint, add_rigid_bodies, remove_joint, require_rigid_world
+from ..scene.rigid_world import (
+    MIN_MASS,
+    add_joint,
+    add_rigid_bodies,
+    remove_joint,
+    require_rigid_world,
+)
 from ..scene.snap_targets import POSE, SnapTarget, matrix_along_axes, matrix_at_center
 from ..settings.given import COLLIDER
 from ..write import reports
@@ -86,7 +92,9 @@ def make_rigid_bodies(
         new = _add(context, measured, type, shape)
         calculated = _calculated_masses(context, measured)
         for obj in new:
-            obj.rigid_body.mesh_source = "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
+            obj.rigid_body.mesh_source = (
+                "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
+            )
         for obj, one in measured.items():
             obj.rigid_body.mass = one.target.mass
         store_measured(context, [part for one in measured.values() for part in one.parts])
@@ -100,8 +108,11 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
         return failures
     move_only = frame == "ORIGIN"
     frame_of = matrix_at_center if move_only else matrix_along_axes
-    for _ in range(1 if move_only else 2):  # a new scale may cut faces that are not flat into other triangles
-        plans, joints = [], {}
+    for _ in range(
+        1 if move_only else 2
+    ):  # a new scale may cut faces that are not flat into other triangles
+        plans = []
+        joints = {}
         for obj, one in list(measured.items()):
             target = frame_of(obj, one.target)
             if target is None:
@@ -140,7 +151,9 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
     new = [obj for obj in parts if obj.rigid_body is None]
     add_rigid_bodies(context, [*new, *(obj for obj in added if obj.rigid_body is None)], type)
     for collider in added:
-        collider.rigid_body.collision_shape = COLLISION_SHAPES.get(collider[COLLIDER]["kind"], "CONVEX_HULL")
+        collider.rigid_body.collision_shape = COLLISION_SHAPES.get(
+            collider[COLLIDER]["kind"], "CONVEX_HULL"
+        )
     fresh = set(new)
     for one in measured.values():
         inner = {part.parent for part in one.body.members}
@@ -167,13 +180,17 @@ def _bodies(objects: Sequence[Object]) -> list[Body]:
     return [Body(obj, tuple(below)) for obj, below in members.items()]
 
 
-def _measure_in_turn(context: Context, bodies: Iterable[Body]) -> Callable[[Object], MeasuredBody | Stacked]:
+def _measure_in_turn(
+    context: Context, bodies: Iterable[Body]
+) -> Callable[[Object], MeasuredBody | Stacked]:
     """Return a function that measures the objects of the bodies, one at a time and in order."""
     parts = [part for body in bodies for part in (body.obj, *body.members)]
     return measured_in_turn(parts, context.evaluated_depsgraph_get(), POSE)
 
 
-def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody | Stacked]) -> Measured:
+def _measured(
+    context: Context, body: Body, ask: Callable[[Object], MeasuredBody | Stacked]
+) -> Measured:
     """Measure a body as it is now; raise EditRefusedError if it cannot be a rigid body."""
     require_rigid_world(context.scene, joints=body.obj.rigid_body_constraint is not None)
     parts = [(body.obj, _measured_part(body.obj, ask))]
@@ -195,7 +212,9 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody
     return Measured(body, target, whole.mass / volume, tuple(parts))
 
 
-def _measured_part(part: Object, ask: Callable[[Object], MeasuredBody | Stacked]) -> MeasuredBody | Stacked:
+def _measured_part(
+    part: Object, ask: Callable[[Object], MeasuredBody | Stacked]
+) -> MeasuredBody | Stacked:
     """Measure a part of a body as it is now; raise EditRefusedError if it cannot belong to a rigid body."""
     require_storable_data(part)
     if part.type != "MESH":
@@ -226,10 +245,12 @@ def _joint_in_place(context: Context, obj: Object) -> Object | None:
         collection.objects.link(empty)
     location, turn, _scale = obj.matrix_world.decompose()
     empty.rotation_mode = "QUATERNION"
-    empty.location, empty.rotation_quaternion = location, turn
+    empty.location = location
+    empty.rotation_quaternion = turn
     copy = add_joint(context, empty, joint.type)
     for prop in joint.bl_rna.properties:
         if not prop.is_readonly:
             setattr(copy, prop.identifier, getattr(joint, prop.identifier))
-    empty.parent, empty.matrix_parent_inverse = obj, obj.matrix_world.inverted()
+    empty.parent = obj
+    empty.matrix_parent_inverse = obj.matrix_world.inverted()
     return empty

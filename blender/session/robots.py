@@ -24,7 +24,13 @@ from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, fin
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.rig import measure_rig
 from ..bodies.stacks.many import measured_in_turn
-from ..read.joints import bone_freedom, bone_parents, constraint_connections, is_passive, joint_values
+from ..read.joints import (
+    bone_freedom,
+    bone_parents,
+    constraint_connections,
+    is_passive,
+    joint_values,
+)
 from ..read.objects import read_object
 from ..read.visibility import measurable
 from ..scene.colliders import colliders_by_body, read_colliders
@@ -57,8 +63,13 @@ class SceneLinks:
                 location, turn, _scale = obj.matrix_world.decompose()
                 frame = Pose(np.array(location, np.float64) * self.unit, rotation_matrix(turn))
                 shapes = read_colliders(by_body.get(obj, ()), frame.rotation, self.unit)
-                is_own = np.array_equal(frame.rotation, link.pose.rotation) and len(self.members[link.name]) == 1
-                to_link = Pose() if is_own else link.pose.inverse() @ frame  # equal frames without rounding
+                is_own = (
+                    np.array_equal(frame.rotation, link.pose.rotation)
+                    and len(self.members[link.name]) == 1
+                )
+                to_link = (
+                    Pose() if is_own else link.pose.inverse() @ frame
+                )  # equal frames without rounding
                 placed += [replace(shape, pose=to_link @ shape.pose) for shape in shapes]
             return placed
 
@@ -74,7 +85,8 @@ class SceneLinks:
         return join_surfaces(
             [
                 surface.transform(
-                    to_link.rotation @ matrix[:3, :3], to_link.rotation @ matrix[:3, 3] + to_link.position
+                    to_link.rotation @ matrix[:3, :3],
+                    to_link.rotation @ matrix[:3, 3] + to_link.position,
                 )
                 for surface, matrix in self.pieces[label]
             ]
@@ -92,7 +104,11 @@ def candidates(context: Context, collection: str, selected: bool) -> list[Object
 
 
 def jointed_robot(
-    context: Context, name: str, made: Sequence[Candidate], labels: Mapping[Object, str], unit: float
+    context: Context,
+    name: str,
+    made: Sequence[Candidate],
+    labels: Mapping[Object, str],
+    unit: float,
 ) -> tuple[Robot, list[Finding]]:
     """Return a robot of candidates with the joints of the scene's rigid-body constraints, and findings."""
     connections, bases, findings = constraint_connections(context.scene, labels, unit)
@@ -101,13 +117,17 @@ def jointed_robot(
 
 
 def object_links(
-    context: Context, name: str, objects: list[Object], step: Callable[[float], None] = lambda done: None
+    context: Context,
+    name: str,
+    objects: list[Object],
+    step: Callable[[float], None] = lambda done: None,
 ) -> SceneLinks:
     """Return a robot with a link for each measurable object; a finding names the others. step: gets finished counts."""
     depsgraph = context.evaluated_depsgraph_get()
     chosen = [obj for obj in objects if measurable(obj)]
     measured: dict[Object, Measurement] = {}
-    in_turn, failures = measured_in_turn(chosen, depsgraph), []
+    in_turn = measured_in_turn(chosen, depsgraph)
+    failures = []
     for done, obj in enumerate(chosen, 1):
         try:
             measured[obj] = in_turn(obj).measurement
@@ -117,7 +137,10 @@ def object_links(
     if not measured:
         raise EditRefusedError(failures[0] if failures else finding(ROBOT_WITHOUT_LINKS))
     labels = {obj: obj.name_full for obj in measured}
-    made = [object_candidate(labels[obj], obj, measurement, labels) for obj, measurement in measured.items()]
+    made = [
+        object_candidate(labels[obj], obj, measurement, labels)
+        for obj, measurement in measured.items()
+    ]
     unit = AS_SET.meters_per_unit(context.scene)
     robot, findings = jointed_robot(context, name, made, labels, unit)
     members = {label: [obj] for obj, label in labels.items()}
@@ -125,11 +148,18 @@ def object_links(
 
 
 def collection_links(
-    context: Context, name: str, root: Collection, objects: list[Object], options: MeasureOptions = AS_SET
+    context: Context,
+    name: str,
+    root: Collection,
+    objects: list[Object],
+    options: MeasureOptions = AS_SET,
 ) -> SceneLinks:
     """Return a robot with a link along the world's axes for each child collection of `root`, or for `root` alone."""
     depsgraph = context.evaluated_depsgraph_get()
-    made, failures, members, labels = [], [], {}, {}
+    made = []
+    failures = []
+    members = {}
+    labels = {}
     collections = list(root.children) or [root]
     for collection in collections:
         label = collection.name_full
@@ -149,9 +179,14 @@ def collection_links(
     return SceneLinks(robot, [*findings, *left_out(failures, len(collections))], unit, members)
 
 
-def bone_links(context: Context, name: str, objects: list[Object], options: MeasureOptions = AS_SET) -> SceneLinks:
+def bone_links(
+    context: Context, name: str, objects: list[Object], options: MeasureOptions = AS_SET
+) -> SceneLinks:
     """Return a robot with a link in rest frame for each bone that has a part; joints have the limits of the bones."""
-    made, connections, findings, pieces = [], [], [], {}
+    made = []
+    connections = []
+    findings = []
+    pieces = {}
     unit = options.meters_per_unit(context.scene)
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]
     for armature in armatures:
@@ -166,14 +201,17 @@ def bone_links(context: Context, name: str, objects: list[Object], options: Meas
         for part in rig.parts:
             if part.measurement is None:
                 continue
-            bone, label = armature.pose.bones[part.name], labels[part.name]
+            bone = armature.pose.bones[part.name]
+            label = labels[part.name]
             parents = bone_parents(bone, labels)
             values, mimic, unusable = joint_values(bone)
             findings += unusable
             free = bone_freedom(bone, values, unit)
             made.append(make_candidate(label, part.measurement))
             if parents:
-                connections.append(Connection("{}_joint".format(label), parents[0], label, None, free, mimic))
+                connections.append(
+                    Connection("{}_joint".format(label), parents[0], label, None, free, mimic)
+                )
             pieces[label] = part.surfaces
     if not made:
         raise EditRefusedError(ROBOT_WITHOUT_LINKS)
@@ -195,16 +233,22 @@ def object_candidate(
     """Return a measured object as a possible link, with the labels of its parents; `obj` is None for instances."""
     if obj is None:
         return make_candidate(label, measurement)
-    parents, above = [], obj.parent
+    parents = []
+    above = obj.parent
     while above is not None:
         parents += [labels[above]] if above in labels else []
         above = above.parent
-    return make_candidate(label, measurement, parents, obj.matrix_world.to_scale(), is_fixed=is_passive(obj))
+    return make_candidate(
+        label, measurement, parents, obj.matrix_world.to_scale(), is_fixed=is_passive(obj)
+    )
 
 
-def link_surface(objects: Iterable[Object], depsgraph: Depsgraph, pose: Pose, unit: float) -> Surface | None:
+def link_surface(
+    objects: Iterable[Object], depsgraph: Depsgraph, pose: Pose, unit: float
+) -> Surface | None:
     """Return the surface of a link's objects as triangles in m, in the link's frame; None without visible faces."""
-    pieces, to_link = [], pose.inverse()
+    pieces = []
+    to_link = pose.inverse()
     for obj in objects:
         try:
             surface = read_object(obj, depsgraph, edges=False).join()
@@ -228,7 +272,8 @@ USD_ROOT = "root"  # Blender's exporter puts everything under it
 
 def usd_path(obj: Object, identifier: Callable[[str], str]) -> list[str]:
     """Return the names of the prims from the root to an object's; `identifier` converts names as the exporter does."""
-    names, above = [], obj
+    names = []
+    above = obj
     while above is not None:
         names.append(identifier(above.name))
         above = above.parent

@@ -45,7 +45,9 @@ class SimilarSearch:
     def __init__(self, obj: Object, depsgraph: Depsgraph):
         self._obj, self._depsgraph = obj, depsgraph
         self._objects: dict[Entry, Object] = {}
-        self._mirror_images: dict[Entry, bool | None] = {}  # None if the surfaces leave it open, too
+        self._mirror_images: dict[
+            Entry, bool | None
+        ] = {}  # None if the surfaces leave it open, too
 
     def measure(self) -> Iterator[float]:
         """Measure the wanted object, in steps. Raises MeasureError if it has no signature."""
@@ -53,9 +55,13 @@ class SimilarSearch:
         yield 0.0
         self.wanted = self._shape.signature(DESCRIPTOR_ORDER)
 
-    def comparison(self, objects: Sequence[Object]) -> Callable[[Object], Generator[float, None, None]]:
+    def comparison(
+        self, objects: Sequence[Object]
+    ) -> Callable[[Object], Generator[float, None, None]]:
         """Return a function that compares one of the objects with the wanted object and yields the finished share."""
-        wanted_shape, skin, depsgraph = self._shape, None, self._depsgraph
+        wanted_shape = self._shape
+        skin = None
+        depsgraph = self._depsgraph
         flat = isinstance(wanted_shape, FlatShape)
         if flat:
             of_body = partial(surface_shape_of, depsgraph=depsgraph)
@@ -76,9 +82,13 @@ class SimilarSearch:
                     shape = surface_shape_of(obj, depsgraph)
                 skin_compared = distance_from(shape)
                 yield 0.9
-                match = register_surfaces(shape, wanted_shape, skin_compared, skin, 1.0 / likeness.scale)
+                match = register_surfaces(
+                    shape, wanted_shape, skin_compared, skin, 1.0 / likeness.scale
+                )
                 is_copy = match.max_distance <= MAX_FIT_RTOL * wanted_shape.size
-                self._mirror_images[entry] = False if is_copy else True if match.is_mirror_image else None
+                self._mirror_images[entry] = (
+                    False if is_copy else True if match.is_mirror_image else None
+                )
             self._objects[entry] = obj
 
         return compare
@@ -92,7 +102,9 @@ class SimilarSearch:
             matches.append(_match(entry, likeness, scaled, mirrored, self._objects[entry]))
         return matches
 
-    def find_in_library(self, path: Path, scaled: bool, mirrored: bool) -> tuple[list[Match], list[Finding]]:
+    def find_in_library(
+        self, path: Path, scaled: bool, mirrored: bool
+    ) -> tuple[list[Match], list[Finding]]:
         """Return the bodies of a library, the most similar first, and findings about records that are left out."""
         entries, missing = read_library(path)
         for _ in self.measure():
@@ -101,6 +113,9 @@ class SimilarSearch:
         return [_match(entry, likeness, scaled, mirrored) for entry, likeness in ranked], missing
 
 
-def _match(entry: Entry, likeness: Likeness, scaled: bool, mirrored: bool, obj: Object | None = None) -> Match:
-    verdict, distance = classify(likeness).value, likeness.distance(scaled, mirrored)
+def _match(
+    entry: Entry, likeness: Likeness, scaled: bool, mirrored: bool, obj: Object | None = None
+) -> Match:
+    verdict = classify(likeness).value
+    distance = likeness.distance(scaled, mirrored)
     return Match(entry.name, entry.file, verdict, distance, likeness.scale, obj)

@@ -27,7 +27,9 @@ CENTER = MeasureOptions(axes=False)
 
 
 def remeasure(
-    context: Context, objects: Sequence[Object], known: Mapping[Object, Measured | Stacked] | None = None
+    context: Context,
+    objects: Sequence[Object],
+    known: Mapping[Object, Measured | Stacked] | None = None,
 ) -> None:
     """Measure and store results anew after objects have moved; known: measurements of those that have not."""
     known = known or {}
@@ -38,7 +40,9 @@ def remeasure(
     unknown = [obj for obj in stored if obj not in known]
     for together in measure_many(unknown, context.evaluated_depsgraph_get(), POSE):
         for obj, outcome in together:
-            if isinstance(outcome, Exception):  # stored results stay, and the panel shows that they are out of date
+            if isinstance(
+                outcome, Exception
+            ):  # stored results stay, and the panel shows that they are out of date
                 internal_error.finding_of(outcome)
             else:
                 measured.append((obj, outcome))
@@ -61,7 +65,9 @@ def reframe_objects(
         """Return plans and refusals; measurements of unchanged objects with stored results go to `right`."""
         plans: list[reframe.Plan] = []
         failures: list[Finding] = []
-        measured = measured_in_turn(chosen, context.evaluated_depsgraph_get(), CENTER if move_only else POSE)
+        measured = measured_in_turn(
+            chosen, context.evaluated_depsgraph_get(), CENTER if move_only else POSE
+        )
         with reports.progress(len(chosen)) as step:
             for done, obj in enumerate(chosen, 1):
                 try:
@@ -85,7 +91,9 @@ def reframe_objects(
         with tracking_paused(), reports.progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)
             failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
-            if not move_only:  # a new scale may change the triangles of faces that are not flat: another body
+            if (
+                not move_only
+            ):  # a new scale may change the triangles of faces that are not flat: another body
                 reframe.reframe(context, plans_of([plan.obj for plan in changed], known)[0])
         remeasure(context, [plan.obj for plan in changed], known)
     if not move_only:

@@ -31,8 +31,14 @@ SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
     (hooks.on_change, updates.note_setting),
     (hooks.on_part_change, lambda settings, _context: handlers.count_change(settings.id_data)),
     # the engine is loaded by the first change
-    (hooks.on_density_change, lambda settings, context: stored.density.on_density(settings, context)),
-    (hooks.on_default_density_change, lambda settings, context: stored.density.on_default_density(settings, context)),
+    (
+        hooks.on_density_change,
+        lambda settings, context: stored.density.on_density(settings, context),
+    ),
+    (
+        hooks.on_default_density_change,
+        lambda settings, context: stored.density.on_default_density(settings, context),
+    ),
 )
 
 
@@ -45,7 +51,12 @@ def register() -> None:
 def unregister() -> None:
     """Write the notes of edits, because the file may outlive the add-on; then drop them and all subscriptions."""
     staleness.write_notes()
-    for forget in (updates.forget_file, staleness.forget_file, outcome.forget, displayed.forget_drawn):
+    for forget in (
+        updates.forget_file,
+        staleness.forget_file,
+        outcome.forget,
+        displayed.forget_drawn,
+    ):
         forget()
     for subscribers in (*handlers.LISTS, *hooks.LISTS):
         subscribers.clear()

@@ -8,7 +8,13 @@ An assembly is a collection, or an empty with its children; the rows of its tree
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Collection, Context, Object, PoseBone, PropertyGroup
 
-from .given import GivenPartProperties, choice_property, density_property, mass_property, shows_collection
+from .given import (
+    GivenPartProperties,
+    choice_property,
+    density_property,
+    mass_property,
+    shows_collection,
+)
 from .hooks import part_changed
 
 Root = Object | Collection
@@ -22,7 +28,11 @@ class BodyMomentsAssemblyRow(PropertyGroup):
         "Member",
         "What the member is",
         ("COLLECTION", "Collection", "All members of a collection"),
-        ("INSTANCE", "Instance", "An instance of a collection whose members have densities of their own"),
+        (
+            "INSTANCE",
+            "Instance",
+            "An instance of a collection whose members have densities of their own",
+        ),
         ("EMPTY", "Empty", "All children of an empty"),
         ("OBJECT", "Object", "An object"),
         ("POINT", "Point Mass", "An empty with a given mass"),
@@ -31,7 +41,9 @@ class BodyMomentsAssemblyRow(PropertyGroup):
     is_open: BoolProperty(name="Open", description="Show the members of this one", default=True)
     mass: FloatProperty(name="Mass", description="Mass in kg", precision=6)
     share: FloatProperty(name="Share", description="Mass by the mass of the assembly")
-    findings: StringProperty(name="Findings", description="Why it is not counted, and what was noticed, as JSON")
+    findings: StringProperty(
+        name="Findings", description="Why it is not counted, and what was noticed, as JSON"
+    )
 
 
 class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
@@ -41,17 +53,30 @@ class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
         "Specify",
         "Whether the mass is the sum of the members or given, as of a bought part",
         ("MEMBERS", "Members", "Add up the members"),
-        ("MASS", "Mass", "Enter the mass of the whole; the members give its center and inertia unless entered"),
+        (
+            "MASS",
+            "Mass",
+            "Enter the mass of the whole; the members give its center and inertia unless entered",
+        ),
         update=part_changed,
     )
-    mass: mass_property("Mass of the whole in kilograms, independent of the scene units", part_changed)
+    mass: mass_property(
+        "Mass of the whole in kilograms, independent of the scene units", part_changed
+    )
     rows: CollectionProperty(name="Members", type=BodyMomentsAssemblyRow)
-    active_row: IntProperty(name="Active Member", description="Member that is highlighted in the tree")
+    active_row: IntProperty(
+        name="Active Member", description="Member that is highlighted in the tree"
+    )
 
 
 def is_assembly(data: Root) -> bool:
     """Return whether `data` is a collection, or an empty that is measured with its children."""
-    return isinstance(data, Collection) or data.type == "EMPTY" and not shows_collection(data) and bool(data.children)
+    return (
+        isinstance(data, Collection)
+        or data.type == "EMPTY"
+        and not shows_collection(data)
+        and bool(data.children)
+    )
 
 
 def active_assembly(context: Context) -> Root:
@@ -75,14 +100,21 @@ class BodyMomentsBoneSettings(PropertyGroup):
         "Specify",
         "Where the mass of the bone's part comes from",
         ("MESH", "Mesh", "The density of each mesh that the part is of"),
-        ("DENSITY", "Density", "A density for what is skinned to the bone; objects parented to it keep theirs"),
+        (
+            "DENSITY",
+            "Density",
+            "A density for what is skinned to the bone; objects parented to it keep theirs",
+        ),
         ("MASS", "Mass", "The mass of the bone's whole part"),
         update=part_changed,
     )
     density: density_property(
-        "Density in kg/m³ of what is skinned to the bone, independent of the scene units", part_changed
+        "Density in kg/m³ of what is skinned to the bone, independent of the scene units",
+        part_changed,
     )
-    mass: mass_property("Mass of the bone's part in kilograms, independent of the scene units", part_changed)
+    mass: mass_property(
+        "Mass of the bone's part in kilograms, independent of the scene units", part_changed
+    )
     is_contact: BoolProperty(
         name="Contact",
         description="Only such bones touch the ground. If no bone of the armature is one, every bone may",

@@ -63,7 +63,10 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
     if settings.density_from == "POLYNOMIAL":
         text = settings.density_polynomial.strip()
         return DensityField(
-            "polynomial", density_engine.polynomial.parse_polynomial(text), settings.density_frame == "WORLD", text
+            "polynomial",
+            density_engine.polynomial.parse_polynomial(text),
+            settings.density_frame == "WORLD",
+            text,
         )
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:
@@ -86,7 +89,9 @@ def material_density(material: bpy.types.Material | None) -> float | None:
     return density if density > 0.0 else None
 
 
-def unset_density(obj: bpy.types.Object, measurement: Measurement, scene: bpy.types.Scene) -> str | None:
+def unset_density(
+    obj: bpy.types.Object, measurement: Measurement, scene: bpy.types.Scene
+) -> str | None:
     """Return the density setting that a measurement uses and nobody has set, or None."""
     settings = obj.body_moments
     used = {measurement.density_from.code, *(one.code for one in measurement.findings)}
@@ -133,7 +138,9 @@ def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Sce
         source = settings.density_volume
         place = None if source is None else [tuple(row) for row in source.matrix_world]
         options = density_engine.grid_options.GridOptions
-        return "" if source is None else repr((options.from_settings(source.body_moments).key, place))
+        return (
+            "" if source is None else repr((options.from_settings(source.body_moments).key, place))
+        )
     if settings.density_from == "POLYNOMIAL":
         return repr((settings.density_frame, settings.density_polynomial.strip()))
     if settings.density_from == "ATTRIBUTE":
@@ -141,6 +148,8 @@ def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Sce
     slots = [slot.material for slot in obj.material_slots]
     names = {*used, *(material.name_full for material in slots if material)}
     densities = {
-        material.name_full: material_density(material) for material in bpy.data.materials if material.name_full in names
+        material.name_full: material_density(material)
+        for material in bpy.data.materials
+        if material.name_full in names
     }
     return repr((object_density(settings, scene), sorted(names), sorted(densities.items())))

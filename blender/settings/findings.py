@@ -18,4 +18,6 @@ OBJECT_DENSITY_USED_FOR_MATERIALS = warning(
     "{count} of {total} faces takes the object's {density:.7g} kg/m³, as these materials have no density: {materials}.",
     "{count} of {total} faces take the object's {density:.7g} kg/m³, as these materials have no density: {materials}.",
 )
-DENSITY_FROM_POLYNOMIAL = note("density_from_polynomial", "polynomial {polynomial}, in {frame:word} coordinates")
+DENSITY_FROM_POLYNOMIAL = note(
+    "density_from_polynomial", "polynomial {polynomial}, in {frame:word} coordinates"
+)

@@ -14,25 +14,48 @@ from ...core.measurement.documents import plain
 from ...core.numerics.float32 import shortest_decimal
 from .hooks import Hook, changed
 
-GIVEN_PROPERTIES = ("use_center", "given_center", "use_inertia", "given_inertia_diagonal", "given_inertia_products")
+GIVEN_PROPERTIES = (
+    "use_center",
+    "given_center",
+    "use_inertia",
+    "given_inertia_diagonal",
+    "given_inertia_products",
+)
 Row = tuple[float, ...]
 COLLIDER = "body_collider"  # ID property of a collider: kind, size in m and mass in kg; its parent is the body
 COLLIDERS = "body_colliders"  # ID property of a body with colliders: what they do to its physics
 
 
-def choice_property(name: str, description: str, *items: tuple[str, str, str], **special: Any) -> Any:
+def choice_property(
+    name: str, description: str, *items: tuple[str, str, str], **special: Any
+) -> Any:
     """Return a property with one of several values."""
     return EnumProperty(name=name, description=description, items=items, **special)
 
 
 def mass_property(description: str, update: Hook, name: str = "Mass") -> Any:
     """Return a property of a given mass."""
-    return FloatProperty(name=name, description=description, default=1.0, min=0.0, step=10, precision=6, update=update)
+    return FloatProperty(
+        name=name,
+        description=description,
+        default=1.0,
+        min=0.0,
+        step=10,
+        precision=6,
+        update=update,
+    )
 
 
 def density_property(description: str, update: Hook, **special: Any) -> Any:
     """Return a property of a density in kg/m³; `special` arguments replace the usual ones."""
-    usual = {"name": "Density", "default": 1000.0, "min": 0.0, "soft_max": 25000.0, "step": 1000, "precision": 3}
+    usual = {
+        "name": "Density",
+        "default": 1000.0,
+        "min": 0.0,
+        "soft_max": 25000.0,
+        "step": 1000,
+        "precision": 3,
+    }
     return FloatProperty(description=description, update=update, **{**usual, **special})
 
 
@@ -113,4 +136,9 @@ def shows_collection(obj: Object) -> bool:
 def is_point_mass(obj: Object) -> bool:
     """Return whether an object without geometry is a part of given mass."""
     settings = getattr(obj, "body_moments", None)  # None if the add-on is not registered
-    return obj.type == "EMPTY" and not shows_collection(obj) and settings is not None and settings.mass_from == "MASS"
+    return (
+        obj.type == "EMPTY"
+        and not shows_collection(obj)
+        and settings is not None
+        and settings.mass_from == "MASS"
+    )

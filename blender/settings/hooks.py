@@ -16,8 +16,17 @@ on_density_change: list[Hook] = []  # an object's density or given mass, or the 
 on_wall_change: list[Hook] = []  # the side of a shell's material, or its thickness
 on_threshold_change: list[Hook] = []  # the value from which on a grid's points are inside
 on_default_density_change: list[Hook] = []  # the default of a scene's objects without density
-on_part_change: list[Hook] = []  # the mass of an assembly or of a bone's part, which Blender reports for no object
-LISTS = on_change, on_density_change, on_wall_change, on_threshold_change, on_default_density_change, on_part_change
+on_part_change: list[
+    Hook
+] = []  # the mass of an assembly or of a bone's part, which Blender reports for no object
+LISTS = (
+    on_change,
+    on_density_change,
+    on_wall_change,
+    on_threshold_change,
+    on_default_density_change,
+    on_part_change,
+)
 
 
 def _update(*hooks: list[Hook]) -> Hook:
@@ -30,7 +39,8 @@ def _update(*hooks: list[Hook]) -> Hook:
     return call
 
 
-changed, part_changed = _update(on_change), _update(on_part_change)
+changed = _update(on_change)
+part_changed = _update(on_part_change)
 density_changed = _update(on_change, on_density_change)
 wall_changed = _update(on_change, on_wall_change)
 threshold_changed = _update(on_change, on_threshold_change)

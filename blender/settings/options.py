@@ -36,7 +36,9 @@ class MeasureOptions(RequestedResults):
 AS_SET = MeasureOptions()  # every object as its own settings say
 
 
-def object_settings(obj: Object, scene: Scene, options: MeasureOptions = AS_SET, unit: float | None = None) -> Settings:
+def object_settings(
+    obj: Object, scene: Scene, options: MeasureOptions = AS_SET, unit: float | None = None
+) -> Settings:
     """Return the options with gaps filled from the object's, and the scene's, settings."""
     properties = obj.body_moments
     density, mass = options.density, options.mass
@@ -48,12 +50,18 @@ def object_settings(obj: Object, scene: Scene, options: MeasureOptions = AS_SET,
             mass = shortest_decimal(properties.mass)
         else:
             is_wire = kind == "wire"
-            density = shortest_decimal(properties.linear_density) if is_wire else object_density(properties, scene)
+            density = (
+                shortest_decimal(properties.linear_density)
+                if is_wire
+                else object_density(properties, scene)
+            )
     return Settings(
         kind=kind,
         density=density,
         mass=mass,
-        thickness=shortest_decimal(properties.thickness) * unit if options.thickness is None else options.thickness,
+        thickness=shortest_decimal(properties.thickness) * unit
+        if options.thickness is None
+        else options.thickness,
         overlap=options.overlap or properties.overlap.lower(),
         wall=options.wall or properties.wall.lower(),
         unit=unit,

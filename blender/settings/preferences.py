@@ -21,12 +21,23 @@ from .hooks import default_density_changed
 
 ADDON_ID = __name__.removesuffix(".blender.settings.preferences")
 MATERIAL_ITEMS = [
-    (material.name, material.name, "{:.7g} kg/m³. Source: {:s}".format(material.density, material.source))
+    (
+        material.name,
+        material.name,
+        "{:.7g} kg/m³. Source: {:s}".format(material.density, material.source),
+    )
     for material in MATERIALS
 ]
 # To the website that the manifest names, else to the manual that the build puts beside the code.
 LINKS = {"Manual": ("index.html", "HELP"), "Report a Bug": ("faq.html#report-a-bug", "URL")}
-COPIED = ("frame", "density_unit", "digits", "digit_grouping", "default_material", "default_density")
+COPIED = (
+    "frame",
+    "density_unit",
+    "digits",
+    "digit_grouping",
+    "default_material",
+    "default_density",
+)
 
 
 class SceneDefaults:
@@ -137,7 +148,8 @@ def shows_advanced() -> bool:
 
 def copy_defaults(scene: Scene) -> None:
     """Copy the preferences into a scene that has none yet; meant for operators that a user starts."""
-    settings, source = scene.body_moments, preferences()
+    settings = scene.body_moments
+    source = preferences()
     if source is None or settings.has_defaults or not scene.is_editable:
         return
     settings.has_defaults = True
@@ -153,7 +165,9 @@ def default_density(scene: Scene) -> float | None:
     settings = scene.body_moments
     if settings.default_material == "CUSTOM":
         return shortest_decimal(settings.default_density)
-    return None if settings.default_material == "NONE" else BY_NAME[settings.default_material].density
+    return (
+        None if settings.default_material == "NONE" else BY_NAME[settings.default_material].density
+    )
 
 
 def default_material(scene: Scene) -> str:

@@ -25,12 +25,32 @@ from .given import (
 )
 from .hooks import changed, density_changed, threshold_changed, wall_changed
 
-TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Blender's own translations
+TRANSLATION_CONTEXT = (
+    "Body Moments"  # for words that mean something else in Blender's own translations
+)
 
 COPIED_PROPERTIES = (
-    *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
+    *(
+        "kind",
+        "wall",
+        "thickness",
+        "mass_from",
+        "density",
+        "linear_density",
+        "material",
+        "mass",
+        "overlap",
+    ),
     *("density_from", "density_polynomial", "density_frame", "density_attribute", "density_volume"),
-    *("grid", "grid_as", "threshold", "threshold_fill", "values_from", "value_density", "transfer_table"),
+    *(
+        "grid",
+        "grid_as",
+        "threshold",
+        "threshold_fill",
+        "values_from",
+        "value_density",
+        "transfer_table",
+    ),
     *("spline_order", *GIVEN_PROPERTIES),
 )
 
@@ -105,13 +125,21 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             "Density of each material, per face of a shell and per closed component of a solid. Faces whose "
             "material has no density use the object's",
         ),
-        ("POLYNOMIAL", "Polynomial", "Polynomial in x, y and z, in kg/m³ for coordinates in meters"),
+        (
+            "POLYNOMIAL",
+            "Polynomial",
+            "Polynomial in x, y and z, in kg/m³ for coordinates in meters",
+        ),
         (
             "ATTRIBUTE",
             "Vertex Attribute",
             "Float attribute on the vertices of a shell, in kg/m³, interpolated linearly",
         ),
-        ("VOLUME", "Volume Object", "Grid of a Volume object around a solid, constant in each voxel"),
+        (
+            "VOLUME",
+            "Volume Object",
+            "Grid of a Volume object around a solid, constant in each voxel",
+        ),
         update=density_changed,
     )
     density_polynomial: _text(
@@ -131,18 +159,25 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         ("WORLD", "World", "Meters along the world axes from the world origin"),
     )
     density_attribute: _text(
-        "Attribute", "Float attribute on the vertices with the density in kg/m³, after modifiers", default="density"
+        "Attribute",
+        "Float attribute on the vertices with the density in kg/m³, after modifiers",
+        default="density",
     )
-    density: density_property("Density in kg/m³, independent of the scene units", _density_changed, soft_min=0.01)
+    density: density_property(
+        "Density in kg/m³, independent of the scene units", _density_changed, soft_min=0.01
+    )
     density_kg_m3: _density_in("KG_M3", "Density in {:s}")
     density_g_cm3: _density_in("G_CM3", "Density in {:s}")
     density_lb_in3: _density_in("LB_IN3", "Density in {:s}")
     density_lb_ft3: _density_in("LB_FT3", "Density in {:s}")
     linear_density: mass_property(
-        "Mass per length of the wire in kg/m, independent of the scene units", density_changed, "Linear Density"
+        "Mass per length of the wire in kg/m, independent of the scene units",
+        density_changed,
+        "Linear Density",
     )
     mass: mass_property(
-        "Mass in kilograms, independent of the scene units. Type pounds as 5*0.45359237", density_changed
+        "Mass in kilograms, independent of the scene units. Type pounds as 5*0.45359237",
+        density_changed,
     )
     wall: _choice(
         "Wall",
@@ -150,7 +185,11 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         ("THIN", "Thin", "Area times thickness, for thin sheets"),
         ("INWARD", "Inward", "Real thickness behind the faces, with mitered corners"),
         ("OUTWARD", "Outward", "Real thickness in front of the faces, with mitered corners"),
-        ("CENTERED", "Centered", "Real thickness, half behind and half in front of the faces, with mitered corners"),
+        (
+            "CENTERED",
+            "Centered",
+            "Real thickness, half behind and half in front of the faces, with mitered corners",
+        ),
         update=wall_changed,
     )
     thickness: FloatProperty(
@@ -165,7 +204,11 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
     overlap: _choice(
         "Overlaps",
         "How overlapping or nested components of the object count",
-        ("SIGNED", "Count Each Shell", "Every component counts fully; shared space counts twice, with a warning"),
+        (
+            "SIGNED",
+            "Count Each Shell",
+            "Every component counts fully; shared space counts twice, with a warning",
+        ),
         ("UNION", "Count as Union", "Components are united first by Blender's exact Boolean"),
     )
     material: _text("Material", "Material that the density was taken from")
@@ -175,7 +218,11 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         "What the values of the grid represent",
         ("DENSITY", "Density", "The values determine the density of each voxel"),
         ("SOLID", "Solid", "The grid is a level set that bounds a solid filled with material"),
-        ("THRESHOLD", "Threshold", "The body where the values, linear between voxels, are at least a threshold"),
+        (
+            "THRESHOLD",
+            "Threshold",
+            "The body where the values, linear between voxels, are at least a threshold",
+        ),
     )
     threshold: FloatProperty(
         name="Threshold",
@@ -248,8 +295,12 @@ class BodyMomentsMaterialSettings(PropertyGroup):
     )
     density_kg_m3: _density_in("KG_M3", "Density in {:s}. At 0, the density of the object is used")
     density_g_cm3: _density_in("G_CM3", "Density in {:s}. At 0, the density of the object is used")
-    density_lb_in3: _density_in("LB_IN3", "Density in {:s}. At 0, the density of the object is used")
-    density_lb_ft3: _density_in("LB_FT3", "Density in {:s}. At 0, the density of the object is used")
+    density_lb_in3: _density_in(
+        "LB_IN3", "Density in {:s}. At 0, the density of the object is used"
+    )
+    density_lb_ft3: _density_in(
+        "LB_FT3", "Density in {:s}. At 0, the density of the object is used"
+    )
     material: StringProperty(
         name="Material",
         description="Entry of the material table that the density was taken from",
@@ -258,7 +309,10 @@ class BodyMomentsMaterialSettings(PropertyGroup):
 
 def density_field_name(scene: Scene) -> str:
     """Return the name of the property that shows an object's or a material's density in the scene's unit."""
-    return "density_" + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
+    return (
+        "density_"
+        + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
+    )
 
 
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
@@ -284,12 +338,17 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name).upper())
     if options.density is not None and not is_point_mass(settings.id_data):
-        settings.mass_from, settings.density_from = "DENSITY", "VALUE"
-        setattr(settings, "linear_density" if settings.kind == "WIRE" else "density", options.density)
+        settings.mass_from = "DENSITY"
+        settings.density_from = "VALUE"
+        setattr(
+            settings, "linear_density" if settings.kind == "WIRE" else "density", options.density
+        )
         if settings.id_data.type == "VOLUME":
-            settings.values_from, settings.value_density = "FACTOR", options.density
+            settings.values_from = "FACTOR"
+            settings.value_density = options.density
     if options.mass is not None:
-        settings.mass_from, settings.mass = "MASS", options.mass
+        settings.mass_from = "MASS"
+        settings.mass = options.mass
     if options.thickness is not None:
         settings.thickness = options.thickness / shortest_decimal(scene.unit_settings.scale_length)
 

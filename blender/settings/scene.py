@@ -79,9 +79,15 @@ class BodyMomentsReferenceSettings(PropertyGroup):
         translation_context=TRANSLATION_CONTEXT,
         default="WORLD",
     )
-    object: PointerProperty(name="Object", description="Object whose origin and axes are the reference", type=Object)
+    object: PointerProperty(
+        name="Object", description="Object whose origin and axes are the reference", type=Object
+    )
     first: FloatVectorProperty(
-        name="From", description="First point of the axis, in the world", subtype="XYZ", unit="LENGTH", precision=6
+        name="From",
+        description="First point of the axis, in the world",
+        subtype="XYZ",
+        unit="LENGTH",
+        precision=6,
     )
     second: FloatVectorProperty(
         name="To",
@@ -121,7 +127,11 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
         "What the moments integrate over",
         ("VOLUME", "Volume", "Volume. For shells, area times thickness"),
         ("SURFACE", "Surface", "Area of the faces"),
-        ("MASS", "Mass", "Volume, or for shells the area, times the density wherever it comes from"),
+        (
+            "MASS",
+            "Mass",
+            "Volume, or for shells the area, times the density wherever it comes from",
+        ),
         ("FLAT", "Area", "Area of a flat shape in its own plane, ∫ x^p y^q dA"),
     )
     moments_about: choice_property(

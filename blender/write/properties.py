@@ -63,7 +63,10 @@ DESCRIPTIONS = {
     "storing coordinates as float32 may have",
     "body_axis_inertia": "Moment of inertia about the axis of the reference, in kg·m²",
 }
-REFERENCE_KEYS = ("body_reference", "body_axis")  # beginnings of the keys of results about a reference
+REFERENCE_KEYS = (
+    "body_reference",
+    "body_axis",
+)  # beginnings of the keys of results about a reference
 FRAMES = {  # by the type of the owner of results
     bpy.types.Object: "the object's frame (location and rotation, unit scale)",
     bpy.types.Collection: "the world",
@@ -81,16 +84,22 @@ LENGTHS = {
     "body_principal_axes": 4,
     "body_error_bound": 8,
 }
-BALANCE_GROUP = "body_balance_group"  # on an empty that shows a group: the names of its objects, one a line
+BALANCE_GROUP = (
+    "body_balance_group"  # on an empty that shows a group: the names of its objects, one a line
+)
 BALANCE_SPANS = "body_balance_spans"  # on it: first frame, last frame, N·s and N·m·s from nothing, span after span
-OPTIONAL = ("body_length", "body_display_volume")  # for wires, and for bodies measured without their display mesh
+OPTIONAL = (
+    "body_length",
+    "body_display_volume",
+)  # for wires, and for bodies measured without their display mesh
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 
 
 def store(obj: Owner, measurement: Measurement) -> None:
     """Write all results on an object, a collection or a pose bone. Raises EditRefusedError if it cannot hold them."""
     require_storable(obj)
-    body, bound = measurement.in_object_frame(), measurement.error_bound
+    body = measurement.in_object_frame()
+    bound = measurement.error_bound
     row = (
         body.mass,
         measurement.density,
@@ -102,11 +111,15 @@ def store(obj: Owner, measurement: Measurement) -> None:
         body.principal.quaternion.tolist(),
         [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
     )
-    values: dict[str, Any] = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
+    values: dict[str, Any] = {
+        key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL
+    }
     if measurement.density_from.code not in (DENSITY_FROM_VALUE, DENSITY_FROM_MASS):
         values["body_density_from"] = str(measurement.density_from)
         values["body_materials"] = "\n".join(measurement.materials) or None
-    values |= dict(zip(LENGTHS, row)) | _texts(measurement.method, measurement.findings, measurement.fingerprint)
+    values |= dict(zip(LENGTHS, row)) | _texts(
+        measurement.method, measurement.findings, measurement.fingerprint
+    )
     _replace(obj, {key: value for key, value in values.items() if value is not None})
     retrigger_drivers(obj)
 
@@ -168,7 +181,10 @@ def _replace(obj: Owner, values: dict[str, Any]) -> None:
     entries = values["body_inertia"]
     values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
     before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
-    before = {key: value.to_list() if hasattr(value, "to_list") else value for key, value in before.items()}
+    before = {
+        key: value.to_list() if hasattr(value, "to_list") else value
+        for key, value in before.items()
+    }
     try:
         _write(obj, values)
     except BaseException:
@@ -185,24 +201,51 @@ def _write(obj: Owner, values: dict[str, Any]) -> None:
             del obj[key]
 
 
-def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
+def store_scaled(
+    obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str
+) -> None:
     """Scale stored finite results to another density: mass, inertia and its bounds. density: mean, 0 for a wire."""
     factor = mass / obj["body_mass"]
-    for key in ("body_inertia", "body_inertia_diagonal", "body_inertia_products", "body_principal_moments"):
+    for key in (
+        "body_inertia",
+        "body_inertia_diagonal",
+        "body_inertia_products",
+        "body_principal_moments",
+    ):
         obj[key] = [factor * value for value in obj[key]]
     bounds = list(obj["body_error_bound"])
-    bounds[3], bounds[7] = factor * bounds[3] + ROUNDING * sum(obj["body_principal_moments"]), factor * bounds[7]
+    bounds[3], bounds[7] = (
+        factor * bounds[3] + ROUNDING * sum(obj["body_principal_moments"]),
+        factor * bounds[7],
+    )
     obj["body_error_bound"] = bounds
-    obj["body_mass"], obj["body_density"], obj["body_fingerprint"] = mass, density, fingerprint
-    obj["body_findings"], obj["body_warnings"] = findings_text(findings), warning_lines(findings)
+    obj["body_mass"] = mass
+    obj["body_density"] = density
+    obj["body_fingerprint"] = fingerprint
+    obj["body_findings"] = findings_text(findings)
+    obj["body_warnings"] = warning_lines(findings)
     retrigger_drivers(obj)
 
 
 def store_body(obj: Owner, body: PlainBody, fingerprint: str) -> None:
     """Replace the numbers of stored results, in the object frame; method and findings stay."""
-    bounds = [bound[name] for bound in (body.error_bound, body.error_bound["input"]) for name in BOUND_KEYS]
+    bounds = [
+        bound[name]
+        for bound in (body.error_bound, body.error_bound["input"])
+        for name in BOUND_KEYS
+    ]
     turn = core.numerics.rotations.quaternion([list(axis) for axis in zip(*body.axes)]).tolist()
-    row = body.mass, body.density, body.volume, body.area, body.center, body.inertia, body.moments, turn, bounds
+    row = (
+        body.mass,
+        body.density,
+        body.volume,
+        body.area,
+        body.center,
+        body.inertia,
+        body.moments,
+        turn,
+        bounds,
+    )
     values = dict(zip(LENGTHS, row)) | {
         "body_inertia_diagonal": body.inertia[:3],
         "body_inertia_products": body.inertia[3:],
@@ -238,7 +281,9 @@ def store_reference(obj: Owner, values: dict) -> None:
 def require_storable(obj: Owner) -> None:
     """Raise EditRefusedError for an owner that cannot store results."""
     data = obj.id_data
-    if not data.is_editable or data.override_library is not None:  # saving drops an override's new ID properties
+    if (
+        not data.is_editable or data.override_library is not None
+    ):  # saving drops an override's new ID properties
         raise EditRefusedError(LINKED_OBJECT, subject=data.name_full)
 
 
@@ -292,7 +337,8 @@ def findings(obj: Owner) -> tuple[Finding, ...]:
 
 def store_findings(obj: bpy.types.Object, findings: Sequence[Finding]) -> None:
     """Replace the stored findings and warnings, for example after a finding was accepted."""
-    obj["body_findings"], obj["body_warnings"] = findings_text(findings), warning_lines(findings)
+    obj["body_findings"] = findings_text(findings)
+    obj["body_warnings"] = warning_lines(findings)
 
 
 def warning_lines(findings: Iterable[Finding]) -> str:

@@ -34,7 +34,12 @@ class Remedy(NamedTuple):
 REPAIR = "object.body_moments_remedy"  # the operator of all `REMEDIES`
 SELECT = "object.body_moments_select_refused"
 DEFECTS = "object.body_moments_select_faults"
-FILL, OUTSIDE, MERGE, DUPLICATES, UNION, SHELL = "FILL_HOLES", "OUTSIDE", "MERGE", "DUPLICATES", "UNION", "SHELL"
+FILL = "FILL_HOLES"
+OUTSIDE = "OUTSIDE"
+MERGE = "MERGE"
+DUPLICATES = "DUPLICATES"
+UNION = "UNION"
+SHELL = "SHELL"
 REMEDIES = {
     FILL: Remedy("Fill Holes", "Close the holes of the mesh with faces", "MESH_PLANE"),
     OUTSIDE: Remedy(
@@ -43,10 +48,16 @@ REMEDIES = {
         "Cavities keep facing inward",
         "NORMALS_FACE",
     ),
-    MERGE: Remedy("Merge by Distance", "Merge vertices as close as those that were welded", "AUTOMERGE_ON"),
+    MERGE: Remedy(
+        "Merge by Distance", "Merge vertices as close as those that were welded", "AUTOMERGE_ON"
+    ),
     DUPLICATES: Remedy("Delete Duplicate Faces", "Delete the later copies of faces", "X"),
-    UNION: Remedy("Count as Union", "Unite overlapping components before they are measured", "MOD_BOOLEAN"),
-    SHELL: Remedy("Measure as Shell", "Measure the surface as a sheet with a thickness", "MOD_SOLIDIFY"),
+    UNION: Remedy(
+        "Count as Union", "Unite overlapping components before they are measured", "MOD_BOOLEAN"
+    ),
+    SHELL: Remedy(
+        "Measure as Shell", "Measure the surface as a sheet with a thickness", "MOD_SOLIDIFY"
+    ),
 }
 ADVICE: dict[str, tuple[str, ...]] = {
     COMPONENTS_NESTED: (UNION,),
@@ -72,4 +83,8 @@ EDITS = (FILL, OUTSIDE, MERGE, DUPLICATES)  # edits of a mesh
 def remedies_of(code: str, object_type: str) -> tuple[str, ...]:
     """Return the remedies of a finding about an object of this type: keys of REMEDIES, or an operator's idname."""
     found = ADVICE.get(code, ())
-    return found if object_type == "MESH" else tuple(key for key in found if key not in (*EDITS, DEFECTS))
+    return (
+        found
+        if object_type == "MESH"
+        else tuple(key for key in found if key not in (*EDITS, DEFECTS))
+    )

@@ -42,7 +42,11 @@ def text(*parts: Finding | str) -> str:
     """Return the sentences of findings and finished texts, one after the other."""
     joined = ""
     for part in parts:
-        added = part if isinstance(part, str) else sentence(part, bpy.app.translations.pgettext_rpt, _length)
+        added = (
+            part
+            if isinstance(part, str)
+            else sentence(part, bpy.app.translations.pgettext_rpt, _length)
+        )
         between = " " if joined.endswith((".", ":")) else ". " if added.endswith(".") else "; "
         joined += between + added if joined else added
     return joined

@@ -53,7 +53,12 @@ class StoredSection(NamedTuple):
 
 
 def store(
-    obj: bpy.types.Object, section: Section, what: str, findings: tuple[Finding, ...], fingerprint: str, unit: float
+    obj: bpy.types.Object,
+    section: Section,
+    what: str,
+    findings: tuple[Finding, ...],
+    fingerprint: str,
+    unit: float,
 ) -> None:
     """Write the section on the object, in place of an older one."""
     plane = section.plane
@@ -101,7 +106,10 @@ def stored(obj: bpy.types.Object) -> StoredSection | None:
         return None
     try:
         numbers = tuple(tuple(float(value) for value in group[key]) for key in LENGTHS)
-        words = tuple(str(group.get(key, "") if key == "findings" else group[key]) for key in SIDE_DESCRIPTIONS)
+        words = tuple(
+            str(group.get(key, "") if key == "findings" else group[key])
+            for key in SIDE_DESCRIPTIONS
+        )
     except (KeyError, TypeError, ValueError):
         return None
     if tuple(map(len, numbers)) != tuple(LENGTHS.values()):
@@ -111,7 +119,9 @@ def stored(obj: bpy.types.Object) -> StoredSection | None:
     if not all([value > 0.0 for value in positive]):
         return None
     what, named, findings, fingerprint = words
-    axes, (off,), (outlines, holes) = values["axes"], values["off"], values["counts"]
+    axes = values["axes"]
+    (off,) = values["off"]
+    (outlines, holes) = values["counts"]
     loaded = core.flat.section_properties  # when there is a section to read
     section = loaded.Section(
         loaded.Plane(values["origin"], (axes[0::3], axes[1::3], axes[2::3]), off, named),
@@ -142,7 +152,8 @@ def text(name: str, section: StoredSection, outdated: str | None = None) -> str:
 
 
 def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> Iterator[str]:
-    section, plane = stored_section.section, stored_section.section.plane
+    section = stored_section.section
+    plane = stored_section.section.plane
     size = section.area**0.5
     x, y, normal = zip(*plane.axes)
     yield "Section properties, SI units, world frame"
@@ -156,13 +167,19 @@ def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> It
     yield report_line("Perimeter", report_number(section.perimeter), "m")
     yield report_line("Centroid", report_vector(section.center, size), "m")
     axes = "normal {}, x {}, y {}".format(*(report_vector(axis, 1.0) for axis in (normal, x, y)))
-    yield report_line("Plane", "{}; x nearest to the object's {} axis".format(axes, plane.x_axis_name))
+    yield report_line(
+        "Plane", "{}; x nearest to the object's {} axis".format(axes, plane.x_axis_name)
+    )
     place = report_vector(section.centroid, size)
     yield report_line("Centroid in plane", place, "m, from the foot of the object's origin")
-    yield report_line("Second moments", "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)")
+    yield report_line(
+        "Second moments", "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)"
+    )
     for label, value in zip(("Ix", "Iy", "Ixy"), clean(section.second, section.polar)):
         yield report_line("  " + label, report_number(value))
-    yield report_line("  Polar Jp", "{} = Ix + Iy; not the torsion constant".format(report_number(section.polar)))
+    yield report_line(
+        "  Polar Jp", "{} = Ix + Iy; not the torsion constant".format(report_number(section.polar))
+    )
     first, second = section.principal
     direction = "axis 1 at {}° from x towards y".format(report_number(degrees(section.angle)))
     if section.axes_undetermined:
@@ -170,8 +187,13 @@ def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> It
     moments = "I1 {}, I2 {} m⁴".format(report_number(first), report_number(second))
     yield report_line("Principal", "{}; {}".format(moments, direction))
     yield report_line("Radii of gyration", _labeled_values("i", section.radii), "m")
-    yield report_line("Section moduli", _labeled_values("W", section.moduli), "m³ (elastic, outermost corner)")
-    for label, bound in (("Rounding, at most", section.rounding_error), ("float32 coordinates", section.input_error)):
+    yield report_line(
+        "Section moduli", _labeled_values("W", section.moduli), "m³ (elastic, outermost corner)"
+    )
+    for label, bound in (
+        ("Rounding, at most", section.rounding_error),
+        ("float32 coordinates", section.input_error),
+    ):
         yield report_line(
             label,
             "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} m⁴".format(
@@ -179,8 +201,12 @@ def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> It
             ),
         )
     for finding in stored_section.findings:
-        yield report_line("Note" if severity(finding) == Severity.NOTE else "Warning", sentence(finding))
+        yield report_line(
+            "Note" if severity(finding) == Severity.NOTE else "Warning", sentence(finding)
+        )
 
 
 def _labeled_values(letter: str, values) -> str:
-    return ", ".join("{}{} {}".format(letter, about, report_number(value)) for about, value in zip(ABOUT, values))
+    return ", ".join(
+        "{}{} {}".format(letter, about, report_number(value)) for about, value in zip(ABOUT, values)
+    )

@@ -16,7 +16,9 @@ from ...core.fourier.wave_vectors import Spectrum
 from ...core.measurement.documents import SPECTRUM_ARRAYS
 from ...core.whole_file import whole_file
 
-IMAGE_MARK = "body_fourier"  # property of the images that may be overwritten; its value is their name
+IMAGE_MARK = (
+    "body_fourier"  # property of the images that may be overwritten; its value is their name
+)
 DECADES = 6.0  # from white to black
 SLICE_GAP = 2  # pixels between slices
 
@@ -35,11 +37,20 @@ def save(
     `FLAT_SPECTRUM_ARRAYS` of a flat shape, for which q is (M, 2). Raises OSError.
     """
     with whole_file(path, check) as file:
-        arrays = spectrum.q, spectrum.values, spectrum.error, spectrum.input_error, spectrum.method, frame
+        arrays = (
+            spectrum.q,
+            spectrum.values,
+            spectrum.error,
+            spectrum.input_error,
+            spectrum.method,
+            frame,
+        )
         np.savez(file, **dict(zip(SPECTRUM_ARRAYS, arrays)), **(plane or {}))
 
 
-def picture(name: str, values: NDArray[np.complex128], count: int, dimension: int = 3) -> bpy.types.Image:
+def picture(
+    name: str, values: NDArray[np.complex128], count: int, dimension: int = 3
+) -> bpy.types.Image:
     """Return an image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a grid of count³.
 
     With two dimensions, on a grid of count², the image shows all of it.
@@ -57,7 +68,10 @@ def picture(name: str, values: NDArray[np.complex128], count: int, dimension: in
         gray[:, i * (count + SLICE_GAP) :][:, :count] = 1.0 + decades / DECADES
     pixels = np.ones((*gray.shape, 4), np.float32)
     pixels[..., :3] = gray[..., None]
-    image = next((image for image in bpy.data.images if image.get(IMAGE_MARK) == name and image.is_editable), None)
+    image = next(
+        (image for image in bpy.data.images if image.get(IMAGE_MARK) == name and image.is_editable),
+        None,
+    )
     if image is None:
         image = bpy.data.images.new(name, gray.shape[1], count)
         image[IMAGE_MARK] = name

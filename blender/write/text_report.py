@@ -40,8 +40,11 @@ def stored_document(
     outdated: names. caveats: about the total.
     """
     scene = context.scene
-    unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
-    entries, bodies, errors = [], [], []
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    frame = scene.body_moments.frame.lower()
+    entries = []
+    bodies = []
+    errors = []
     for obj in objects:
         stored = properties.stored(obj)
         if stored is None:
@@ -49,7 +52,9 @@ def stored_document(
             continue
         world = stored.in_world(obj.matrix_world, unit)
         bodies.append(world)
-        entries.append(_stored_record(obj, world if frame == "world" else stored, obj.name in outdated))
+        entries.append(
+            _stored_record(obj, world if frame == "world" else stored, obj.name in outdated)
+        )
     total = _stored_total(entries, bodies) | described(caveats)
     return document(entries, total, errors, file=file, blender=blender, frame=frame)
 
@@ -64,9 +69,14 @@ def text(file_document: dict[str, Any]) -> str:
     if len(file_document["objects"]) > 1:
         heading = "Total of {} objects, world frame".format(len(file_document["objects"]))
         lines += ["", heading, *_body(file_document["total"], "world")]
-    for heading, entries in (("Left out", file_document["left_out"]), ("Not measured", file_document["errors"])):
+    for heading, entries in (
+        ("Left out", file_document["left_out"]),
+        ("Not measured", file_document["errors"]),
+    ):
         lines += ["", heading] if entries else []
-        lines += ["{}{}: {}".format(INDENT, one["name"] or "File", one["reason"]) for one in entries]
+        lines += [
+            "{}{}: {}".format(INDENT, one["name"] or "File", one["reason"]) for one in entries
+        ]
     return "".join(visible(line) + "\n" for line in lines)
 
 
@@ -91,13 +101,18 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     yield report_line("Volume", report_number(entry["volume"]), "m³")
     yield report_line("Surface area", report_number(entry["area"]), "m²")
     if "display_mesh" in entry:
-        display, volume = entry["display_mesh"], entry["volume"]
+        display = entry["display_mesh"]
+        volume = entry["volume"]
         share = 100.0 * display["difference"] / volume if volume else 0.0
-        yield report_line("Its display mesh", "{} m³, {:+.3g} %".format(report_number(display["volume"]), share))
+        yield report_line(
+            "Its display mesh", "{} m³, {:+.3g} %".format(report_number(display["volume"]), share)
+        )
     if entry["center_of_mass"] is None or entry["inertia"] is None:
         return
     size = entry.get("length") or abs(entry["volume"] or 0.0) ** (1.0 / 3.0)
-    yield report_line("Center of mass", report_vector(entry["center_of_mass"], size), "m, {} frame".format(frame))
+    yield report_line(
+        "Center of mass", report_vector(entry["center_of_mass"], size), "m, {} frame".format(frame)
+    )
     yield from _principal(entry)
     yield from _tensor(entry["inertia"], frame)
     yield from _bounds(entry.get("error_bound", {}))
@@ -115,14 +130,17 @@ def _counts(health: dict[str, Any]) -> Iterable[str]:
 
 
 def _principal(entry: dict[str, Any]) -> Iterable[str]:
-    moments, axes = entry["principal_moments"], entry.get("principal_axes")
+    moments = entry["principal_moments"]
+    axes = entry.get("principal_axes")
     symmetry = ", {}".format(entry["symmetry"]) if entry.get("symmetry") else ""
     yield report_line("Principal moments", "about the center of mass, kg·m²{}".format(symmetry))
     for i, moment in enumerate(moments):
         along = "  along {}".format(report_vector([row[i] for row in axes])) if axes else ""
         yield report_line("  I{}".format(i + 1), report_number(moment) + along)
     if entry["mass"]:
-        radii = [None if moment is None else sqrt(max(moment, 0.0) / entry["mass"]) for moment in moments]
+        radii = [
+            None if moment is None else sqrt(max(moment, 0.0) / entry["mass"]) for moment in moments
+        ]
         yield report_line("Radii of gyration", report_vector(radii), "m")
 
 
@@ -131,7 +149,10 @@ def _tensor(inertia: list[list[float]], frame: str) -> Iterable[str]:
     yield report_line("Inertia tensor", axes + ", kg·m² (entries: Ixy = −∫ρxy dV)")
     values = clean([inertia[i][j] for _, i, j in TENSOR])
     for row in (slice(0, 3), slice(3, 6)):
-        cells = ["I{} {:<16}".format(name, report_number(value)) for (name, *_), value in zip(TENSOR[row], values[row])]
+        cells = [
+            "I{} {:<16}".format(name, report_number(value))
+            for (name, *_), value in zip(TENSOR[row], values[row])
+        ]
         yield report_line("", "".join(cells).rstrip())
 
 
@@ -151,7 +172,8 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
 
 def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any]:
     """Return the record of an object's stored results, with an empty health, which is not stored."""
-    method, findings = properties.method(obj), properties.findings(obj)
+    method = properties.method(obj)
+    findings = properties.findings(obj)
     kinds = {Procedure.SHELL: "shell", Procedure.WIRE: "wire"}
     source = properties.density_from(obj)
     if outdated:
@@ -172,7 +194,10 @@ def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any
         "principal_axes": tuple(zip(*stored.axes)),
         "symmetry": None,
         "health": {},
-        "error_bound": {**stored.error_bound, **({"estimated": True} if properties.is_estimated(obj) else {})},
+        "error_bound": {
+            **stored.error_bound,
+            **({"estimated": True} if properties.is_estimated(obj) else {}),
+        },
         **described(findings),
     }
     length, display = (properties.optional(obj, key) for key in properties.OPTIONAL)

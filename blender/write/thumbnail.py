@@ -16,13 +16,18 @@ _SAMPLES = 5_000  # points of the surface, so that parts thinner than a pixel ar
 _MAX_TESTS = 1_000_000  # pairs of a pixel and a triangle; many long slivers would have far more
 _MANY_SAMPLES = 200_000  # in their place
 _MARGIN = 0.1
-_VIEW = np.array([[0.8, -0.6, 0.0], [0.36, 0.48, 0.8], [0.48, 0.64, -0.6]]).T  # columns: right, up, away from the eye
+_VIEW = np.array(
+    [[0.8, -0.6, 0.0], [0.36, 0.48, 0.8], [0.48, 0.64, -0.6]]
+).T  # columns: right, up, away from the eye
 _AXES = ((214, 64, 64), (72, 160, 72), (72, 96, 214))  # red, green, blue: axes 1, 2 and 3
 _BODY = np.array([205.0, 208.0, 214.0])
 
 
 def thumbnail(
-    points: NDArray[np.floating], triangles: NDArray[np.integer], center: NDArray[np.float64], axes: NDArray[np.float64]
+    points: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    center: NDArray[np.float64],
+    axes: NDArray[np.float64],
 ) -> str:
     """Draw triangles from an oblique direction, and return a PNG as a data URL.
 
@@ -30,7 +35,8 @@ def thumbnail(
     triangles: (m, 3) integers.
     """
     corners = np.asarray(points, np.float64)[triangles] @ _VIEW
-    low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
+    low = corners.reshape(-1, 3).min(axis=0)
+    high = corners.reshape(-1, 3).max(axis=0)
     scale = (1.0 - 2.0 * _MARGIN) * SIZE / (max(high[:2] - low[:2]) or 1.0)
     middle = 0.5 * (low + high)
     corners = (corners - middle) * scale
@@ -51,8 +57,11 @@ def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) ->
     """Draw the triangles at the centers of pixels, the nearest in front, each shaded by its normal."""
     owner, spots = _covered_pixels(corners)
     sampled, samples = _sample(corners, areas, _SAMPLES if len(owner) else _MANY_SAMPLES)
-    owner, spots = np.concatenate([sampled, owner]), np.concatenate([samples, spots])
-    order = np.argsort(-spots[:, 2], kind="stable")  # the farthest first: the last one put at a pixel stays
+    owner = np.concatenate([sampled, owner])
+    spots = np.concatenate([samples, spots])
+    order = np.argsort(
+        -spots[:, 2], kind="stable"
+    )  # the farthest first: the last one put at a pixel stays
     light = np.abs(normals @ (0.75, 0.75, -0.35)) / np.maximum(areas, np.finfo(float).tiny)
     colors = np.full((len(areas), 4), 255, np.uint8)
     colors[:, :3] = _BODY * (0.35 + 0.65 * np.minimum(light, 1.0)[:, None])
@@ -62,15 +71,18 @@ def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) ->
 def _covered_pixels(corners: NDArray) -> tuple[NDArray, NDArray[np.float64]]:
     """Return the (k,) triangles that cover centers of pixels, and these (k, 3) points; none if too many."""
     flat = corners[:, :, :2]
-    first, last = np.ceil(flat.min(axis=1)).astype(int), np.floor(flat.max(axis=1)).astype(int)
+    first = np.ceil(flat.min(axis=1)).astype(int)
+    last = np.floor(flat.max(axis=1)).astype(int)
     spans = np.maximum(last - first + 1, 0)
     counts = spans.prod(axis=1)
     counts *= counts.sum() <= _MAX_TESTS
     owner = np.repeat(np.arange(len(corners)), counts)
     place = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
     points = first[owner] + np.stack(np.divmod(place, np.maximum(spans[owner, 1], 1)), axis=1)
-    origin, sides = corners[owner, 0], (corners[:, 1:] - corners[:, :1])[owner]
-    (x, y), away = sides[:, :, :2].transpose(1, 0, 2), points - origin[:, :2]
+    origin = corners[owner, 0]
+    sides = (corners[:, 1:] - corners[:, :1])[owner]
+    (x, y) = sides[:, :, :2].transpose(1, 0, 2)
+    away = points - origin[:, :2]
     doubled = x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0]
     with np.errstate(all="ignore"):  # triangles seen from their edge
         a = (away[:, 0] * y[:, 1] - away[:, 1] * y[:, 0]) / doubled
@@ -88,7 +100,9 @@ def _sample(corners: NDArray, areas: NDArray, count: int) -> tuple[NDArray, NDAr
     a, b = chance.random((2, count, 1))
     a, b = np.where(a + b > 1.0, 1.0 - a, a), np.where(a + b > 1.0, 1.0 - b, b)
     triangles = corners[chosen]
-    return chosen, triangles[:, 0] + a * (triangles[:, 1] - triangles[:, 0]) + b * (triangles[:, 2] - triangles[:, 0])
+    return chosen, triangles[:, 0] + a * (triangles[:, 1] - triangles[:, 0]) + b * (
+        triangles[:, 2] - triangles[:, 0]
+    )
 
 
 def _put(image: NDArray, spots: NDArray, colors: NDArray) -> None:
@@ -102,10 +116,14 @@ def _png(image: NDArray[np.uint8]) -> bytes:
     """Return a PNG file (https://www.w3.org/TR/png/): 8 bits, red, green, blue, opacity."""
 
     def chunk(kind: bytes, data: bytes) -> bytes:
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        return (
+            struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        )
 
     height, width, _ = image.shape
-    rows = np.concatenate([np.zeros((height, 1), np.uint8), image.reshape(height, 4 * width)], axis=1)
+    rows = np.concatenate(
+        [np.zeros((height, 1), np.uint8), image.reshape(height, 4 * width)], axis=1
+    )
     head = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
     body = zlib.compress(rows.tobytes())
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b"")

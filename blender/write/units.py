@@ -70,10 +70,14 @@ SMALL_LENGTHS = ("CENTIMETERS", "MILLIMETERS", "MICROMETERS")  # beside these, m
 HEAVY = 1e4  # kg: from here on, masses are in tonnes
 GROUPS = {"SPACE": "\u2009", "COMMA": ",", "NONE": ""}  # separators of groups of three digits
 MIN_GROUPED = 5  # integers of fewer digits are read at a glance
-MIN_EXPONENT, MAX_EXPONENT = -5, 10  # beyond these, powers of ten are shown
+# beyond these, powers of ten are shown
+MIN_EXPONENT = -5
+MAX_EXPONENT = 10
 # of reports in SI units
 REPORT_DIGITS = 7  # float32 coordinates carry as many
-ZERO_DISPLAY_RTOL = 2.5e-7  # of the largest component: float32 matrices miss right angles by as much; shown as 0
+ZERO_DISPLAY_RTOL = (
+    2.5e-7  # of the largest component: float32 matrices miss right angles by as much; shown as 0
+)
 INDENT, REPORT_WIDTH = "  ", 22
 
 
@@ -95,9 +99,18 @@ class Units(NamedTuple):
     @classmethod
     def from_settings(cls, settings) -> Units:
         """Return the units of a scene's `unit_settings`, and the number format of that scene."""
-        units = settings.system, settings.length_unit, settings.mass_unit, shortest_decimal(settings.scale_length)
+        units = (
+            settings.system,
+            settings.length_unit,
+            settings.mass_unit,
+            shortest_decimal(settings.scale_length),
+        )
         shown = getattr(getattr(settings, "id_data", None), "body_moments", None)
-        return cls(*units) if shown is None else cls(*units, shown.density_unit, shown.digits, shown.digit_grouping)
+        return (
+            cls(*units)
+            if shown is None
+            else cls(*units, shown.density_unit, shown.digits, shown.digit_grouping)
+        )
 
     def text(self, quantity: str, value: float) -> str:
         """Return one SI value as text: "1.5 kg", "12.3457 cm²"; a density in g/cm³ too where grams are shown."""
@@ -116,17 +129,26 @@ class Units(NamedTuple):
         factor, name = self.unit(quantity, 0.0 if largest < noise else largest)
         # Beside a largest value, what is left of a cancelled one is noise: 1e-17 kg·m² is shown as 0.
         shown = [0.0 if abs(value) < noise else value / factor for value in values]
-        return ["{:s} {:s}".format(text, name).rstrip() for text in column(shown, self.digits, self.grouping)]
+        return [
+            "{:s} {:s}".format(text, name).rstrip()
+            for text in column(shown, self.digits, self.grouping)
+        ]
 
     def bound(self, quantity: str, bound: float, beside: float) -> str:
         """Return an SI error bound, rounded up to two digits, in the unit of its value: "± 4.5e-15 m³"."""
         factor, name = self.unit(quantity, abs(beside))
-        return "± {:s} {:s}".format(number(rounded_up(bound / factor), 2, self.grouping), name).rstrip()
+        return "± {:s} {:s}".format(
+            number(rounded_up(bound / factor), 2, self.grouping), name
+        ).rstrip()
 
     def unit(self, quantity: str, value: float) -> tuple[float, str]:
         """Return (SI value of one unit, its name): the unit in which an SI `value` is shown."""
         if self.system == "NONE" and quantity != "density":
-            return (self.scale ** POWERS[quantity][1], "") if quantity in POWERS else (1.0, SI_UNITS[quantity])
+            return (
+                (self.scale ** POWERS[quantity][1], "")
+                if quantity in POWERS
+                else (1.0, SI_UNITS[quantity])
+            )
         if quantity in POWERS:
             sign, power = POWERS[quantity]
             factor, name = self._length(value ** (1.0 / power) if value > 0.0 else 0.0)
@@ -164,16 +186,21 @@ class Units(NamedTuple):
         return _fitting_unit([table[key] for key in ADAPTIVE_MASSES[self.system]], value, base)
 
     def _inertia(self, value: float) -> tuple[float, str]:
-        masses, lengths = MASSES[self.system], LENGTHS[self.system]
+        masses = MASSES[self.system]
+        lengths = LENGTHS[self.system]
         if self.mass != "ADAPTIVE" or self.length != "ADAPTIVE":
             base_length, base_mass = BASES[self.system]
             mass = masses["GRAMS"] if self.shows_grams else masses.get(self.mass, masses[base_mass])
             length = lengths.get(self.length, lengths[base_length])
             return mass[0] * length[0] ** 2, "{:s}·{:s}²".format(mass[1], length[1])
-        return _fitting_unit(ADAPTIVE_INERTIAS[self.system], value, ADAPTIVE_INERTIAS[self.system][0])
+        return _fitting_unit(
+            ADAPTIVE_INERTIAS[self.system], value, ADAPTIVE_INERTIAS[self.system][0]
+        )
 
 
-def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[float, str]) -> tuple[float, str]:
+def _fitting_unit(
+    units: Sequence[tuple[float, str]], value: float, base: tuple[float, str]
+) -> tuple[float, str]:
     """Return the largest unit that is at most `value`, else the smallest; the base for zero."""
     if value == 0.0:
         return base
@@ -209,7 +236,8 @@ def column(values: Sequence[float], digits: int = DIGITS, grouping: str = "SPACE
     power = exponent if not MIN_EXPONENT < exponent < MAX_EXPONENT else 0
     decimals = digits - 1 - (exponent - power)
     texts = [
-        _plain_number(round(value / 10.0**power, decimals), max(decimals, 0), GROUPS[grouping]) for value in values
+        _plain_number(round(value / 10.0**power, decimals), max(decimals, 0), GROUPS[grouping])
+        for value in values
     ]
     while "." in texts[0] and all(text.endswith("0") for text in texts):
         texts = [text[:-1].removesuffix(".") for text in texts]
@@ -246,4 +274,7 @@ def report_vector(values: Sequence[float | None], size: float = 0.0) -> str:
 def clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
     """Return the values, with 0.0 for values within rounding of the largest one or of the body's size."""
     largest = max([size, *(abs(value) for value in values if value is not None)])
-    return [0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value for value in values]
+    return [
+        0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value
+        for value in values
+    ]

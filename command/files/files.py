@@ -64,12 +64,16 @@ def _opened(path: str) -> Opened:
     try:
         found = _IMPORTERS[kind](absolute)
     except AttributeError as error:
-        raise FileError(FILE_UNREADABLE, error="it has no importer for {} files".format(kind)) from error
+        raise FileError(
+            FILE_UNREADABLE, error="it has no importer for {} files".format(kind)
+        ) from error
     except RuntimeError as error:
         raise FileError(FILE_UNREADABLE, error=reason(error)) from error
     opened = found if isinstance(found, Opened) else Opened()
     if not bpy.context.scene.objects:
-        raise FileError(opened.errors[0] if opened.errors else finding(FILE_WITHOUT_OBJECTS, content="objects"))
+        raise FileError(
+            opened.errors[0] if opened.errors else finding(FILE_WITHOUT_OBJECTS, content="objects")
+        )
     return opened
 
 
@@ -82,7 +86,10 @@ def _open_blend(path: str) -> None:
         is_readable = version is not None and _OLDEST <= version <= tuple(bpy.app.version[:2])
         if version is None or is_readable:
             raise FileError(FILE_UNREADABLE, error=reason(error)) from error
-        values = {"blender": bpy.app.version_string, "version": "{}.{}".format(*version) if version > (0, 0) else "-"}
+        values = {
+            "blender": bpy.app.version_string,
+            "version": "{}.{}".format(*version) if version > (0, 0) else "-",
+        }
         raise FileError(FILE_VERSION_UNSUPPORTED, **values) from error
 
 
@@ -109,7 +116,9 @@ def newer_version() -> Iterator[Finding]:
     """Yield a finding if a newer Blender saved the open file."""
     version = tuple(bpy.data.version[:2])
     if version > tuple(bpy.app.version[:2]):
-        yield finding(FILE_NEWER_VERSION, version="{}.{}".format(*version), blender=bpy.app.version_string)
+        yield finding(
+            FILE_NEWER_VERSION, version="{}.{}".format(*version), blender=bpy.app.version_string
+        )
 
 
 def reason(error: Exception) -> str:
@@ -122,9 +131,15 @@ def reason(error: Exception) -> str:
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     if not lines:
         return type(error).__name__
-    if any(_TRACEBACK in line for line in lines):  # the exception's line follows the indented ones of its frames
+    if any(
+        _TRACEBACK in line for line in lines
+    ):  # the exception's line follows the indented ones of its frames
         lines = [line.rstrip() for line in str(error).splitlines()]
-        last = max(number for number, line in enumerate(lines) if _TRACEBACK in line or line.startswith("  "))
+        last = max(
+            number
+            for number, line in enumerate(lines)
+            if _TRACEBACK in line or line.startswith("  ")
+        )
         lines = lines[last + 1 :] or [type(error).__name__]
         return "its importer failed, {}".format(lines[0].rstrip("."))
     return lines[0].removeprefix("Error: ").removeprefix("Python: ").rstrip(".")

@@ -24,11 +24,28 @@ from numpy.typing import NDArray
 from ...core.cad.obj_text import check_obj_text
 from ...core.scans.findings import DAMAGE_SIZE, FILE_DAMAGED
 from ...core.streams.file_mesh import refuse_non_finite
-from ...core.streams.text_fields import BLOCK, MAX_FLOAT32, SHORT, Data, find_number_fault, map_file, refuse_line
+from ...core.streams.text_fields import (
+    BLOCK,
+    MAX_FLOAT32,
+    SHORT,
+    Data,
+    find_number_fault,
+    map_file,
+    refuse_line,
+)
 from ...core.verdict.finding import FileError, finding
 from ..findings import MISSING_REFERENCES
 
-MALFORMED = (ValueError, KeyError, IndexError, TypeError, AttributeError, RecursionError, struct.error, zlib.error)
+MALFORMED = (
+    ValueError,
+    KeyError,
+    IndexError,
+    TypeError,
+    AttributeError,
+    RecursionError,
+    struct.error,
+    zlib.error,
+)
 _FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
 _FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
 # The end of a node's head: its name behind its length, and the type of its first property, an array.
@@ -83,7 +100,9 @@ def _fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:
     if not packed:
         yield 0, np.frombuffer(data, kind, count, at)
         return
-    unpacker, rest, done = zlib.decompressobj(), b"", 0
+    unpacker = zlib.decompressobj()
+    rest = b""
+    done = 0
     for begin in range(at, at + size, BLOCK):
         piece = data[begin : min(begin + BLOCK, at + size)]
         while piece and done < count:
@@ -91,7 +110,8 @@ def _fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:
             piece = unpacker.unconsumed_tail
             whole = len(block) // kind.itemsize
             yield done, np.frombuffer(block, kind, whole)
-            rest, done = block[whole * kind.itemsize :], done + whole
+            rest = block[whole * kind.itemsize :]
+            done = done + whole
 
 
 def check_gltf(data: Data, path: str) -> None:
@@ -99,7 +119,9 @@ def check_gltf(data: Data, path: str) -> None:
     with suppress(*MALFORMED):
         buffers = Buffers(data, path)
         for number, node in enumerate(buffers.document.get("nodes", [])):
-            count = sum(not abs(value) < MAX_FLOAT32 for key in _OF_NODES for value in node.get(key, ()))
+            count = sum(
+                not abs(value) < MAX_FLOAT32 for key in _OF_NODES for value in node.get(key, ())
+            )
             refuse_non_finite(count, "node", node.get("name") or number)
         for number, mesh in _placing_accessors(buffers.document).items():
             where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
@@ -120,7 +142,12 @@ def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
     for animation in document.get("animations", []):
         others += [sampler[key] for sampler in animation["samplers"] for key in ("input", "output")]
     for node in document.get("nodes", []):
-        others += node.get("extensions", {}).get("EXT_mesh_gpu_instancing", {}).get("attributes", {}).values()
+        others += (
+            node.get("extensions", {})
+            .get("EXT_mesh_gpu_instancing", {})
+            .get("attributes", {})
+            .values()
+        )
     return found | {number: None for number in others if number is not None and number not in found}
 
 
@@ -129,7 +156,9 @@ def _bad_in_accessor(buffers: Buffers, accessor: dict[str, Any]) -> tuple[int, i
     sparse = accessor.get("sparse")
     if sparse:
         size = {"count": sparse["count"]}
-        more, row = bad_in_table(buffers.table(accessor | {"byteOffset": 0} | sparse["values"] | size))
+        more, row = bad_in_table(
+            buffers.table(accessor | {"byteOffset": 0} | sparse["values"] | size)
+        )
         if more and not count:
             first = int(buffers.table({"type": "SCALAR"} | sparse["indices"] | size)[row, 0])
         count += more
@@ -138,7 +167,9 @@ def _bad_in_accessor(buffers: Buffers, accessor: dict[str, Any]) -> tuple[int, i
 
 def unquote(uri: str) -> str:
     """Return a glTF's reference with escapes such as %20 replaced by their characters."""
-    data = re.sub(rb"%([0-9a-fA-F]{2})", lambda match: bytes.fromhex(match[1].decode()), uri.encode())
+    data = re.sub(
+        rb"%([0-9a-fA-F]{2})", lambda match: bytes.fromhex(match[1].decode()), uri.encode()
+    )
     return data.decode("utf-8", "surrogateescape")
 
 
@@ -150,20 +181,32 @@ class Buffers:
         self.binary: tuple[Data, int] | None = None
         self.opened: dict[int, tuple[Data, int]] = {}
         text = data
-        if data[:4] == b"glTF":  # chunks of the text and of the first buffer, each behind its length and type
+        if (
+            data[:4] == b"glTF"
+        ):  # chunks of the text and of the first buffer, each behind its length and type
             end = 20 + struct.unpack_from("<I", data, 12)[0]
             text = data[20:end]
             self.binary = (data, end + 8)
         # An exporter may write null for a value that it leaves out.
         self.document = json.loads(
-            text[:], object_hook=lambda values: {key: value for key, value in values.items() if value is not None}
+            text[:],
+            object_hook=lambda values: {
+                key: value for key, value in values.items() if value is not None
+            },
         )
 
     def table(self, accessor: dict[str, Any]) -> NDArray:
         """Return the (n, k) numbers of an accessor without sparse ones; none if an extension has compressed them."""
-        kind, width = np.dtype(_GLTF_TYPES[accessor["componentType"]]), _GLTF_WIDTHS[accessor["type"]]
-        view = self.document["bufferViews"][accessor["bufferView"]] if "bufferView" in accessor else None
-        if view is None or any("meshopt_compression" in name for name in view.get("extensions", {})):
+        kind = np.dtype(_GLTF_TYPES[accessor["componentType"]])
+        width = _GLTF_WIDTHS[accessor["type"]]
+        view = (
+            self.document["bufferViews"][accessor["bufferView"]]
+            if "bufferView" in accessor
+            else None
+        )
+        if view is None or any(
+            "meshopt_compression" in name for name in view.get("extensions", {})
+        ):
             return np.empty((0, width), kind)
         data, start = self._buffer(view["buffer"])
         start += view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
@@ -175,18 +218,22 @@ class Buffers:
         if number in self.opened:
             return self.opened[number]
         buffer = self.document["buffers"][number]
-        uri, size = buffer.get("uri"), buffer["byteLength"]
+        uri = buffer.get("uri")
+        size = buffer["byteLength"]
         if uri is None:
             name = "BIN"
             if self.binary is None:
                 raise FileError(MISSING_REFERENCES, names=[name])
             data, start = self.binary
         elif uri.startswith("data:"):
-            name, data, start = "data:", base64.b64decode(uri.partition(",")[2]), 0
+            name = "data:"
+            data = base64.b64decode(uri.partition(",")[2])
+            start = 0
         else:
             name = unquote(uri)
             try:
-                data, start = map_file(os.path.join(self.folder, name)), 0
+                data = map_file(os.path.join(self.folder, name))
+                start = 0
             except (OSError, ValueError) as error:  # ValueError: it is empty
                 raise FileError(MISSING_REFERENCES, names=[name]) from error
         if len(data) - start < size:
@@ -200,7 +247,12 @@ def bad_in_table(rows: NDArray) -> tuple[int, int]:
     """Return the count of numbers in (n, k) that are not finite in float32, and the first row with such a number."""
     with np.errstate(over="ignore", invalid="ignore"):
         # The smallest and the largest are NaN if one of the numbers is.
-        if rows.dtype.kind != "f" or not rows.size or rows.max() < MAX_FLOAT32 and rows.min() > -MAX_FLOAT32:
+        if (
+            rows.dtype.kind != "f"
+            or not rows.size
+            or rows.max() < MAX_FLOAT32
+            and rows.min() > -MAX_FLOAT32
+        ):
             return 0, 0
         bad = ~(np.abs(rows) < MAX_FLOAT32)
     return int(np.count_nonzero(bad)), int(np.argmax(bad.any(axis=1)))

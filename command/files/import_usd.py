@@ -45,7 +45,10 @@ class _Prim(NamedTuple):
 
 
 _SHAPELESS = "Points", "BasisCurves", "HermiteCurves", "NurbsCurves"  # have no volume
-_PURPOSES = {"proxy": "its purpose is proxy", "guide": "its purpose is guide"}  # of prims that are not rendered
+_PURPOSES = {
+    "proxy": "its purpose is proxy",
+    "guide": "its purpose is guide",
+}  # of prims that are not rendered
 
 
 def import_usd(path: str) -> Opened:
@@ -106,15 +109,22 @@ class _Stage:
     def __init__(self, stage: Any) -> None:
         # Blender has these modules, and exposes them on request.
         usd, self._geom = (importlib.import_module("pxr." + name) for name in ("Usd", "UsdGeom"))
-        self._stage, self._time = stage, usd.TimeCode(bpy.context.scene.frame_current)
+        self._stage = stage
+        self._time = usd.TimeCode(bpy.context.scene.frame_current)
         self._places = self._geom.XformCache(self._time)
         self.unit = self._geom.GetStageMetersPerUnit(stage)
-        self._to_scene = UPRIGHT if self._geom.GetStageUpAxis(stage) == self._geom.Tokens.y else np.eye(4)
+        self._to_scene = (
+            UPRIGHT if self._geom.GetStageUpAxis(stage) == self._geom.Tokens.y else np.eye(4)
+        )
 
     def prims(self, blocks: Mapping[str, list[bpy.types.ID]]) -> dict[str, _Prim]:
         """Return the facts about the prims of objects, by name. blocks: Blender's data, by the prims' paths."""
         objects = {obj.data: obj for obj in bpy.data.objects if obj.data is not None}
-        pairs = [(self._stage.GetPrimAtPath(path), block) for path, found in blocks.items() for block in found]
+        pairs = [
+            (self._stage.GetPrimAtPath(path), block)
+            for path, found in blocks.items()
+            for block in found
+        ]
         prims = {block.name: prim for prim, block in pairs if isinstance(block, Object)}
         # Of an object that is merged from two prims, the geometry's prim says more.
         prims |= {objects[block].name: prim for prim, block in pairs if block in objects}
@@ -123,14 +133,26 @@ class _Stage:
     def unread(self, blocks: Mapping[str, list[bpy.types.ID]]) -> list[str]:
         """Return the paths and types of visible shapes that Blender's importer leaves out."""
         # An empty stands for some of them.
-        paths = {str(path) for path, found in blocks.items() if any(getattr(b, "type", "") != "EMPTY" for b in found)}
+        paths = {
+            str(path)
+            for path, found in blocks.items()
+            if any(getattr(b, "type", "") != "EMPTY" for b in found)
+        }
         shapes = [prim for prim in self._stage.Traverse() if prim.IsA(self._geom.Gprim)]
-        left = [prim for prim in shapes if str(prim.GetPath()) not in paths and prim.GetTypeName() not in _SHAPELESS]
+        left = [
+            prim
+            for prim in shapes
+            if str(prim.GetPath()) not in paths and prim.GetTypeName() not in _SHAPELESS
+        ]
         shown = [prim for prim in left if self._why_hidden(self._geom.Imageable(prim)) is None]
         return ["{} ({})".format(prim.GetPath(), prim.GetTypeName()) for prim in shown]
 
     def _facts(self, prim: Any) -> _Prim:
-        scheme = self._geom.Mesh(prim).GetSubdivisionSchemeAttr().Get() if prim.IsA(self._geom.Mesh) else "none"
+        scheme = (
+            self._geom.Mesh(prim).GetSubdivisionSchemeAttr().Get()
+            if prim.IsA(self._geom.Mesh)
+            else "none"
+        )
         place = np.array(self._places.GetLocalToWorldTransform(prim)).T
         return _Prim(
             self._why_hidden(self._geom.Imageable(prim)),
@@ -155,7 +177,8 @@ class _Stage:
             return attribute.Get(self._time) if attribute else other
 
         radius = value("radius", 0.0)
-        bottom, top = value("radiusBottom", radius), value("radiusTop", 0.0 if kind == "Cone" else radius)
+        bottom = value("radiusBottom", radius)
+        top = value("radiusTop", 0.0 if kind == "Cone" else radius)
         return bottom, top, value("height", 0.0), value("axis", "Z"), kind in ("Sphere", "Capsule")
 
     def _is_sheared(self, prim: Any) -> bool:
@@ -163,7 +186,9 @@ class _Stage:
         while not prim.IsPseudoRoot():
             axes = np.array(self._places.GetLocalTransformation(prim)[0])[:3, :3]
             lengths = np.linalg.norm(axes, axis=1)
-            if (np.abs(axes @ axes.T - np.diag(lengths**2)) > _SHEAR * np.outer(lengths, lengths)).any():
+            if (
+                np.abs(axes @ axes.T - np.diag(lengths**2)) > _SHEAR * np.outer(lengths, lengths)
+            ).any():
                 return True
             prim = prim.GetParent()
         return False
@@ -210,8 +235,10 @@ def _replace(obj: Object, data: bpy.types.Curve) -> None:
     new = bpy.data.objects.new(name, data)
     for slot in obj.data.materials if not data.materials else ():
         data.materials.append(slot)
-    new.parent, new.matrix_parent_inverse = obj.parent, obj.matrix_parent_inverse
-    new.matrix_basis, new.hide_render = obj.matrix_basis, obj.hide_render
+    new.parent = obj.parent
+    new.matrix_parent_inverse = obj.matrix_parent_inverse
+    new.matrix_basis = obj.matrix_basis
+    new.hide_render = obj.hide_render
     for constraint in obj.constraints:
         new.constraints.copy(constraint)
     for collection in obj.users_collection:

@@ -82,16 +82,23 @@ def import_3mf(path: str) -> Opened:
             obj.hide_render = True
             hidden[obj.name] = finding(FILE_HIDES, cause=one.hidden)
         obj.matrix_basis = Matrix(one.matrix)
-        if np.abs(np.array(obj.matrix_basis) - one.matrix).max() > _SHEAR * np.abs(one.matrix).max():
+        if (
+            np.abs(np.array(obj.matrix_basis) - one.matrix).max()
+            > _SHEAR * np.abs(one.matrix).max()
+        ):
             obj.matrix_basis = Matrix()  # an object's own channels hold no shear
-            obj.data = _mesh(replace(one, points=one.points @ one.matrix[:3, :3].T + one.matrix[:3, 3]))
+            obj.data = _mesh(
+                replace(one, points=one.points @ one.matrix[:3, :3].T + one.matrix[:3, 3])
+            )
     bpy.context.view_layer.update()
     return Opened(hidden=hidden)
 
 
 def _mesh(one: Placed) -> bpy.types.Mesh:
     """Return the mesh as stored in the file, without repair."""
-    return blender_mesh(FileMesh(one.name, one.points, one.triangles.ravel(), np.full(len(one.triangles), 3)))
+    return blender_mesh(
+        FileMesh(one.name, one.points, one.triangles.ravel(), np.full(len(one.triangles), 3))
+    )
 
 
 def import_iges(path: str) -> Opened:
@@ -136,7 +143,9 @@ def import_gltf(path: str) -> Opened:
     class NodeVisibility:
         """An extension of the importer, which ignores whether nodes are visible."""
 
-        def gather_import_node_after_hook(self, vnode: Any, _node: Any, obj: bpy.types.Object, gltf: Any) -> None:
+        def gather_import_node_after_hook(
+            self, vnode: Any, _node: Any, obj: bpy.types.Object, gltf: Any
+        ) -> None:
             if any(_is_invisible(gltf.data.nodes[number]) for number in _line_of(vnode, gltf)):
                 hidden.append(obj.name)
 

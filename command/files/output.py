@@ -29,7 +29,9 @@ from ..options.arguments import fail as fail_measure
 
 _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may not be 1 any more
 _HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
-_BEGINNING = re.compile(rb'(\s*\[?\s*\{\s*"schema"\s*:\s*"body-moments[a-z-]*/)|<!doctype html><!-- Body Moments')
+_BEGINNING = re.compile(
+    rb'(\s*\[?\s*\{\s*"schema"\s*:\s*"body-moments[a-z-]*/)|<!doctype html><!-- Body Moments'
+)
 _SPECTRUM = {name + ".npy" for name in SPECTRUM_ARRAYS}
 _FLAT_SPECTRUM = _SPECTRUM | {name + ".npy" for name in FLAT_SPECTRUM_ARRAYS}
 _COLUMNS = next(csv.reader(to_csv([])))
@@ -60,7 +62,10 @@ def is_stream(path: Path | None) -> bool:
 
 
 def write_result(
-    parts: Iterable[str], path: Path | None, channel: int, check: Callable[[Path], None] | None = None
+    parts: Iterable[str],
+    path: Path | None,
+    channel: int,
+    check: Callable[[Path], None] | None = None,
 ) -> bool:
     """Write a result to `path`, or to the descriptor `channel` if `path` is None, and return whether it succeeded.
 
@@ -99,7 +104,13 @@ def is_result(path: Path) -> bool:
     """Return whether a file is a result, a journal or a list of ours. Raises OSError."""
     with open(path, "rb") as file:
         head = file.read(_HEAD)
-    return bool(_BEGINNING.match(head)) or is_ours(head) or is_audit(head) or _is_table(head) or _is_spectrum(path)
+    return (
+        bool(_BEGINNING.match(head))
+        or is_ours(head)
+        or is_audit(head)
+        or _is_table(head)
+        or _is_spectrum(path)
+    )
 
 
 def guard(force: bool) -> Callable[[Path], None]:
@@ -107,14 +118,19 @@ def guard(force: bool) -> Callable[[Path], None]:
 
     def check(path: Path) -> None:
         if not force and not is_replaceable(path):
-            raise FileExistsError("{} is not a result of body_moments and would be lost".format(path))
+            raise FileExistsError(
+                "{} is not a result of body_moments and would be lost".format(path)
+            )
 
     return check
 
 
 def _is_table(head: bytes) -> bool:
     columns = head.split(b"\n", 1)[0].rstrip(b"\r").decode("utf-8", "replace").split(",")
-    return columns[: len(_COLUMNS) - _LAST] == _COLUMNS[:-_LAST] and columns[-_LAST:] == _COLUMNS[-_LAST:]
+    return (
+        columns[: len(_COLUMNS) - _LAST] == _COLUMNS[:-_LAST]
+        and columns[-_LAST:] == _COLUMNS[-_LAST:]
+    )
 
 
 def _is_spectrum(path: Path) -> bool:
@@ -123,7 +139,9 @@ def _is_spectrum(path: Path) -> bool:
     return False
 
 
-def check_targets(options: Namespace, read: Sequence[str | Path], fail: Fail = fail_measure) -> None:
+def check_targets(
+    options: Namespace, read: Sequence[str | Path], fail: Fail = fail_measure
+) -> None:
     """Call `fail` with a message if a result cannot be written, or would replace an input or a foreign file."""
     for option in TARGETS:
         target = getattr(options, option, None)
@@ -132,7 +150,9 @@ def check_targets(options: Namespace, read: Sequence[str | Path], fail: Fail = f
         try:
             refusal = _find_refusal(target, read, options.force)
         except OSError as error:  # a name that is too long, a folder that may not be entered
-            refusal = "{}: {}. Use another name".format(error.filename or target, system_reason(error))
+            refusal = "{}: {}. Use another name".format(
+                error.filename or target, system_reason(error)
+            )
         if refusal:
             fail("argument --{}: {}".format(option.replace("_", "-"), refusal))
 
@@ -151,5 +171,7 @@ def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
     if target.exists() and any(os.path.exists(path) and target.samefile(path) for path in read):
         return "{} is a file that is read. Use another name".format(target)
     if not (force or is_replaceable(target)):
-        return "{} is not a result of body_moments and would be lost. Use another name, or --force".format(target)
+        return "{} is not a result of body_moments and would be lost. Use another name, or --force".format(
+            target
+        )
     return ""

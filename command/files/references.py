@@ -70,7 +70,9 @@ def missing_links() -> Iterator[Finding]:
     """Yield a finding if Blender replaced missing links of the file by empty data, or lacks caches of modifiers."""
     data = bpy.data
     groups = (data.objects, data.meshes, data.curves, data.metaballs, data.collections)
-    missing = {item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing}
+    missing = {
+        item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing
+    }
     missing |= {path for path in _cache_paths() if not os.path.exists(path)}
     if missing:
         yield finding(MISSING_REFERENCES, names=sorted(missing))
@@ -84,15 +86,23 @@ def _cache_paths() -> Iterator[str]:
                 continue
             if modifier.type == "MESH_CACHE" and modifier.filepath:
                 yield bpy.path.abspath(modifier.filepath, library=obj.library)
-            elif modifier.type == "MESH_SEQUENCE_CACHE" and modifier.cache_file and not modifier.cache_file.is_sequence:
-                yield bpy.path.abspath(modifier.cache_file.filepath, library=modifier.cache_file.library)
+            elif (
+                modifier.type == "MESH_SEQUENCE_CACHE"
+                and modifier.cache_file
+                and not modifier.cache_file.is_sequence
+            ):
+                yield bpy.path.abspath(
+                    modifier.cache_file.filepath, library=modifier.cache_file.library
+                )
 
 
 def blocked_scripts() -> Iterator[Finding]:
     """Yield a finding if scripts of the open file did not run: drivers leave the saved value, or 0."""
     if not bpy.app.autoexec_fail:
         return
-    drivers = [driver for _, driver in _drivers() if not driver.is_valid and driver.type == "SCRIPTED"]
+    drivers = [
+        driver for _, driver in _drivers() if not driver.is_valid and driver.type == "SCRIPTED"
+    ]
     if drivers:
         yield finding(DRIVER_BLOCKED, drivers=sorted({driver.expression for driver in drivers}))
     else:
@@ -102,7 +112,9 @@ def blocked_scripts() -> Iterator[Finding]:
 def scripts_of_open_file() -> Iterator[Finding]:
     """Yield a finding if Blender was allowed to run scripts and the open file has some."""
     if bpy.data.filepath and _are_allowed(sys.argv):
-        texts = [text.name for text in bpy.data.texts if text.use_module and text.name.endswith(".py")]
+        texts = [
+            text.name for text in bpy.data.texts if text.use_module and text.name.endswith(".py")
+        ]
         # Blender evaluates simple arithmetic without Python.
         scripted = [
             name

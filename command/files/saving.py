@@ -48,7 +48,9 @@ class Place:
     def save(self) -> None:
         """Save the open scene, whole or not at all. FileError if this fails, or the file has changed meanwhile."""
         try:
-            if not os.access(self.path, os.W_OK):  # the folder alone decides whether a file can be replaced
+            if not os.access(
+                self.path, os.W_OK
+            ):  # the folder alone decides whether a file can be replaced
                 raise OSError("it is gone, or read-only")
             with open(self.path, "rb") as file:
                 packed = file.read(4).startswith(_PACKED)
@@ -67,7 +69,9 @@ def _digest(path: Path) -> bytes:
 
 
 def _save_as(path: Path, **options: bool) -> None:
-    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, relative_remap=False, check_existing=False, **options)
+    bpy.ops.wm.save_as_mainfile(
+        filepath=str(path), copy=True, relative_remap=False, check_existing=False, **options
+    )
 
 
 def save_copy(path: str) -> None:
@@ -82,7 +86,9 @@ def save_copy(path: str) -> None:
         raise FileError(FILE_NOT_WRITTEN, file=target.name, error=reason(error)) from error
 
 
-def write_assets(measured: Mapping[Root, Measurement], path: str, where: str) -> tuple[bool, list[Finding]]:
+def write_assets(
+    measured: Mapping[Root, Measurement], path: str, where: str
+) -> tuple[bool, list[Finding]]:
     """Store measurements in the metadata of the measured assets of the open file.
 
     Return whether the file itself is to be saved, and findings about assets without numbers. where: "copy" saves a copy
@@ -110,8 +116,16 @@ def _store(data: bpy.types.AssetMetaData, measurement: Measurement) -> None:
 def _without_numbers(known: set[Root]) -> Iterator[Finding]:
     """Yield a finding if assets of the open file have geometry and were not measured."""
     geometry = (bpy.data.meshes, bpy.data.curves, bpy.data.metaballs, bpy.data.volumes)
-    roots = [one for one in (*bpy.data.objects, *bpy.data.collections) if one not in known and _has_geometry(one)]
-    assets = (one for one in (*roots, *(data for group in geometry for data in group)) if one.asset_data is not None)
+    roots = [
+        one
+        for one in (*bpy.data.objects, *bpy.data.collections)
+        if one not in known and _has_geometry(one)
+    ]
+    assets = (
+        one
+        for one in (*roots, *(data for group in geometry for data in group))
+        if one.asset_data is not None
+    )
     names = sorted(one.name for one in assets if one.library is None)
     if names:
         yield finding(ASSETS_NOT_MEASURED, names=names)

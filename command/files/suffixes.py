@@ -47,12 +47,23 @@ def _check_usdz(path: Path) -> None:
     """Raise FileError if the checksum of a stored entry is wrong, which Blender's reader ignores."""
     try:
         with zipfile.ZipFile(path) as archive:
-            stored = [entry for entry in archive.infolist() if entry.compress_type == zipfile.ZIP_STORED]
+            stored = [
+                entry for entry in archive.infolist() if entry.compress_type == zipfile.ZIP_STORED
+            ]
             if sum(entry.file_size for entry in stored) > path.stat().st_size:
                 raise zipfile.BadZipFile("overlapping entries")
             for entry in stored:
                 with archive.open(entry) as file:
                     while file.read(1 << 20):
                         pass
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError, ValueError) as error:
-        raise damaged(path, DAMAGE_INCOMPLETE, kind="archive", error=str(error).rstrip(".")) from error
+    except (
+        zipfile.BadZipFile,
+        NotImplementedError,
+        RuntimeError,
+        EOFError,
+        OSError,
+        ValueError,
+    ) as error:
+        raise damaged(
+            path, DAMAGE_INCOMPLETE, kind="archive", error=str(error).rstrip(".")
+        ) from error

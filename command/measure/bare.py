@@ -16,7 +16,13 @@ from typing import Any
 
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.write.thumbnail import thumbnail
-from ...core.bodies.files import ArrayOptions, body_of_mesh, measure_array, measure_mesh_file, read_mesh
+from ...core.bodies.files import (
+    ArrayOptions,
+    body_of_mesh,
+    measure_array,
+    measure_mesh_file,
+    read_mesh,
+)
 from ...core.bodies.findings import DENSITY_DEFAULTED, SHAPE_OF_GRID
 from ...core.bodies.reading import measure_reading
 from ...core.cad.obj import has_surfaces
@@ -28,7 +34,14 @@ from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.scans import formats as scans
 from ...core.streams.file_mesh import FileMesh
 from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
-from ...core.verdict.finding import FileError, Finding, MeasureError, QueryError, finding, system_reason
+from ...core.verdict.finding import (
+    FileError,
+    Finding,
+    MeasureError,
+    QueryError,
+    finding,
+    system_reason,
+)
 from ...core.verdict.verdict import open_body_caveats
 from .. import measure
 from ..files.suffixes import STREAMED, check_file, file_suffix
@@ -40,7 +53,10 @@ from ..supervisor.processes import has_blender
 from .entries import Contents, failure
 
 BYTES_PER_FACE = 500  # approximate memory for reading and measuring a mesh
-BYTES_OF_FILE = {".stl": 50, ".ply": 19}  # Least bytes for each face: a file's size limits its faces.
+BYTES_OF_FILE = {
+    ".stl": 50,
+    ".ply": 19,
+}  # Least bytes for each face: a file's size limits its faces.
 DEFAULT_DENSITY = 1000.0  # kg/m³
 _NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
 
@@ -62,7 +78,10 @@ class BareFile:
         memory: int | None,
         progress: Callable[[str, str], Callable[[int], None]],
     ) -> None:
-        self._path, self.options, self._threads, self._memory = path, options, threads, memory
+        self._path = path
+        self.options = options
+        self._threads = threads
+        self._memory = memory
         self._progress = progress
         self._is_scan = bool(scans.scan_suffix(path))
 
@@ -73,7 +92,9 @@ class BareFile:
         else:
             check_file(self._path)
             self._measure_meshes(contents)
-        contents.caveats += open_body_caveats((label, one.method) for label, _, one in contents.measured)
+        contents.caveats += open_body_caveats(
+            (label, one.method) for label, _, one in contents.measured
+        )
 
     def store(self, contents: Contents) -> None:
         """Refuse to store results."""
@@ -85,7 +106,9 @@ class BareFile:
         if self.options.format not in ROBOT_FORMATS:
             return document
         wanted = measure.scene.measure_options(self.options, self._threads)
-        return measure.robots.complete(document, contents.measured, self.options, wanted, is_opened=False)
+        return measure.robots.complete(
+            document, contents.measured, self.options, wanted, is_opened=False
+        )
 
     def files(self) -> list[str]:
         """Return the files that Blender has read with it: none."""
@@ -118,7 +141,9 @@ class BareFile:
         names = [*names]
         wanted = names if self.options.object is None else [*dict.fromkeys(self.options.object)]
         contents.errors += [
-            failure(other, finding(NO_SUCH_NAME, kind="object", name=other)) for other in wanted if other not in names
+            failure(other, finding(NO_SUCH_NAME, kind="object", name=other))
+            for other in wanted
+            if other not in names
         ]
         return [name for name in names if name in wanted]
 
@@ -132,14 +157,21 @@ class BareFile:
         if not is_chosen:
             return
         count = self._progress(self._path, "samples" if is_scan else "faces")
-        measurement = self._measure_array(name, count) if is_scan else self._measure_stream(name, count)
+        measurement = (
+            self._measure_array(name, count) if is_scan else self._measure_stream(name, count)
+        )
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
-        shapeless = unused(requested) if not is_scan else [finding(SHAPE_OF_GRID)] if requested else []
+        shapeless = (
+            unused(requested) if not is_scan else [finding(SHAPE_OF_GRID)] if requested else []
+        )
         more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
         self._add(contents, measurement, shapeless, more)
 
     def _measure_array(self, name: str, progress: Callable[[int], None]) -> Measurement:
-        taken = {one: getattr(self.options, one) for one in (*OF_ARRAYS, "unit_scale", "limits", "threshold")}
+        taken = {
+            one: getattr(self.options, one)
+            for one in (*OF_ARRAYS, "unit_scale", "limits", "threshold")
+        }
         taken["positions"] = dict(self.options.positions or ())
         array = ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
         return measure_array(self._path, name, array, self._settings(), progress)
@@ -147,7 +179,9 @@ class BareFile:
     def _measure_stream(self, name: str, progress: Callable[[int], None]) -> Measurement:
         check_file(self._path)
         options = self.options
-        given = [one for one in _NOT_OF_STREAMS if getattr(options, one) not in (None, "thin", "value")]
+        given = [
+            one for one in _NOT_OF_STREAMS if getattr(options, one) not in (None, "thin", "value")
+        ]
         given += boolean_and_wire(options)
         if given:
             raise QueryError(STREAM_OPTIONS, options=words(given))
@@ -176,23 +210,32 @@ class BareFile:
                 measurement = measure_reading(reading, body, settings)
                 more = {}
                 if self.options.thumbnails:
-                    surface, properties = reading.join(), measurement.mass_properties
+                    surface = reading.join()
+                    properties = measurement.mass_properties
                     points = surface.points * settings.unit
                     triangles = surface.all_triangles()[0]
-                    more["thumbnail"] = thumbnail(points, triangles, properties.center, properties.principal.axes)
+                    more["thumbnail"] = thumbnail(
+                        points, triangles, properties.center, properties.principal.axes
+                    )
                 self._add(contents, measurement, findings, more)
             except MeasureError as refusal:
                 contents.errors.append(failure(mesh.name, refusal.finding))
 
     def _add(
-        self, contents: Contents, measurement: Measurement, findings: Iterable[Finding], more: dict[str, Any]
+        self,
+        contents: Contents,
+        measurement: Measurement,
+        findings: Iterable[Finding],
+        more: dict[str, Any],
     ) -> None:
         """Add a measurement and its record. findings: about its file. more: parts of the record."""
         options = self.options
         findings = (*measurement.findings, *findings, *body_findings(options, measurement))
         measurement = replace(measurement, findings=findings)
         surface = measurement.area_moments if options.surface_moments else None
-        contents.objects.append(record.record(measurement, options.frame, options.order, surface, more, options.about))
+        contents.objects.append(
+            record.record(measurement, options.frame, options.order, surface, more, options.about)
+        )
         contents.measured.append((measurement.name, None, measurement))
 
 
@@ -201,7 +244,8 @@ def _with_own_names(meshes: list[FileMesh]) -> list[FileMesh]:
     names: set[str] = set()
     named = []
     for mesh in meshes:
-        name, count = mesh.name, 0
+        name = mesh.name
+        count = 0
         while name in names:
             count += 1
             name = "{}.{:03d}".format(mesh.name, count)
@@ -232,5 +276,8 @@ def is_streamed(path: str, options: Namespace, memory: int | None) -> bool:
     if suffix not in STREAMED or options.stream != "auto":
         return suffix in STREAMED and options.stream == "always"
     with suppress(OSError, ValueError):  # Reading reports the error.
-        return memory is not None and os.path.getsize(path) / BYTES_OF_FILE[suffix] * BYTES_PER_FACE > memory
+        return (
+            memory is not None
+            and os.path.getsize(path) / BYTES_OF_FILE[suffix] * BYTES_PER_FACE > memory
+        )
     return False

@@ -57,9 +57,13 @@ def serve(line: Lifeline) -> None:
 
 
 def _measure(run: Run, path: str, line: Lifeline) -> None:
-    faults, before = run.internal_errors, state(path)
+    faults = run.internal_errors
+    before = state(path)
     document = run.document(path)
-    head: dict[str, Any] = {"faults": run.internal_errors - faults, "state": state(path) if run.has_saved else before}
+    head: dict[str, Any] = {
+        "faults": run.internal_errors - faults,
+        "state": state(path) if run.has_saved else before,
+    }
     names = sorted(map(os.fspath, references(path, run.opened)))
     head["reads"] = {name: state(name) for name in names}
     line.answer(head, json.dumps(document, allow_nan=False).encode() + b"\n")
@@ -70,7 +74,8 @@ def references(path: str, opened: Iterable[str] = ()) -> set[Path]:
 
     opened: the files that Blender has read with it. Layers in binary USD layers are not found, nor are missing tiles.
     """
-    waiting, known = [Path(path), *map(Path, opened)], set()
+    waiting = [Path(path), *map(Path, opened)]
+    known = set()
     while waiting:
         file = waiting.pop()
         with suppress(*_UNREADABLE):
@@ -88,7 +93,10 @@ def _of_nrrd(path: Path) -> Iterator[str]:
 
 
 def _of_gltf(path: Path) -> Iterator[str]:
-    uris = [buffer.get("uri") for buffer in Buffers(map_file(str(path)), str(path)).document.get("buffers", ())]
+    uris = [
+        buffer.get("uri")
+        for buffer in Buffers(map_file(str(path)), str(path)).document.get("buffers", ())
+    ]
     yield from (unquote(uri) for uri in uris if uri and not uri.startswith("data:"))
 
 

@@ -66,15 +66,20 @@ def measure_combined(options: MeasureOptions, contents: Contents, assets: bool) 
 
     `options` override the members' settings; `contents` gets the failures; `assets` adds assets that have a mass.
     """
-    scene, found = bpy.context.scene, Combined()
+    scene = bpy.context.scene
+    found = Combined()
     wanted = replace(options, order=None)
 
     def add_assembly(root: Root) -> None:
-        found.assemblies.append(measure_assembly(root, bpy.context.evaluated_depsgraph_get(), wanted))
+        found.assemblies.append(
+            measure_assembly(root, bpy.context.evaluated_depsgraph_get(), wanted)
+        )
 
     roots = dict.fromkeys(_roots(scene))
     measured = [
-        root for root in roots if root.get("body_method") == Procedure.ASSEMBLY or settings_of(root).mass_from == "MASS"
+        root
+        for root in roots
+        if root.get("body_method") == Procedure.ASSEMBLY or settings_of(root).mass_from == "MASS"
     ]
     for root in measured:
         with contents.attempt(root.name):
@@ -93,4 +98,8 @@ def measure_combined(options: MeasureOptions, contents: Contents, assets: bool) 
 def _roots(scene: Scene) -> Iterator[Root]:
     """Yield all collections of a scene, and the empties that are assemblies of their children."""
     empties = (obj for obj in scene.objects if obj.type == "EMPTY" and is_assembly(obj))
-    yield from (scene.collection, *scene.collection.children_recursive, *sorted(empties, key=lambda obj: obj.name))
+    yield from (
+        scene.collection,
+        *scene.collection.children_recursive,
+        *sorted(empties, key=lambda obj: obj.name),
+    )

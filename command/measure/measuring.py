@@ -58,7 +58,11 @@ def measured_together(
     """
     if options.order is not None or options.pose or options.signature:
         return None
-    if options.threshold is not None or options.polynomial is not None or options.density_from is not None:
+    if (
+        options.threshold is not None
+        or options.polynomial is not None
+        or options.density_from is not None
+    ):
         return None
     return measured_in_turn(objects, bpy.context.evaluated_depsgraph_get(), measure_options)
 
@@ -105,17 +109,26 @@ def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | 
     if not len(triangles):
         return None
     properties = measurement.mass_properties
-    return thumbnail(surface.points.astype(np.float64) * unit, triangles, properties.center, properties.principal.axes)
+    return thumbnail(
+        surface.points.astype(np.float64) * unit,
+        triangles,
+        properties.center,
+        properties.principal.axes,
+    )
 
 
-def write_transform(obj: bpy.types.Object, options: Namespace, measure_options: MeasureOptions) -> tuple[Finding, ...]:
+def write_transform(
+    obj: bpy.types.Object, options: Namespace, measure_options: MeasureOptions
+) -> tuple[Finding, ...]:
     """Write an object's Fourier transform to a file, and return findings. Raises MeasureError and OSError."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
     if options.flat:
         unit = measure_options.unit_scale
         under_way = flat_transform(obj, depsgraph, options.waves, frame=options.frame, unit=unit)
     else:
-        under_way = object_transform(obj, depsgraph, measure_options, options.waves, frame=options.frame)
+        under_way = object_transform(
+            obj, depsgraph, measure_options, options.waves, frame=options.frame
+        )
     for _ in under_way.steps():
         pass
     transform, findings = under_way.result()
@@ -135,14 +148,19 @@ def record_of_flat(
 
     refusal: the reason why it is no body. findings: about its file. Raises MeasureError.
     """
-    depsgraph, order = bpy.context.evaluated_depsgraph_get(), options.order
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    order = options.order
     posed = unused(["pose"] if options.pose else [])
     more: dict[str, Any] = {"pose": None} if options.pose else {}
     invariants = []
     try:
         region = flat_region(obj, depsgraph, selected=False, unit=unit)
         moments = region.moments(max(order or 0, LEAST_ORDER))
-        more |= {"signature": flat_shape_of(obj, depsgraph, unit).signature().as_record()} if options.signature else {}
+        more |= (
+            {"signature": flat_shape_of(obj, depsgraph, unit).signature().as_record()}
+            if options.signature
+            else {}
+        )
         if order is not None and order >= HU_ORDER:
             normalized = normalize(moments)
             invariants = [*hu_invariants(normalized), *flusser_invariants(normalized)]
@@ -177,16 +195,23 @@ def objects_to_measure(
 
     Objects that the view layer excludes are included if another one renders them: reading them reports the reason.
     """
-    scene, layer = bpy.context.scene, bpy.context.view_layer
+    scene = bpy.context.scene
+    layer = bpy.context.view_layer
     same = Counter(obj.name for obj in scene.objects)
     # A linked object may have a local one's name; the full name has the library too.
     labels = {obj: obj.name if same[obj.name] == 1 else obj.name_full for obj in scene.objects}
     if names is None:
         candidates = {*measurable_objects(layer), *_excluded(scene, layer)}
         reasons = {} if everything else left_out_reasons(scene, layer)
-        chosen = [(label, obj) for obj, label in labels.items() if obj in candidates and obj not in reasons]
+        chosen = [
+            (label, obj)
+            for obj, label in labels.items()
+            if obj in candidates and obj not in reasons
+        ]
         left_out = [
-            failure(labels[obj], hidden.get(obj.name, reason)) for obj, reason in reasons.items() if obj in candidates
+            failure(labels[obj], hidden.get(obj.name, reason))
+            for obj, reason in reasons.items()
+            if obj in candidates
         ]
         return chosen, left_out, []
     chosen, errors = [], []
@@ -212,7 +237,11 @@ def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.typ
 def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
     """Yield a finding if a file has measurable objects outside its open scene."""
     here = {*scene.objects}
-    other_scenes = [other.name for other in bpy.data.scenes if any(measurable(obj) for obj in {*other.objects} - here)]
+    other_scenes = [
+        other.name
+        for other in bpy.data.scenes
+        if any(measurable(obj) for obj in {*other.objects} - here)
+    ]
     if other_scenes:
         yield finding(OTHERS_LEFT_OUT, kind="scene", name=scene.name, others=other_scenes)
 
@@ -224,13 +253,16 @@ def set_density(obj: bpy.types.Object, options: Namespace) -> None:
     """
     settings = obj.body_moments
     if options.threshold is not None and obj.type == "VOLUME":
-        settings.grid_as, settings.threshold = "THRESHOLD", options.threshold
+        settings.grid_as = "THRESHOLD"
+        settings.threshold = options.threshold
     if options.polynomial is not None:
-        settings.mass_from, settings.density_from = "DENSITY", "POLYNOMIAL"
+        settings.mass_from = "DENSITY"
+        settings.density_from = "POLYNOMIAL"
         settings.density_polynomial = options.polynomial
     elif options.density_from is not None:
         source, name = split_source(options.density_from)
-        settings.mass_from, settings.density_from = "DENSITY", source.upper()
+        settings.mass_from = "DENSITY"
+        settings.density_from = source.upper()
         if source == "attribute":
             settings.density_attribute = name
         elif source == "volume":

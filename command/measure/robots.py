@@ -16,7 +16,13 @@ from typing import Any
 
 import bpy
 
-from ...blender.session.robots import SceneLinks, bone_links, collection_links, jointed_robot, object_candidate
+from ...blender.session.robots import (
+    SceneLinks,
+    bone_links,
+    collection_links,
+    jointed_robot,
+    object_candidate,
+)
 from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.measurement.measurement import Measurement
@@ -54,15 +60,30 @@ def complete(
     else:
         made = _of_scene(document, measured, options.links, measure_options)
     made = replace(made, robot=made.robot.with_fixed_roots()) if options.fixed_base else made
-    robot, told, failed = with_primitives(made.robot, "none"), [], []
+    robot = with_primitives(made.robot, "none")
+    told = []
+    failed = []
     if not (options.no_meshes or options.inertial_only or is_stream(options.output)):
-        surface_of, read = partial(made.surface, bpy.context), Path(document["file"]) if document["file"] else None
+        surface_of = partial(made.surface, bpy.context)
+        read = Path(document["file"]) if document["file"] else None
         try:
-            seen = without_collision(made.robot) if options.collision == "none" else made.with_colliders().robot
-            robot, told = with_geometry(seen, options.format, surface_of, options.output, read, options.force)
+            seen = (
+                without_collision(made.robot)
+                if options.collision == "none"
+                else made.with_colliders().robot
+            )
+            robot, told = with_geometry(
+                seen, options.format, surface_of, options.output, read, options.force
+            )
         except OSError as error:
-            failed = [finding(FILE_NOT_WRITTEN, file=error.filename or "meshes", error=system_reason(error))]
-    text, findings = robot_text(robot, options.format, [*made.findings, *told], inertial_only=options.inertial_only)
+            failed = [
+                finding(
+                    FILE_NOT_WRITTEN, file=error.filename or "meshes", error=system_reason(error)
+                )
+            ]
+    text, findings = robot_text(
+        robot, options.format, [*made.findings, *told], inertial_only=options.inertial_only
+    )
     findings += failed
     for one in findings:
         print_message(sentence(one))
@@ -83,10 +104,14 @@ def _by_object(
 
 
 def _of_scene(
-    document: dict[str, Any], measured: Sequence[MeasuredObject], links: str, measure_options: MeasureOptions
+    document: dict[str, Any],
+    measured: Sequence[MeasuredObject],
+    links: str,
+    measure_options: MeasureOptions,
 ) -> SceneLinks:
     """Return the scene's collections or bones as links; if they are refused, no links and the finding."""
-    name, context = robot_name(document["file"]), bpy.context
+    name = robot_name(document["file"])
+    context = bpy.context
     given = replace(measure_options, order=None)
     try:
         if links == "bone":
@@ -95,4 +120,6 @@ def _of_scene(
         objects = [obj for _, obj, _ in measured if obj is not None]
         return collection_links(context, name, context.scene.collection, objects, given)
     except MeasureError as error:
-        return SceneLinks(Robot(name, ()), [error.finding], measure_options.meters_per_unit(context.scene))
+        return SceneLinks(
+            Robot(name, ()), [error.finding], measure_options.meters_per_unit(context.scene)
+        )

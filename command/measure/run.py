@@ -29,7 +29,10 @@ from .bare import BareFile, is_bare
 from .entries import Contents, failure, said_once
 
 THREADS = os.cpu_count() or 1  # for long measurements
-_STATUSES: dict[str, str] = {FILE_MISSING: "missing", FILE_VERSION_UNSUPPORTED: "unsupported_version"}
+_STATUSES: dict[str, str] = {
+    FILE_MISSING: "missing",
+    FILE_VERSION_UNSUPPORTED: "unsupported_version",
+}
 
 
 def blender_version() -> str | None:
@@ -60,7 +63,9 @@ class Run:
     def measure(self) -> None:
         """Measure every named file, or else the open file, and add their documents."""
         options = self.options
-        is_open_file_meant = not options.files and options.manifest is None and options.range is None
+        is_open_file_meant = (
+            not options.files and options.manifest is None and options.range is None
+        )
         for path in [None] if is_open_file_meant else options.files:
             self.documents.append(self.document(path))
 
@@ -71,7 +76,9 @@ class Run:
 
     def document(self, path: str | None) -> dict[str, Any]:
         """Measure one file, or the open scene, and return its document."""
-        options, contents, status = self.options, Contents(self.internal_error), None
+        options = self.options
+        contents = Contents(self.internal_error)
+        status = None
         if path is not None and is_bare(path, options, self.memory):
             source = BareFile(path, options, self.threads, self.memory, self.progress)
         else:
@@ -86,7 +93,8 @@ class Run:
             status = _STATUSES.get(refusal.finding.code)
         except Exception as error:
             contents.errors.append(self.internal_error(None, error))
-        self.has_saved, self.opened = source.has_saved, source.files()
+        self.has_saved = source.has_saved
+        self.opened = source.files()
         for one in contents.errors:
             where = [text for text in (file, one["name"]) if text]
             print_message(*where, one["reason"])

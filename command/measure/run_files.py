@@ -28,7 +28,16 @@ from ...core.verdict.finding import Finding, finding, system_reason
 from ...core.whole_file import hidden_path
 from ..files import output
 from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
-from ..options.arguments import ONE_FILE, ONE_OBJECT, check_blender, fail, files_of_options, of_numbers, run_of, version
+from ..options.arguments import (
+    ONE_FILE,
+    ONE_OBJECT,
+    check_blender,
+    fail,
+    files_of_options,
+    of_numbers,
+    run_of,
+    version,
+)
 from ..options.measure_parser import DEFAULT_TIMEOUT
 from ..options.option_types import FORMATS
 from ..parser import UsageError
@@ -111,10 +120,12 @@ class _Places:
         self.journal_is_kept = not output.is_stream(options.output)
         if not self.journal_is_kept:
             folder = Path(ends.enter_context(tempfile.TemporaryDirectory(prefix="body_moments_")))
-            self.work, self.journal = folder / "work", folder / "journal"
+            self.work = folder / "work"
+            self.journal = folder / "journal"
             return
         target = Path(os.path.realpath(options.output))
-        folder, self.journal = hidden_path(target, "body_moments.work"), target.with_name(target.name + ".journal")
+        folder = hidden_path(target, "body_moments.work")
+        self.journal = target.with_name(target.name + ".journal")
         self.work = folder / "work"
         try:
             ends.enter_context(locked(folder))
@@ -126,9 +137,17 @@ class _Places:
                 kept += map(_old, self._replaced)
             for path in kept:
                 if not (options.force or output.is_replaceable(path)):
-                    fail("argument --output: {} is in the way, and no result. Move it, or use --force".format(path))
+                    fail(
+                        "argument --output: {} is in the way, and no result. Move it, or use --force".format(
+                            path
+                        )
+                    )
         except BlockingIOError:
-            fail("argument --output: another run is writing {}. Use another name, or wait".format(target))
+            fail(
+                "argument --output: another run is writing {}. Use another name, or wait".format(
+                    target
+                )
+            )
         except OSError as error:  # Such as a name that is too long with the suffix.
             fail("argument --output: {}: {}".format(error.filename or target, system_reason(error)))
 
@@ -146,8 +165,13 @@ def _old(path: Path) -> Path:
 class _Supervised:
     """A run over files by children. tasks: the files, each once. done: count of the recorded files."""
 
-    def __init__(self, options: Namespace, paths: list[str], command: list[str], places: _Places) -> None:
-        self._options, self._paths, self._command, self._places = options, paths, command, places
+    def __init__(
+        self, options: Namespace, paths: list[str], command: list[str], places: _Places
+    ) -> None:
+        self._options = options
+        self._paths = paths
+        self._command = command
+        self._places = places
         self.tasks = [*dict.fromkeys(paths)]
         self.done = 0
         self._faults = 0
@@ -182,18 +206,24 @@ class _Supervised:
     def _measure(self, pool: Pool, journal: Journal) -> None:
         blender = pool.about["blender"]
         common = {"options": _digest(self._options), "addon": version(), "blender": blender}
-        limits, known = {"seconds": self._limits.seconds, "memory": self._limits.memory}, []
+        limits = {"seconds": self._limits.seconds, "memory": self._limits.memory}
+        known = []
         if self._options.resume:
             entries = {path: journal.entries.get(path) for path in self.tasks}
             keys = {path: {"path": path, **state(path), **common} for path in self.tasks}
-            given, retried = run_of(self._options)["options"], self._options.retry_failed
+            given = run_of(self._options)["options"]
+            retried = self._options.retry_failed
             reasons = {
-                path: entry.reason_to_measure(keys[path], given, limits, retried) if entry else "not recorded"
+                path: entry.reason_to_measure(keys[path], given, limits, retried)
+                if entry
+                else "not recorded"
                 for path, entry in entries.items()
             }
             missing = [path for path, reason in reasons.items() if reason is not None]
             self.done = len(self.tasks) - len(missing)
-            known = [entry.status for path, entry in entries.items() if entry and reasons[path] is None]
+            known = [
+                entry.status for path, entry in entries.items() if entry and reasons[path] is None
+            ]
             _report_reuse(reasons)
             pool.add(missing)
         progress = Progress(len(self.tasks), known)
@@ -201,7 +231,11 @@ class _Supervised:
             for outcome in pool.step():
                 status, reason, text = self._recorded(outcome, blender)
                 head = {
-                    "key": {"path": outcome.task, **outcome.head.get("state", state(outcome.task)), **common},
+                    "key": {
+                        "path": outcome.task,
+                        **outcome.head.get("state", state(outcome.task)),
+                        **common,
+                    },
                     "status": status,
                     "attempts": outcome.attempts,
                     "seconds": round(outcome.seconds, 6),
@@ -223,7 +257,8 @@ class _Supervised:
         if outcome.status == "answered":
             with suppress(ValueError, KeyError, TypeError):
                 return json.loads(outcome.data)["status"], None, outcome.data
-            outcome.status, outcome.how = "crashed", "no answer"
+            outcome.status = "crashed"
+            outcome.how = "no answer"
         if outcome.status == "timeout":
             reason = finding(FILE_TIMED_OUT, seconds=self._limits.seconds)
         elif outcome.status == "memory":
@@ -246,7 +281,9 @@ class _Supervised:
             print_message(outcome.task, reason)
             return
         lines = outcome.said.splitlines(keepends=True)
-        sys.stderr.write("".join(line for line in lines if faults or line.startswith(PROGRAM + ": ")))
+        sys.stderr.write(
+            "".join(line for line in lines if faults or line.startswith(PROGRAM + ": "))
+        )
 
     def _write(self, journal: Journal, channel: int) -> bool:
         """Write the result, and return whether it could be written."""
@@ -278,5 +315,7 @@ def _report_reuse(reasons: dict[str, str | None]) -> None:
 def _digest(options: Namespace) -> str:
     """Return a digest of the options, positions and limits, which influence the numbers besides the file."""
     positions = [state(path) for _, path in options.positions or ()]
-    text = json.dumps([of_numbers(options), positions, os.environ.get("BODY_MOMENTS_LIMITS", "")], sort_keys=True)
+    text = json.dumps(
+        [of_numbers(options), positions, os.environ.get("BODY_MOMENTS_LIMITS", "")], sort_keys=True
+    )
     return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -35,7 +35,12 @@ from ..files.files import newer_version, open_file, requested_file
 from ..files.references import Opened, blocked_scripts, missing_links, scripts_of_open_file
 from ..files.saving import Place, write_assets
 from ..files.suffixes import file_suffix
-from ..findings import FOURIER_OBJECT_COUNT, PART_UNAVAILABLE, RESULTS_NEED_BLEND, SOLID_OPERAND_MEASURED
+from ..findings import (
+    FOURIER_OBJECT_COUNT,
+    PART_UNAVAILABLE,
+    RESULTS_NEED_BLEND,
+    SOLID_OPERAND_MEASURED,
+)
 from ..options.checks import body_findings, density_of, file_findings, is_unitless
 from ..supervisor.listing import BLEND
 from . import robots
@@ -62,7 +67,10 @@ def open_name() -> str | None:
 def measure_options(options: Namespace, threads: int) -> MeasureOptions:
     """Return the options of a command line that override the settings of objects."""
     return MeasureOptions(
-        **{name: getattr(options, name) for name in ("kind", "mass", "thickness", "overlap", "wall")},
+        **{
+            name: getattr(options, name)
+            for name in ("kind", "mass", "thickness", "overlap", "wall")
+        },
         density=density_of(options),
         order=options.order,
         surface=options.surface_moments,
@@ -89,16 +97,26 @@ class Scene:
         opened = self._open()
         self._is_open = True
         # Not set in the scene, whose unit scale is a float32 with limits.
-        self._wanted = replace(self._wanted, unit_scale=(options.unit_scale or 1.0) if is_unitless(path) else None)
-        chosen, contents.left_out, contents.errors = objects_to_measure(options.object, options.all, opened.hidden)
+        self._wanted = replace(
+            self._wanted, unit_scale=(options.unit_scale or 1.0) if is_unitless(path) else None
+        )
+        chosen, contents.left_out, contents.errors = objects_to_measure(
+            options.object, options.all, opened.hidden
+        )
         contents.errors += [failure(None, reason) for reason in (*opened.errors, *missing_links())]
         self._measure_each(chosen, opened, contents)
         contents.caveats += scripts_of_open_file() if path is None else ()
-        contents.caveats += open_body_caveats((label, one.method) for label, _, one in contents.measured)
+        contents.caveats += open_body_caveats(
+            (label, one.method) for label, _, one in contents.measured
+        )
         if options.object is None:  # A user who names objects knows what their total means.
-            contents.caveats += total_caveats([obj for _, obj, _ in contents.measured], bpy.context.view_layer)
+            contents.caveats += total_caveats(
+                [obj for _, obj, _ in contents.measured], bpy.context.view_layer
+            )
             contents.caveats += other_scenes(bpy.context.scene)
-            self._combined = measure_combined(self._wanted, contents, options.asset_metadata is not None)
+            self._combined = measure_combined(
+                self._wanted, contents, options.asset_metadata is not None
+            )
         if options.fourier:
             contents.errors.extend(self._fourier(chosen, contents))
         if not contents.objects and not contents.flats and not contents.errors:
@@ -113,7 +131,9 @@ class Scene:
         is_changed = options.write
         if options.asset_metadata and path is not None and file_suffix(path) == BLEND:
             of_objects = {obj: one for _, obj, one in contents.measured}
-            in_file, told = write_assets(of_objects | self._combined.measurements(), path, options.asset_metadata)
+            in_file, told = write_assets(
+                of_objects | self._combined.measurements(), path, options.asset_metadata
+            )
             is_changed = is_changed or in_file
             contents.caveats += told
         if is_changed:
@@ -126,7 +146,9 @@ class Scene:
         """Return a document with the scene's assemblies, bones and flat shapes, and its text as a robot."""
         document |= self._combined.records(self.options.frame)
         document |= {"flat": contents.flats} if self.options.flat else {}
-        return robots.complete(document, contents.measured, self.options, self._wanted, is_opened=self._is_open)
+        return robots.complete(
+            document, contents.measured, self.options, self._wanted, is_opened=self._is_open
+        )
 
     def files(self) -> list[str]:
         """Return the files that Blender has read with the open file."""
@@ -139,9 +161,16 @@ class Scene:
         target = self._path or bpy.data.filepath
         return Place.of_file(target) if is_saved and is_blend and os.path.isfile(target) else None
 
-    def _measure_each(self, chosen: list[tuple[str, bpy.types.Object]], opened: Opened, contents: Contents) -> None:
+    def _measure_each(
+        self, chosen: list[tuple[str, bpy.types.Object]], opened: Opened, contents: Contents
+    ) -> None:
         """Add the records and measurements of bodies, and the records of flat shapes."""
-        of_file = (*opened.notes, *file_findings(self._path, self.options), *blocked_scripts(), *newer_version())
+        of_file = (
+            *opened.notes,
+            *file_findings(self._path, self.options),
+            *blocked_scripts(),
+            *newer_version(),
+        )
         operands = operands_of(bpy.context.scene.objects) if self.options.object is None else {}
         in_turn = measured_together([obj for _, obj in chosen], self.options, self._wanted)
         for label, obj in chosen:
@@ -170,12 +199,16 @@ class Scene:
         set_density(obj, self.options)
         try:
             measurement, more, of_shape = (
-                (in_turn(obj).measurement, {}, ()) if in_turn else measure_shape(obj, self.options, self._wanted)
+                (in_turn(obj).measurement, {}, ())
+                if in_turn
+                else measure_shape(obj, self.options, self._wanted)
             )
         except MeasureError as refusal:
             if self.options.flat and refusal.finding.code in NO_BODY:
                 unit = self._wanted.unit_scale
-                contents.flats.append(record_of_flat(label, obj, self.options, unit, refusal, findings))
+                contents.flats.append(
+                    record_of_flat(label, obj, self.options, unit, refusal, findings)
+                )
                 return
             if order is None:
                 raise
@@ -183,13 +216,19 @@ class Scene:
             measurement, more, of_shape = measure_shape(obj, self.options, lower)
             contents.errors.append(failure(label, _unavailable("moments of this order", refusal)))
             order = None
-        surface = measurement.area_moments if self.options.surface_moments and order is not None else None
+        surface = (
+            measurement.area_moments if self.options.surface_moments and order is not None else None
+        )
         findings = (
             *(*measurement.findings, *of_shape, *findings),
             *(*self._default_density(obj, measurement), *body_findings(self.options, measurement)),
         )
         named = replace(measurement, name=label, findings=findings)
-        colliders = session.colliders.collider_record(obj, measurement, bpy.context) if COLLIDERS in obj else None
+        colliders = (
+            session.colliders.collider_record(obj, measurement, bpy.context)
+            if COLLIDERS in obj
+            else None
+        )
         more |= {} if colliders is None else {"colliders": colliders}
         if self.options.thumbnails:
             more["thumbnail"] = thumbnail_of(obj, measurement, self._wanted.unit_scale)
@@ -197,13 +236,21 @@ class Scene:
         contents.objects.append(entry)
         contents.measured.append((label, obj, measurement))
 
-    def _default_density(self, obj: bpy.types.Object, measurement: Measurement) -> Iterator[Finding]:
+    def _default_density(
+        self, obj: bpy.types.Object, measurement: Measurement
+    ) -> Iterator[Finding]:
         """Yield a finding if neither an option nor the object sets the density."""
-        if self.options.density is not None or self.options.mass is not None or self.options.material is not None:
+        if (
+            self.options.density is not None
+            or self.options.mass is not None
+            or self.options.material is not None
+        ):
             return
         unset = unset_density(obj, measurement, bpy.context.scene)
         if unset is not None:
-            yield finding(DENSITY_DEFAULTED, density="1 kg/m" if unset == "linear_density" else "1000 kg/m³")
+            yield finding(
+                DENSITY_DEFAULTED, density="1 kg/m" if unset == "linear_density" else "1000 kg/m³"
+            )
 
     def _open(self) -> Opened:
         """Open the path, if there is one, and return the findings. FileError if Blender has not loaded its file."""
@@ -215,14 +262,17 @@ class Scene:
             raise FileError(FILE_UNREADABLE, error="it is missing or incomplete")
         return Opened()
 
-    def _fourier(self, chosen: list[tuple[str, bpy.types.Object]], contents: Contents) -> Iterator[dict[str, Any]]:
+    def _fourier(
+        self, chosen: list[tuple[str, bpy.types.Object]], contents: Contents
+    ) -> Iterator[dict[str, Any]]:
         """Write the Fourier transform of the one measured object, and add the findings to its record."""
         if len(chosen) != 1:
             yield failure(None, finding(FOURIER_OBJECT_COUNT, count=len(chosen)))
             return
         if not (contents.objects or contents.flats):
             return  # the reason is among the errors already
-        (label, obj), (entry,) = chosen[0], (*contents.objects, *contents.flats)
+        (label, obj) = chosen[0]
+        (entry,) = (*contents.objects, *contents.flats)
         try:
             record.add_findings(entry, write_transform(obj, self.options, self._wanted))
         except MeasureError as refusal:

@@ -27,7 +27,19 @@ TARGETS = ("output", "fourier", "write_baseline")  # options whose files are wri
 
 # These options change no number: two runs that differ in these alone have the same records.
 _OF_RUNS = {
-    *("command", "files", "format", "output", "force", "jobs", "timeout", "memory_mb", "range", "part", "manifest"),
+    *(
+        "command",
+        "files",
+        "format",
+        "output",
+        "force",
+        "jobs",
+        "timeout",
+        "memory_mb",
+        "range",
+        "part",
+        "manifest",
+    ),
     *("resume", "retry_failed", "no_supervisor", "blender", "errors_exit_0", "words"),
 }
 _ROOT = __name__.removesuffix(".command.options.arguments")
@@ -53,19 +65,31 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         if len(options.files) > 1:
             fail(ONE_FILE.format(options.format))
         options.frame = "object"  # frame of the links
-        given = [name for name in ("kind", "thickness", "wall", "overlap") if getattr(options, name) is not None]
+        given = [
+            name
+            for name in ("kind", "thickness", "wall", "overlap")
+            if getattr(options, name) is not None
+        ]
         if options.links == "bone" and given:
             fail("--links bone takes what the bones' settings say, and no --{}".format(given[0]))
         binary = ROBOT_FORMATS[options.format].binary_suffixes
         if options.output is not None and options.output.suffix.lower() in binary:
-            fail("argument --output: {} is written as text. Use .gltf, .usd or .usda".format(options.format))
+            fail(
+                "argument --output: {} is written as text. Use .gltf, .usd or .usda".format(
+                    options.format
+                )
+            )
     if options.surface_moments and options.order is None:
         options.order = DEFAULT_ORDER
     if options.no_supervisor or not has_files:
         for name in ("jobs", "memory_mb", "timeout", "blender", "resume"):
             if getattr(options, name):
                 option = name.replace("_", "-")
-                fail("argument --{}: applies to FILEs that are measured by other processes".format(option))
+                fail(
+                    "argument --{}: applies to FILEs that are measured by other processes".format(
+                        option
+                    )
+                )
     if options.part is not None and options.manifest is None:
         fail("argument --part: needs the --manifest whose part it is")
     if options.resume and options.output is None:
@@ -89,13 +113,17 @@ def words(names: Iterable[str]) -> list[str]:
 
 def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
     """Return the options that influence records by name, as JSON would return them."""
-    names = _defaults().keys() - _OF_RUNS | ({"format"} if options.format in ROBOT_FORMATS else set())
+    names = _defaults().keys() - _OF_RUNS | (
+        {"format"} if options.format in ROBOT_FORMATS else set()
+    )
     return {name: _as_json(getattr(options, name)) for name in sorted(names)}
 
 
 def run_of(options: argparse.Namespace) -> dict[str, Any]:
     """Return the entry `run` of documents: the add-on's version and the given options that influence records."""
-    given = {name: value for name, value in of_numbers(options).items() if value != _defaults()[name]}
+    given = {
+        name: value for name, value in of_numbers(options).items() if value != _defaults()[name]
+    }
     return {"addon": version(), "options": dict(zip(words(given), given.values()))}
 
 
@@ -118,7 +146,9 @@ def version() -> str:
     return tomllib.loads(manifest.decode())["version"] if manifest else ""
 
 
-def files_of_options(options: argparse.Namespace, files: Iterable[str], opened: str | None) -> list[str | Path]:
+def files_of_options(
+    options: argparse.Namespace, files: Iterable[str], opened: str | None
+) -> list[str | Path]:
     """Return the files that a run reads: measured files, the open file, and files that options name."""
     positions = (path for _, path in options.positions or ())
     return [path for path in (*files, opened, options.q, *positions) if path]
@@ -138,8 +168,16 @@ def _check_fourier(options: argparse.Namespace) -> None:
         fail("arguments --grid and --qmax must be used together")
     if len(options.files) > 1 or len(options.object or ()) > 1:
         fail(ONE_OBJECT)
-    for first, second in ((target, options.q), (target, options.output), (options.output, options.q)):
-        if first is not None and second is not None and os.path.realpath(first) == os.path.realpath(second):
+    for first, second in (
+        (target, options.q),
+        (target, options.output),
+        (options.output, options.q),
+    ):
+        if (
+            first is not None
+            and second is not None
+            and os.path.realpath(first) == os.path.realpath(second)
+        ):
             fail("argument --fourier: {} is used twice".format(first))
 
 
@@ -147,7 +185,11 @@ def join_negative_values(argv: list[str]) -> list[str]:
     """Join `--origin -1,2,3` into `--origin=-1,2,3`: the parser would take a value with a minus for an option."""
     joined: list[str] = []
     for word in argv:
-        if joined and joined[-1] in {"--origin", "--spacing", "--about"} and word[:2].strip("0123456789.") == "-":
+        if (
+            joined
+            and joined[-1] in {"--origin", "--spacing", "--about"}
+            and word[:2].strip("0123456789.") == "-"
+        ):
             joined[-1] += "=" + word
         else:
             joined.append(word)
@@ -159,7 +201,11 @@ def options_of_blender(options: argparse.Namespace, is_scan: bool) -> list[str]:
     robot = ["format"] * (options.format in ROBOT_FORMATS)
     if is_scan:
         return robot
-    return [*(name for name in _OF_OBJECTS if getattr(options, name)), *boolean_and_wire(options), *robot]
+    return [
+        *(name for name in _OF_OBJECTS if getattr(options, name)),
+        *boolean_and_wire(options),
+        *robot,
+    ]
 
 
 def boolean_and_wire(options: argparse.Namespace) -> list[str]:

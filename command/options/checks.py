@@ -38,7 +38,9 @@ def prepare(options: Namespace) -> None:
     try:
         if options.material is not None and options.material not in BY_NAME:
             known = ", ".join(sorted(BY_NAME))
-            raise UsageError("There is no material “{}”. Known are {}".format(options.material, known))
+            raise UsageError(
+                "There is no material “{}”. Known are {}".format(options.material, known)
+            )
         if options.polynomial is not None:
             parse_polynomial(options.polynomial)
         options.limits = replace(scan_limits(), allow_outside=options.allow_outside)
@@ -52,7 +54,8 @@ def prepare(options: Namespace) -> None:
 
 def wave_vectors_of(options: Namespace) -> FrequencyGrid | NDArray[np.float64] | None:
     """Return the requested wave vectors, of a grid or a .npy file, or None. Raises MeasureError and UsageError."""
-    dimension, path = 2 if options.flat else 3, options.q
+    dimension = 2 if options.flat else 3
+    path = options.q
     if options.fourier is None:
         return None
     if path is None:
@@ -93,5 +96,10 @@ def file_findings(path: str | None, options: Namespace) -> Iterator[Finding]:
 
 def body_findings(options: Namespace, measurement: Measurement) -> Iterator[Finding]:
     """Yield a finding if there are options for other kinds of bodies only."""
-    applies = {"thickness": measurement.kind == "shell", "threshold": measurement.type in ("ARRAY", "VOLUME")}
-    yield from unused(name for name in applies if getattr(options, name) is not None and not applies[name])
+    applies = {
+        "thickness": measurement.kind == "shell",
+        "threshold": measurement.type in ("ARRAY", "VOLUME"),
+    }
+    yield from unused(
+        name for name in applies if getattr(options, name) is not None and not applies[name]
+    )

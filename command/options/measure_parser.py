@@ -77,13 +77,23 @@ def _add_settings(parser: Parser) -> None:
         ("thin", "inward", "outward", "centered"),
         "of a shell: without or with real thickness, to which side of the surface (each object's setting)",
     )
-    parser.value("--thickness", types.positive, "T", "of a shell, in meters (each object's setting)")
+    parser.value(
+        "--thickness", types.positive, "T", "of a shell, in meters (each object's setting)"
+    )
     add = parser.add_mutually_exclusive_group().add_argument
-    add("--density", type=types.positive, metavar="D", help="kg/m³ (each object's setting, or 1000)")
+    add(
+        "--density", type=types.positive, metavar="D", help="kg/m³ (each object's setting, or 1000)"
+    )
     add("--mass", type=types.positive, metavar="M", help="kg, for each object")
     add("--material", metavar="NAME", help="the density of a material of the panel's list")
-    add("--polynomial", metavar="TEXT", help="density as a polynomial in x, y, z in meters along the object's axes")
-    text = "value, materials, attribute:NAME (of a shell's vertices), or volume:NAME (a Volume object)"
+    add(
+        "--polynomial",
+        metavar="TEXT",
+        help="density as a polynomial in x, y, z in meters along the object's axes",
+    )
+    text = (
+        "value, materials, attribute:NAME (of a shell's vertices), or volume:NAME (a Volume object)"
+    )
     add("--density-from", type=types.source, metavar="SOURCE", help=text)
     parser.choice(
         "--overlap",
@@ -97,8 +107,18 @@ def _add_of_files(parser: Parser) -> None:
     """Add options for information missing in files."""
     text = "meters per unit in files that carry no unit: .stl, .obj, .ply, arrays (1)"
     parser.value("--unit-scale", types.positive, "S", text)
-    parser.value("--spacing", types.spacing, "X,Y,Z", "arrays: how far samples are apart (the header's, or 1)")
-    parser.value("--origin", types.triple, "X,Y,Z", "arrays: where the first sample stands (the header's, or 0)")
+    parser.value(
+        "--spacing",
+        types.spacing,
+        "X,Y,Z",
+        "arrays: how far samples are apart (the header's, or 1)",
+    )
+    parser.value(
+        "--origin",
+        types.triple,
+        "X,Y,Z",
+        "arrays: where the first sample stands (the header's, or 0)",
+    )
     parser.value(
         "--positions",
         types.positions,
@@ -128,12 +148,17 @@ def _add_of_files(parser: Parser) -> None:
         "than one file may (auto)",
         default="auto",
     )
-    parser.flag("--allow-outside", "arrays: the header may name a file of samples outside of its own folder (refused)")
+    parser.flag(
+        "--allow-outside",
+        "arrays: the header may name a file of samples outside of its own folder (refused)",
+    )
 
 
 def _add_results(parser: Parser) -> None:
     """Add options for the contents of results and their output."""
-    parser.choice("--frame", FRAMES, "of centers, tensors, axes and moments (world)", default="world")
+    parser.choice(
+        "--frame", FRAMES, "of centers, tensors, axes and moments (world)", default="world"
+    )
     parser.value(
         "--about",
         types.about,
@@ -141,15 +166,24 @@ def _add_results(parser: Parser) -> None:
         "add inertia_about, and take moments about this point: center (of mass), origin (the object's), world, or "
         "X,Y,Z in the frame (moments about the frame's origin)",
     )
-    parser.value("--order", types.order, "N", "add volume moments up to this order, at most {}".format(types.MAX_ORDER))
-    parser.flag("--surface-moments", "add area moments too (up to --order, or {})".format(DEFAULT_ORDER))
+    parser.value(
+        "--order",
+        types.order,
+        "N",
+        "add volume moments up to this order, at most {}".format(types.MAX_ORDER),
+    )
+    parser.flag(
+        "--surface-moments", "add area moments too (up to --order, or {})".format(DEFAULT_ORDER)
+    )
     parser.value(
         "--fourier",
         Path,
         "OUT.npz",
         "write the Fourier transform of the one object: q, and F = ∫exp(-i q·x)dV in m³, in the frame",
     )
-    parser.value("--q", Path, "Q.npy", "at these wave vectors: rows of 3 numbers, with --flat 2, in rad/m")
+    parser.value(
+        "--q", Path, "Q.npy", "at these wave vectors: rows of 3 numbers, with --flat 2, in rad/m"
+    )
     parser.value(
         "--grid",
         types.frequencies,
@@ -159,19 +193,30 @@ def _add_results(parser: Parser) -> None:
     parser.value("--qmax", types.positive, "Q", "the largest along each axis of the grid, in rad/m")
     parser.flag("--pose", "add the pose that is the body's own, and its symmetry")
     parser.flag("--signature", "add the numbers by which `similar` finds the shape again")
-    parser.flag("--thumbnails", "add a small picture of each body with its principal axes, for `report`")
-    parser.value("--format", types.format_name, "{" + ",".join(FORMATS) + "}", "(json)", default="json")
+    parser.flag(
+        "--thumbnails", "add a small picture of each body with its principal axes, for `report`"
+    )
+    parser.value(
+        "--format", types.format_name, "{" + ",".join(FORMATS) + "}", "(json)", default="json"
+    )
     robots = ", ".join(ROBOT_FORMATS) + ": "
-    parser.flag("--inertial-only", robots + "the links with their inertials alone, without geometry, places and joints")
+    parser.flag(
+        "--inertial-only",
+        robots + "the links with their inertials alone, without geometry, places and joints",
+    )
     links = ("object", "collection", "bone")
     parser.choice("--links", links, robots + "what is one rigid body (object)", default="object")
     parser.flag(
         "--no-meshes",
-        robots + "leave geometry out (with --output: meshes in a folder beside it, of usd and gltf in the file itself)",
+        robots
+        + "leave geometry out (with --output: meshes in a folder beside it, of usd and gltf in the file itself)",
     )
     text = robots + "links collide as they look, or not at all (visual)"
     parser.choice("--collision", ("visual", "none"), text, default="visual")
-    parser.flag("--fixed-base", robots + "fix links without a parent to the world (passive rigid bodies alone)")
+    parser.flag(
+        "--fixed-base",
+        robots + "fix links without a parent to the world (passive rigid bodies alone)",
+    )
     parser.value("--output", Path, "PATH", "(standard output)")
     parser.flag(
         "--force",
@@ -193,10 +238,22 @@ def _add_results(parser: Parser) -> None:
 def _add_supervision(parser: Parser) -> None:
     """Add options for measuring many files."""
     parser.value("--manifest", Path, "LIST", "measure the files of a list that `manifest` has made")
-    parser.value("--range", types.file_range, "A:B", "of the files, only numbers A to B - 1, counted from 0")
-    parser.value("--part", types.count, "K", "of the list, only part K, counted from 1 (`manifest --parts N`)")
+    parser.value(
+        "--range", types.file_range, "A:B", "of the files, only numbers A to B - 1, counted from 0"
+    )
+    parser.value(
+        "--part",
+        types.count,
+        "K",
+        "of the list, only part K, counted from 1 (`manifest --parts N`)",
+    )
     parser.value("--jobs", types.count, "N", "how many processes measure files (one for each core)")
-    parser.value("--timeout", types.positive, "SECONDS", "how long one file may take ({:g})".format(DEFAULT_TIMEOUT))
+    parser.value(
+        "--timeout",
+        types.positive,
+        "SECONDS",
+        "how long one file may take ({:g})".format(DEFAULT_TIMEOUT),
+    )
     text = "how much memory one file may take (its part of 80 %% of this machine's)"
     parser.value("--memory-mb", types.positive, "M", text)
     parser.flag(
@@ -209,5 +266,7 @@ def _add_supervision(parser: Parser) -> None:
         "--errors-exit-0",
         "exit with 0 where something is listed under errors too: for engines that give up a job for a bad file",
     )
-    parser.value("--blender", str, "PATH", "the Blender that measures (this one, or the bpy module)")
+    parser.value(
+        "--blender", str, "PATH", "the Blender that measures (this one, or the bpy module)"
+    )
     parser.flag("--no-supervisor", "measure in this process, which a damaged file may end")

@@ -19,7 +19,12 @@ MAX_ORDER = 30
 MAX_SPLINE_ORDER = 16
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 ABOUT = ("center", "origin", "world")
-_NAMED = {"value": False, "materials": False, "attribute": True, "volume": True}  # by source: True if a name follows
+_NAMED = {
+    "value": False,
+    "materials": False,
+    "attribute": True,
+    "volume": True,
+}  # by source: True if a name follows
 
 
 def _to_robot(file_documents: Iterable[dict[str, Any]]) -> Iterator[str]:
@@ -129,16 +134,21 @@ def source(text: str) -> str:
     """Return `value`, `materials`, `attribute:NAME` or `volume:NAME`; raise ArgumentTypeError for other texts."""
     word, name = split_source(text)
     if _NAMED.get(word) is not bool(name):
-        raise ArgumentTypeError("{!r} is not value, materials, attribute:NAME or volume:NAME".format(text))
+        raise ArgumentTypeError(
+            "{!r} is not value, materials, attribute:NAME or volume:NAME".format(text)
+        )
     return text
 
 
 def file_range(text: str) -> tuple[int, int | None]:
     """Return A and B of A:B, the files from number A up to B - 1, counted from 0; 0 and None if left out."""
     begin, colon, end = text.partition(":")
-    if not colon or not all(part.isascii() and (part.isdecimal() or not part) for part in (begin, end)):
+    if not colon or not all(
+        part.isascii() and (part.isdecimal() or not part) for part in (begin, end)
+    ):
         raise ArgumentTypeError("{!r} is not A:B, two whole numbers".format(text))
-    first, last = int(begin or 0), int(end) if end else None
+    first = int(begin or 0)
+    last = int(end) if end else None
     if last is not None and last < first:
         raise ArgumentTypeError("{!r} ends before it begins".format(text))
     return first, last

@@ -36,7 +36,9 @@ def differences(
             rows.append(("only in the first: {}".format(document["file"]), False))
             continue
         if document["status"] != other["status"]:
-            text = "FAIL  {}: status {} and {}".format(document["file"], document["status"], other["status"])
+            text = "FAIL  {}: status {} and {}".format(
+                document["file"], document["status"], other["status"]
+            )
             rows.append((text, False))
         names = _bodies(other)
         for name, entry in _bodies(document).items():
@@ -47,7 +49,9 @@ def differences(
                 continue
             compared += 1
             rows += _numbers(label, entry, match, tolerance, align)
-        rows += [("only in the second: {}: {}".format(document["file"], name), False) for name in names]
+        rows += [
+            ("only in the second: {}: {}".format(document["file"], name), False) for name in names
+        ]
     rows += [("only in the second: {}".format(file), False) for file in others]
     failed = sum(not passes for _, passes in rows)
     summary = "{} bodies compared, {} differences beyond what is allowed".format(compared, failed)
@@ -57,10 +61,14 @@ def differences(
 def _bodies(document: dict[str, Any]) -> dict[str, dict[str, Any]]:
     """Return a document's records by name: objects, assemblies, flat shapes, and bones with their armatures."""
     found = {entry["name"]: entry for entry in document["objects"]}
-    found |= {"assembly {}".format(entry["name"]): entry for entry in document.get("assemblies", ())}
+    found |= {
+        "assembly {}".format(entry["name"]): entry for entry in document.get("assemblies", ())
+    }
     found |= {"flat {}".format(entry["name"]): entry for entry in document.get("flat", ())}
     bones = document.get("bones", ())
-    return found | {"bone {} of {}".format(entry["name"], entry["armature"]): entry for entry in bones}
+    return found | {
+        "bone {} of {}".format(entry["name"], entry["armature"]): entry for entry in bones
+    }
 
 
 def _numbers(
@@ -75,7 +83,9 @@ def _numbers(
     else:
         values, others = (_values(entry, align) for entry in (first, second))
     for name in dict.fromkeys((*values, *others)):
-        (value, size, bound), (other, _, second_bound) = (of.get(name, (None, 0.0, 0.0)) for of in (values, others))
+        (value, size, bound), (other, _, second_bound) = (
+            of.get(name, (None, 0.0, 0.0)) for of in (values, others)
+        )
         if value is None or other is None:
             if value != other:
                 yield "FAIL  {}: {} is {} and {}".format(label, name, value, other), False
@@ -84,29 +94,45 @@ def _numbers(
         difference = abs(value - other)
         if difference:
             passes = difference <= allowed
-            yield _LINE.format("pass" if passes else "FAIL", label, name, value, other, difference, allowed), passes
+            yield (
+                _LINE.format(
+                    "pass" if passes else "FAIL", label, name, value, other, difference, allowed
+                ),
+                passes,
+            )
 
 
 def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     """Return the numbers of a body's record by their names. align: in the body's own pose."""
     found: dict[str, Number] = {
-        name: (entry[name], abs(entry[name] or 0.0), _bound(entry, name)) for name in _SCALARS if name in entry
+        name: (entry[name], abs(entry[name] or 0.0), _bound(entry, name))
+        for name in _SCALARS
+        if name in entry
     }
     if not align:
         found |= _moments(entry.get("moments") or {})
-    center, inertia = entry["center_of_mass"], entry["inertia"]
+    center = entry["center_of_mass"]
+    inertia = entry["inertia"]
     gyration = radius_of_gyration(entry) or 0.0
     about = None if align else entry.get("inertia_about")
     if about is not None:
         distance = math.dist(*(map(_number, point) for point in (about["point"], center)))
         found |= _tensor("inertia_about", about["inertia"], _bound_about(entry, distance))
     if align:
-        rows, inertia = ([[*map(_number, row)] for row in of] for of in (entry["pose"]["matrix"][:3], inertia))
-        shift, rows = [row[3] for row in rows], [row[:3] for row in rows]
-        center = [sum(a * _number(b) for a, b in zip(row, center)) + s for row, s in zip(rows, shift)]
+        rows, inertia = (
+            [[*map(_number, row)] for row in of] for of in (entry["pose"]["matrix"][:3], inertia)
+        )
+        shift = [row[3] for row in rows]
+        rows = [row[:3] for row in rows]
+        center = [
+            sum(a * _number(b) for a, b in zip(row, center)) + s for row, s in zip(rows, shift)
+        ]
         inertia = _product(_product(rows, inertia), [list(column) for column in zip(*rows)])
     bound = _bound(entry, "center_of_mass")
-    found |= {"center_of_mass[{}]".format(axis): (value, gyration, bound) for axis, value in zip("xyz", center)}
+    found |= {
+        "center_of_mass[{}]".format(axis): (value, gyration, bound)
+        for axis, value in zip("xyz", center)
+    }
     bound = _bound(entry, "inertia")
     found |= _tensor("inertia", inertia, bound)
     largest = _largest(sum(inertia, []))
@@ -122,22 +148,34 @@ def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     for one in entry.get("invariants", ()):
         size = math.hypot(one["real"] or 0.0, one["imaginary"] or 0.0)
         for part in ("real", "imaginary"):
-            found["{} {}".format(one["name"], part)] = (one[part], size, (one["error"] or 0.0) + (one["input"] or 0.0))
+            found["{} {}".format(one["name"], part)] = (
+                one[part],
+                size,
+                (one["error"] or 0.0) + (one["input"] or 0.0),
+            )
     if align:
         return found
     second = entry["second_moments"]
     square = (second["xx"] or 0.0) + (second["yy"] or 0.0)
     gyration = math.sqrt(max(square / area, 0.0)) if area else 0.0
     bound = bound_of(entry, "centroid") or 0.0
-    found |= {"centroid[{}]".format(axis): (value, gyration, bound) for axis, value in zip("xyz", entry["centroid"])}
-    turned = found["area"][2] / area if area else 0.0  # The axes are known to that accuracy at best.
+    found |= {
+        "centroid[{}]".format(axis): (value, gyration, bound)
+        for axis, value in zip("xyz", entry["centroid"])
+    }
+    turned = (
+        found["area"][2] / area if area else 0.0
+    )  # The axes are known to that accuracy at best.
     for name in ("x", "y", "normal"):
         found |= {
-            "plane.{}[{}]".format(name, axis): (value, 1.0, turned) for axis, value in zip("xyz", entry["plane"][name])
+            "plane.{}[{}]".format(name, axis): (value, 1.0, turned)
+            for axis, value in zip("xyz", entry["plane"][name])
         }
     largest = _largest(second.values())
     bound = bound_of(entry, "second_moments") or 0.0
-    found |= {"second_moments[{}]".format(name): (value, largest, bound) for name, value in second.items()}
+    found |= {
+        "second_moments[{}]".format(name): (value, largest, bound) for name, value in second.items()
+    }
     return found | _moments(entry.get("moments") or {})
 
 
@@ -145,7 +183,9 @@ def _tensor(name: str, rows: Matrix, bound: float) -> dict[str, Number]:
     """Return the six numbers of a symmetric tensor."""
     largest = _largest(sum(rows, []))
     pairs = [(i, j) for i in range(3) for j in range(i, 3)]
-    return {"{}[{}{}]".format(name, "xyz"[i], "xyz"[j]): (rows[i][j], largest, bound) for i, j in pairs}
+    return {
+        "{}[{}{}]".format(name, "xyz"[i], "xyz"[j]): (rows[i][j], largest, bound) for i, j in pairs
+    }
 
 
 def _largest(values: Iterable[float | None]) -> float:
@@ -167,7 +207,11 @@ def _moments(moments: dict[str, Any]) -> dict[str, Number]:
             largest[_degree(powers)] = max(largest.get(_degree(powers), 0.0), abs(value or 0.0))
         for powers, value in values.items():
             bound = sum(one.get(powers) or 0.0 for one in bounds)
-            found["moments.{}[{}]".format(domain, powers)] = (value, largest[_degree(powers)], bound)
+            found["moments.{}[{}]".format(domain, powers)] = (
+                value,
+                largest[_degree(powers)],
+                bound,
+            )
     return found
 
 
@@ -181,7 +225,11 @@ def _product(first: Matrix, second: Matrix) -> Matrix:
 
 def _bound(entry: dict[str, Any], name: str) -> float:
     """Return the bound of a number in a body's record."""
-    if name in ("mass", "density", "linear_density"):  # A given value has no bound, and does not differ.
+    if name in (
+        "mass",
+        "density",
+        "linear_density",
+    ):  # A given value has no bound, and does not differ.
         measure = "volume" if entry["volume"] else "area"
         size = entry[measure]
         return _bound(entry, measure) / abs(size) * abs(entry[name] or 0.0) if size else 0.0
@@ -190,5 +238,7 @@ def _bound(entry: dict[str, Any], name: str) -> float:
 
 def _bound_about(entry: dict[str, Any], distance: float) -> float:
     """Return the bound of a tensor about a point at this distance from the center of mass."""
-    shift = distance * _bound(entry, "mass") + 2.0 * (entry["mass"] or 0.0) * _bound(entry, "center_of_mass")
+    shift = distance * _bound(entry, "mass") + 2.0 * (entry["mass"] or 0.0) * _bound(
+        entry, "center_of_mass"
+    )
     return _bound(entry, "inertia") + distance * shift

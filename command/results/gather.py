@@ -25,7 +25,9 @@ from ..supervisor import journal, listing
 from . import compare
 
 _LISTED = 10  # files in each part of a summary
-Entry = tuple[dict[str, Any], dict[str, Any]]  # a document, and its `attempts` and `seconds` from a journal
+Entry = tuple[
+    dict[str, Any], dict[str, Any]
+]  # a document, and its `attempts` and `seconds` from a journal
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
@@ -53,7 +55,9 @@ def parse(argv: list[str]) -> argparse.Namespace:
         parser.value("--manifest", Path, "LIST", whole)
     if command == "compare":
         parser.flag("--quiet", "print only what differs by more than it may")
-        parser.add_argument("--tolerance", type=positive, default=0.0, help="relative to each number's own size (0)")
+        parser.add_argument(
+            "--tolerance", type=positive, default=0.0, help="relative to each number's own size (0)"
+        )
         parser.flag("--align", "compare in each body's own pose: it may have moved (needs --pose)")
     return parser.parse_args(argv)
 
@@ -67,7 +71,9 @@ def _read(paths: Iterable[str]) -> list[Entry]:
     """Return the documents of files of results, in order; a later document replaces one about the same file."""
     entries: dict[str | None, Entry] = {}
     for path in paths:
-        entries.update((document["file"], (document, about)) for document, about in _read_file(path))
+        entries.update(
+            (document["file"], (document, about)) for document, about in _read_file(path)
+        )
     return [*entries.values()]
 
 
@@ -86,7 +92,9 @@ def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
             first = first or (path, given)
             if given != first[1]:
                 text = "{} was made with other options than {}: {}. Merge results of one run"
-                names = {name for name in {**given, **first[1]} if given.get(name) != first[1].get(name)}
+                names = {
+                    name for name in {**given, **first[1]} if given.get(name) != first[1].get(name)
+                }
                 raise UsageError(text.format(path, first[0], ", ".join(sorted(names))))
             documents[document["file"]] = document
             counts[os.path.abspath(document["file"] or "")] += 1
@@ -101,7 +109,9 @@ def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
                 more = " and {} more".format(len(names) - _LISTED) if len(names) > _LISTED else ""
                 raise UsageError("There are {} {}{}".format(what, ", ".join(names[:_LISTED]), more))
         place = {name: number for number, name in enumerate(listed)}
-        documents = dict(sorted(documents.items(), key=lambda item: place[os.path.abspath(item[0] or "")]))
+        documents = dict(
+            sorted(documents.items(), key=lambda item: place[os.path.abspath(item[0] or "")])
+        )
     return to_json_lines(documents.values()), 0
 
 
@@ -120,7 +130,9 @@ def _read_file(path: str) -> Iterator[Entry]:
                 if line.strip():
                     yield _entry(parse_json(line, number), "line {}".format(number))
     except OSError as error:
-        raise UsageError("The results {} cannot be read: {}".format(path, system_reason(error))) from error
+        raise UsageError(
+            "The results {} cannot be read: {}".format(path, system_reason(error))
+        ) from error
     except ValueError as error:
         text = "{} is not a result of body_moments: {}. Name what “measure” has written"
         raise UsageError(text.format(path, error)) from error
@@ -141,7 +153,9 @@ def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         paths = [*dict.fromkeys(listing.expand(options.paths))]
     except OSError as error:
         raise UsageError("{}: {}".format(error.filename, system_reason(error))) from error
-    if options.output and options.output.parent != Path():  # Relative names in a list start from its folder.
+    if (
+        options.output and options.output.parent != Path()
+    ):  # Relative names in a list start from its folder.
         paths = [os.path.abspath(path) for path in paths]
     return listing.write_lines(paths, options.parts), 0
 
@@ -161,12 +175,15 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
             reason = document["errors"][0]["reason"] if document["errors"] else "-"
             failed.append("{}  {}: {}".format(document["status"], file, reason))
         if about.get("seconds") is not None:
-            slowest = sorted([*slowest, (float(about["seconds"]), str(file))], reverse=True)[:_LISTED]
+            slowest = sorted([*slowest, (float(about["seconds"]), str(file))], reverse=True)[
+                :_LISTED
+            ]
         codes += count_findings(document)
         for entry in (*document["objects"], *document.get("flat", ())):
             methods[entry.get("method", "flat")] += 1
             name = "volume" if entry.get("volume") else "area"
-            bound, size = bound_of(entry, name), entry[name]
+            bound = bound_of(entry, name)
+            size = entry[name]
             if bound is not None and size:
                 share = bound / abs(size), "{}: {}".format(file, entry["name"])
                 widest = sorted([*widest, share], reverse=True)[:_LISTED]
@@ -191,7 +208,9 @@ def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     first, second = ([document for document, _ in _read([path])] for path in options.paths)
     lines, failed = compare.differences(first, second, options.tolerance, options.align)
     shown = [] if options.quiet and not failed else lines
-    return (visible(line) + "\n" for line in shown if not (options.quiet and line.startswith("pass"))), int(failed)
+    return (
+        visible(line) + "\n" for line in shown if not (options.quiet and line.startswith("pass"))
+    ), int(failed)
 
 
 def _counted(counts: Counter[str]) -> str:

@@ -56,12 +56,18 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
     for entry, likeness in ranked[: options.count]:
         distance = "{:.3e}".format(likeness.distance(options.any_size, options.any_hand))
         similarity = SIMILARITY[classify(likeness)]
-        lines.append(_COLUMNS.format(distance, "{:.4g}".format(likeness.scale), similarity, visible(entry.label)))
+        lines.append(
+            _COLUMNS.format(
+                distance, "{:.4g}".format(likeness.scale), similarity, visible(entry.label)
+            )
+        )
     return lines, 1 if failures else 0
 
 
 def _entry_by_name(entries: list[Entry], name: str) -> Entry:
-    named = [entry for entry in entries if entry.name == name] or [entry for entry in entries if entry.label == name]
+    named = [entry for entry in entries if entry.name == name] or [
+        entry for entry in entries if entry.label == name
+    ]
     if not named:
         raise UsageError("No body named {} has a signature".format(name))
     if len(named) > 1:

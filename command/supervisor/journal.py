@@ -52,13 +52,23 @@ class Entry:
         return self.head["status"]
 
     def reason_to_measure(
-        self, key: dict[str, Any], options: dict[str, Any], limits: dict[str, Any], retry_failed: bool = False
+        self,
+        key: dict[str, Any],
+        options: dict[str, Any],
+        limits: dict[str, Any],
+        retry_failed: bool = False,
     ) -> str | None:
         """Return the reason for measuring the file again, as a part of a sentence, or None if there is none."""
         changed = {name for name in key if self.head["key"].get(name) != key[name]}
         if "options" in changed:
-            names = [name for name in {**self.options, **options} if self.options.get(name) != options.get(name)]
-            return ": ".join(["made with other options", *([" ".join(sorted(names))] if names else [])])
+            names = [
+                name
+                for name in {**self.options, **options}
+                if self.options.get(name) != options.get(name)
+            ]
+            return ": ".join(
+                ["made with other options", *([" ".join(sorted(names))] if names else [])]
+            )
         if changed & {"addon", "blender"}:
             return "made by another version"
         if changed:
@@ -82,7 +92,9 @@ class Journal:
         self._file.seek(0)
         end, self._torn = 0, False
         for line in self._file:
-            with suppress(ValueError, KeyError, TypeError, AttributeError, RecursionError):  # torn, damaged or foreign
+            with suppress(
+                ValueError, KeyError, TypeError, AttributeError, RecursionError
+            ):  # torn, damaged or foreign
                 record = json.loads(line)
                 self._add(record, end, len(line), **_read_back(record["document"]))
             end += len(line)

@@ -27,7 +27,9 @@ USD = (".usd", ".usda", ".usdc", ".usdz")
 IMPORTED = (".stl", ".ply", ".obj", ".fbx", ".3mf", ".igs", ".iges", ".glb", ".gltf", *USD)
 SUFFIXES = (BLEND, *IMPORTED, *(suffix for suffix in scans.SUFFIXES if suffix != ".raw"))
 COPY_SUFFIX = ".body_moments.blend"  # suffix of our own copies of .blend files
-_RAW = re.compile(r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE)  # Other .raw files belong to headers.
+_RAW = re.compile(
+    r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE
+)  # Other .raw files belong to headers.
 
 
 def expand(names: Iterable[str]) -> Iterator[str]:
@@ -55,7 +57,9 @@ def _walk(top: str) -> Iterator[str]:
             continue
         known.add((status.st_dev, status.st_ino))
         folders[:] = sorted(name for name in folders if not name.startswith("."))
-        yield from (os.path.join(folder, name) for name in files if name[0] != "." and _is_measurable(name))
+        yield from (
+            os.path.join(folder, name) for name in files if name[0] != "." and _is_measurable(name)
+        )
 
 
 def _is_measurable(path: str) -> bool:
@@ -82,16 +86,24 @@ def read(path: Path, part: int | None = None) -> list[str]:
             lines = [json.loads(line) for line in file if line.strip()]
         names = [line["path"] for line in lines[1:]]
         parts = lines[0].pop("parts", 1)
-        is_list = lines[0] == {"schema": SCHEMA, "files": len(names)} and type(parts) is int and parts > 0
+        is_list = (
+            lines[0] == {"schema": SCHEMA, "files": len(names)} and type(parts) is int and parts > 0
+        )
         if not is_list or not all(isinstance(name, str) for name in names):
             raise ValueError(path)
     except OSError as error:
-        raise UsageError("The list {} cannot be read: {}".format(path, system_reason(error))) from error
+        raise UsageError(
+            "The list {} cannot be read: {}".format(path, system_reason(error))
+        ) from error
     except (ValueError, KeyError, TypeError, IndexError, AttributeError, RecursionError) as error:
-        raise UsageError("{} is not a list of files. Make one with “manifest FOLDER”".format(path)) from error
+        raise UsageError(
+            "{} is not a list of files. Make one with “manifest FOLDER”".format(path)
+        ) from error
     if part is not None:
         if part > parts:
-            raise UsageError("The list {} has {:d} parts, and no part {:d}".format(path, parts, part))
+            raise UsageError(
+                "The list {} has {:d} parts, and no part {:d}".format(path, parts, part)
+            )
         names = names[len(names) * (part - 1) // parts : len(names) * part // parts]
     folder = "" if path.parent == Path() else path.parent
     return [os.path.join(folder, name) for name in names]

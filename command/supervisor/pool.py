@@ -25,7 +25,9 @@ from .lifeline import MARK
 ATTEMPTS = 2  # for a file that ends its child; the second in a fresh child
 START_LIMIT = 300.0  # seconds in which a child must be ready
 MAX_FAILED_STARTS = 5  # in a row
-_WATCH = 0.05 if sys.platform.startswith("linux") else 1.0  # seconds between looks at the memory of children
+_WATCH = (
+    0.05 if sys.platform.startswith("linux") else 1.0
+)  # seconds between looks at the memory of children
 _STEP = 0.2  # Longest wait for an answer of a child, in seconds.
 _LOG_TAIL = 1 << 16  # Bytes of a child's output that are kept.
 
@@ -94,19 +96,29 @@ class Pool:
     children.
     """
 
-    def __init__(self, command: Sequence[str], count: int, setup: dict[str, Any], limits: Limits, work: Path) -> None:
-        self._command, self._count, self._setup, self._limits, self._work = command, count, setup, limits, work
+    def __init__(
+        self, command: Sequence[str], count: int, setup: dict[str, Any], limits: Limits, work: Path
+    ) -> None:
+        self._command = command
+        self._count = count
+        self._setup = setup
+        self._limits = limits
+        self._work = work
         self._tasks: deque[str] = deque()
         self._again: deque[str] = deque()  # tasks that ended their child, for a fresh one
         self._attempts: dict[str, tuple[int, float]] = {}
         self._children: list[_Child] = []
-        self._events: queue.SimpleQueue[tuple[_Child, dict[str, Any] | None, bytes]] = queue.SimpleQueue()
+        self._events: queue.SimpleQueue[tuple[_Child, dict[str, Any] | None, bytes]] = (
+            queue.SimpleQueue()
+        )
         self._readers = ThreadPoolExecutor(max_workers=4 * count + 8)
         self._early: list[TaskOutcome] = []  # outcomes before the first step
         self._started = self._failed_starts = 0
         self._watched = 0.0
         self.about: dict[str, Any] = {}  # report of the children when they are ready
-        self.notes: list[tuple[str, str]] = []  # Files and sentences that children send while they work.
+        self.notes: list[
+            tuple[str, str]
+        ] = []  # Files and sentences that children send while they work.
 
     def __enter__(self) -> Pool:
         self._work.mkdir(parents=True)
@@ -140,7 +152,8 @@ class Pool:
         Raises ChildError and SetupError.
         """
         self._refill()
-        outcomes, self._early = self._early, []
+        outcomes = self._early
+        self._early = []
         with suppress(queue.Empty):
             event = self._events.get(timeout=self._pause())
             while True:
@@ -152,7 +165,11 @@ class Pool:
     def _pause(self) -> float:
         now = time.monotonic()
         deadlines = [child.deadline - now for child in self._children]
-        watch = [_WATCH] if self._limits.memory and any(child.task is not None for child in self._children) else []
+        watch = (
+            [_WATCH]
+            if self._limits.memory and any(child.task is not None for child in self._children)
+            else []
+        )
         return max(0.001, min([_STEP, *deadlines, *watch]))
 
     def _refill(self) -> None:
@@ -190,7 +207,9 @@ class Pool:
     def _read(self, child: _Child) -> None:
         """Queue a child's answers as events, and finally its end; runs in a thread."""
         stream = child.answers
-        with suppress(ValueError, TypeError, AttributeError, OSError):  # a child that answers nonsense counts as dead
+        with suppress(
+            ValueError, TypeError, AttributeError, OSError
+        ):  # a child that answers nonsense counts as dead
             while line := stream.readline():
                 if line.startswith(MARK):
                     head = json.loads(line[len(MARK) :])
@@ -200,7 +219,9 @@ class Pool:
                         self._events.put((child, head, data))
         self._events.put((child, None, b""))
 
-    def _receive(self, child: _Child, head: dict[str, Any] | None, data: bytes) -> list[TaskOutcome]:
+    def _receive(
+        self, child: _Child, head: dict[str, Any] | None, data: bytes
+    ) -> list[TaskOutcome]:
         if child not in self._children:
             return []
         if head is None:
@@ -246,18 +267,25 @@ class Pool:
         if not child.ready:
             self._failed_starts += 1
             if self._failed_starts >= MAX_FAILED_STARTS:
-                raise ChildError(" ".join(said.split()) or processes.how_it_ended(child.process.returncode))
+                raise ChildError(
+                    " ".join(said.split()) or processes.how_it_ended(child.process.returncode)
+                )
             return []
         if child.task is None:
             return []
         attempts, seconds = self._attempts.pop(child.task, (0, 0.0))
-        attempts, seconds = attempts + 1, seconds + time.monotonic() - child.started
+        attempts = attempts + 1
+        seconds = seconds + time.monotonic() - child.started
         if attempts < ATTEMPTS:
             self._attempts[child.task] = attempts, seconds
             self._again.append(child.task)
             return []
         how = processes.how_it_ended(child.process.returncode)
-        return [TaskOutcome(child.task, child.doomed or "crashed", attempts, seconds, how=how, said=said)]
+        return [
+            TaskOutcome(
+                child.task, child.doomed or "crashed", attempts, seconds, how=how, said=said
+            )
+        ]
 
     def _watch(self) -> None:
         """End children that have passed their deadline or use too much memory."""
@@ -268,11 +296,15 @@ class Pool:
         if self._limits.memory and now >= self._watched + _WATCH:
             self._watched = now
             for child in self._children:
-                if child.task is not None and (processes.memory_of(child.process.pid) or 0) > self._limits.memory:
+                if (
+                    child.task is not None
+                    and (processes.memory_of(child.process.pid) or 0) > self._limits.memory
+                ):
                     self._doom(child, "memory")
 
     def _doom(self, child: _Child, why: str, *, gently: bool = False) -> None:
-        child.doomed, child.deadline = why, float("inf")
+        child.doomed = why
+        child.deadline = float("inf")
         processes.kill([child.process], gently=gently)
 
     def _stderr_tail(self, child: _Child) -> str:

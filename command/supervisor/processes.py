@@ -19,13 +19,23 @@ from typing import Any
 from .lifeline import WINDOW
 
 _WINDOWS = os.name == "nt"
-_NEW_GROUP = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows: a process that can be asked to end
+_NEW_GROUP = getattr(
+    subprocess, "CREATE_NEW_PROCESS_GROUP", 0
+)  # on Windows: a process that can be asked to end
 _MEMORY_SHARE = 0.8  # share of the machine's memory, for all processes that measure
 _END = 5.0  # seconds that a killed process may take to be gone
 _TOOL = 5.0  # seconds that a tool of the system may take to answer
 _GRACE = 0.4  # seconds to clean up in, for a child that is asked to end
 # Blender without a window, of factory settings, that runs no script of a file and reaches no network.
-_SWITCHES = ("-b", "--factory-startup", "--disable-autoexec", "--offline-mode", "-q", "--python-exit-code", "70")
+_SWITCHES = (
+    "-b",
+    "--factory-startup",
+    "--disable-autoexec",
+    "--offline-mode",
+    "-q",
+    "--python-exit-code",
+    "70",
+)
 _STOP = 5.0  # seconds that a run may take to stop
 # On Windows, its own library is asked: a command takes half a second for each query.
 _QUERY = 0x1000  # PROCESS_QUERY_LIMITED_INFORMATION
@@ -101,7 +111,11 @@ def how_it_ended(code: int | None) -> str:
     try:
         return signal.Signals(-code).name
     except ValueError:
-        return "exit code {:#x}".format(code & 0xFFFFFFFF) if code > 255 else "exit code {}".format(code)
+        return (
+            "exit code {:#x}".format(code & 0xFFFFFFFF)
+            if code > 255
+            else "exit code {}".format(code)
+        )
 
 
 def memory_of(pid: int) -> int | None:
@@ -116,7 +130,8 @@ def memory_of(pid: int) -> int | None:
     total, known = 0, False
     for line in status.splitlines():
         if line.startswith((b"RssAnon:", b"RssShmem:", b"VmSwap:")):
-            total, known = total + 1024 * int(line.split()[1]), True
+            total = total + 1024 * int(line.split()[1])
+            known = True
     return total if known else None
 
 
@@ -166,7 +181,9 @@ class WholeRun:
         self._place, self._lines = 0, 0
         nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
         environment = {**os.environ, WINDOW: "1"}
-        self._process = subprocess.Popen(command, env=environment, creationflags=_NEW_GROUP, **nowhere)
+        self._process = subprocess.Popen(
+            command, env=environment, creationflags=_NEW_GROUP, **nowhere
+        )
 
     @property
     def exit_code(self) -> int | None:
@@ -232,7 +249,9 @@ def _memory_on_windows(pid: int) -> int | None:
         counters = _Counters(cb=ctypes.sizeof(_Counters))
         try:
             size = ctypes.c_uint32(counters.cb)
-            if library.K32GetProcessMemoryInfo(ctypes.c_void_p(process), ctypes.byref(counters), size):
+            if library.K32GetProcessMemoryInfo(
+                ctypes.c_void_p(process), ctypes.byref(counters), size
+            ):
                 return counters.PrivateUsage
         finally:
             library.CloseHandle(ctypes.c_void_p(process))

@@ -19,7 +19,8 @@ class Progress:
 
     def __init__(self, total: int, known: Sequence[str] = ()) -> None:
         self.counts: Counter[str] = Counter()
-        self._total, self._known = total, Counter(known)
+        self._total = total
+        self._known = Counter(known)
         self._began = time.monotonic()
         self._due = self._began + PERIOD
 
@@ -40,7 +41,9 @@ class Progress:
             seconds = now - self._began
             left = timedelta(seconds=round((self._total - done) * seconds / measured))
             failed = measured - self.counts["ok"]
-            text += ", {:.3g} per second, {} left, {} not ok".format(measured / seconds, left, failed)
+            text += ", {:.3g} per second, {} left, {} not ok".format(
+                measured / seconds, left, failed
+            )
         print_message(text)
 
     def finish(self) -> None:
@@ -48,7 +51,9 @@ class Progress:
         if self._total > 1:
             everything = (self._known + self.counts).most_common()
             counts = ", ".join("{} {}".format(number, status) for status, number in everything)
-            files = "{} in {:.1f} s".format(counted(self.counts.total(), "file"), time.monotonic() - self._began)
+            files = "{} in {:.1f} s".format(
+                counted(self.counts.total(), "file"), time.monotonic() - self._began
+            )
             if self._known:
                 files = "{}, of which {}".format(counted(self._total, "file"), files)
             print_message("{}: {}".format(files, counts or "-"))

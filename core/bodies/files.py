@@ -77,7 +77,12 @@ class StreamHealth(MeshHealth):
 
     def as_record(self) -> dict:
         """Return plain values for JSON, None for all uncounted faults."""
-        return {"closed": self.closed, "welded": False, **dict.fromkeys(COUNTED), SELF_INTERSECTION: "not_checked"}
+        return {
+            "closed": self.closed,
+            "welded": False,
+            **dict.fromkeys(COUNTED),
+            SELF_INTERSECTION: "not_checked",
+        }
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +119,8 @@ def measure_mesh_file(
         mesh = open_mesh_file(path)
         found = measure_stream(mesh, order, area_order, settings.threads, progress)
         volume, area = _in_meters(found, unit)
-        notes, verdict = [*findings, finding(MESH_STREAMED, count=found.face_count)], Procedure.EXACT
+        notes = [*findings, finding(MESH_STREAMED, count=found.face_count)]
+        verdict = Procedure.EXACT
         if not found.closed:
             verdict = Procedure.OPEN
             notes += [finding(STREAMED_OPEN)] if kind == "solid" else []
@@ -180,17 +186,23 @@ def measure_array(
         positions = read_all_positions(array.positions, scan.samples.shape)
         matrix, positions = place_samples(matrix, positions, array.unit_scale or 1.0)
         if array.positions:
-            unspaced = finding(SCAN_UNSTATED, part="spacing", option="spacing")  # unknown, if two axes have positions
+            unspaced = finding(
+                SCAN_UNSTATED, part="spacing", option="spacing"
+            )  # unknown, if two axes have positions
             findings = [one for one in findings if len(array.positions) < 3 or one != unspaced]
             findings.append(finding(SAMPLES_POSITIONED, axes=sorted(array.positions)))
         findings = (*scan.findings, *findings)
         if array.threshold is None:
             grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order)
             shape = scan.samples.shape
-            findings += (finding(GRID_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
+            findings += (
+                finding(GRID_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),
+            )
             if settings.density is not None:
                 findings += (finding(GIVEN_DENSITY_IGNORED),)
-            samples = Samples(scan.samples, shape, matrix, grid, None, scan.slope, scan.intercept, positions)
+            samples = Samples(
+                scan.samples, shape, matrix, grid, None, scan.slope, scan.intercept, positions
+            )
             made = density_body(samples, findings, progress, settings.order or KNOWN_ORDER)
             made = replace(made, density_from=finding(DENSITY_FROM_SAMPLES))
         else:
@@ -215,11 +227,16 @@ def _threshold_body(
     filled = settings.density is None
     spline_order = max(array.spline_order, TRILINEAR)
     grid = GridOptions(
-        threshold=array.threshold, filled=filled, value_density=array.density_scale, spline_order=spline_order
+        threshold=array.threshold,
+        filled=filled,
+        value_density=array.density_scale,
+        spline_order=spline_order,
     )
     if spline_order > TRILINEAR and scan.samples.size > MAX_SAMPLES:
         raise ReadError(GRID_TOO_LARGE, grid=name, samples=list(scan.samples.shape))
-    slowest = np.argsort([-abs(stride) for stride in scan.samples.strides], kind="stable")  # read in the file's order
+    slowest = np.argsort(
+        [-abs(stride) for stride in scan.samples.strides], kind="stable"
+    )  # read in the file's order
     turned = affine_matrices(np.eye(3)[:, slowest])
 
     def values(block: NDArray) -> NDArray[np.float64]:
@@ -228,7 +245,9 @@ def _threshold_body(
 
     samples = scan.samples.transpose(slowest)
     body = threshold_grid_body(
-        ThresholdGrid(name, samples, matrix @ turned, None, values), grid, order=settings.order or KNOWN_ORDER
+        ThresholdGrid(name, samples, matrix @ turned, None, values),
+        grid,
+        order=settings.order or KNOWN_ORDER,
     )
     source = finding(DENSITY_FROM_SAMPLES) if filled else None
     return replace(body, findings=(*findings, *body.findings), density_from=source)

@@ -32,10 +32,12 @@ WALL_FACES_WITHOUT_AREA = warning(
     "{count} faces without area moved with their neighbors.",
 )
 WALL_OVERLAP_UNCHECKED = warning(
-    "wall_overlap_unchecked", "Overlap of the walls was not checked at this thickness. Press Measure."
+    "wall_overlap_unchecked",
+    "Overlap of the walls was not checked at this thickness. Press Measure.",
 )
 WALLS_OVERLAP = warning(
-    "walls_overlap", "The walls overlap; the shared space counts twice. Reduce Thickness, or change Wall."
+    "walls_overlap",
+    "The walls overlap; the shared space counts twice. Reduce Thickness, or change Wall.",
 )
 WALL_FOLDS = error(
     "wall_folds",
@@ -47,13 +49,17 @@ DENSITY_FROM_SAMPLES = note("density_from_samples", "samples")
 DENSITY_FROM_GRID = note("density_from_grid", "grid “{grid}”")
 GRID_DENSITY = note("grid_density", "Density from {samples:size} samples. {cause}")
 GRID_WITHOUT_SURFACE = note(
-    "grid_without_surface", "A grid has no surface: the area is 0, the volume is that of the voxels that are not empty."
+    "grid_without_surface",
+    "A grid has no surface: the area is 0, the volume is that of the voxels that are not empty.",
 )
 GRID_IS_LEVEL_SET = error(
     "grid_is_level_set",
     "The grid “{grid}” is a level set of distances, not densities. Set Measure As to Solid, or choose another grid.",
 )
-GRID_EMPTY = error("grid_empty", "The grid is empty or flattened. Choose another grid, or check Values and the scale.")
+GRID_EMPTY = error(
+    "grid_empty",
+    "The grid is empty or flattened. Choose another grid, or check Values and the scale.",
+)
 THRESHOLD_MEASURED = note(
     "threshold_measured",
     "The body where the grid “{grid}” is at least {threshold}, by its interpolant. Its surface passes through "
@@ -71,19 +77,29 @@ THRESHOLD_NEEDS_FACTOR = error(
     "threshold_needs_factor",
     "Within a threshold, values become densities by a factor alone. Set Values to Factor, or Filled With to Material.",
 )
-GRID_AS_SHELL = error("grid_as_shell", "A grid holds densities inside a solid only. Set Kind to Solid.")
-SAMPLES_POSITIONED = note("samples_positioned", "The samples stand at the given positions along {axes}.")
-GIVEN_DENSITY_IGNORED = warning("given_density_ignored", "The samples are densities; the given density was not used.")
-SHAPE_OF_GRID = warning("shape_of_grid", "A grid of densities has no shape for a pose or signature.")
+GRID_AS_SHELL = error(
+    "grid_as_shell", "A grid holds densities inside a solid only. Set Kind to Solid."
+)
+SAMPLES_POSITIONED = note(
+    "samples_positioned", "The samples stand at the given positions along {axes}."
+)
+GIVEN_DENSITY_IGNORED = warning(
+    "given_density_ignored", "The samples are densities; the given density was not used."
+)
+SHAPE_OF_GRID = warning(
+    "shape_of_grid", "A grid of densities has no shape for a pose or signature."
+)
 WIRE_UNSUPPORTED = error(
-    "wire_unsupported", "{quantity:word} is not available for wires. Set Kind to Solid or Shell, or convert to a mesh."
+    "wire_unsupported",
+    "{quantity:word} is not available for wires. Set Kind to Solid or Shell, or convert to a mesh.",
 )
 SHAPE_OF_OPEN_SURFACE = error(
     "shape_of_open_surface",
     "Pose and signature depend on the reference point, as the surface is open. Close it, or set Kind to Shell.",
 )
 SHAPE_FAR_FROM_ORIGIN = error(
-    "shape_far_from_origin", "Too far from the world origin for an accurate shape. Move the object nearer."
+    "shape_far_from_origin",
+    "Too far from the world origin for an accurate shape. Move the object nearer.",
 )
 SIGNATURE_NEEDS_POLYGONS = error(
     "signature_needs_polygons", "The signature needs polygons. Use Object > Convert > Mesh."
@@ -105,7 +121,12 @@ DRAWN_AS_POLYGONS = note(
     "The round shape was measured as drawn polygons. Doubling the resolution makes the error four times smaller.",
 )
 GRID_TOO_LARGE = error(
-    "grid_too_large", "The grid “{grid}” spans too many voxels, {samples:size}. Crop it, or use a coarser one."
+    "grid_too_large",
+    "The grid “{grid}” spans too many voxels, {samples:size}. Crop it, or use a coarser one.",
 )
-NO_GEOMETRY = error("no_geometry", "No surface. Add faces, or check whether a modifier removes them.")
-DENSITY_DEFAULTED = warning("density_defaulted", "No density is set: {density} was used. Set Density or a material.")
+NO_GEOMETRY = error(
+    "no_geometry", "No surface. Add faces, or check whether a modifier removes them."
+)
+DENSITY_DEFAULTED = warning(
+    "density_defaulted", "No density is set: {density} was used. Set Density or a material."
+)

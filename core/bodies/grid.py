@@ -75,9 +75,13 @@ class Samples:
 
         return replace(self.grid_moments(occupied, 1, order), measure=Measure.VOLUME)
 
-    def grid_moments(self, value: Callable[[NDArray], NDArray], spline_order: int, order: int) -> Moments:
+    def grid_moments(
+        self, value: Callable[[NDArray], NDArray], spline_order: int, order: int
+    ) -> Moments:
         """Return the moments of a function of the values, interpolated by a spline."""
-        return grid_moments(self.values, self.shape, self.matrix, spline_order, order, value, self.positions)
+        return grid_moments(
+            self.values, self.shape, self.matrix, spline_order, order, value, self.positions
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +95,9 @@ class GridBody(Body):
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments of the voxels that are not empty; a grid has no area."""
         volume = self.samples.volume_moments(order)
-        return volume, Moments(np.zeros_like(volume.raw), volume.about, Measure.AREA) if area else None
+        return volume, Moments(
+            np.zeros_like(volume.raw), volume.about, Measure.AREA
+        ) if area else None
 
 
 def density_body(
@@ -112,7 +118,11 @@ def density_body(
         return samples.densities(block)
 
     mass = samples.grid_moments(densities, samples.options.spline_order, KNOWN_ORDER)
-    higher = samples.grid_moments(densities, samples.options.spline_order, order) if order > KNOWN_ORDER else None
+    higher = (
+        samples.grid_moments(densities, samples.options.spline_order, order)
+        if order > KNOWN_ORDER
+        else None
+    )
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError(MASS_OVERFLOW)
     if not mass.total > 0.0:
@@ -152,7 +162,9 @@ class ThresholdGrid:
         if step <= 1:
             return self
         return replace(
-            self, values=self.values[::step, ::step, ::step], matrix=self.matrix @ np.diag([step, step, step, 1.0])
+            self,
+            values=self.values[::step, ::step, ::step],
+            matrix=self.matrix @ np.diag([step, step, step, 1.0]),
         )
 
     def set_above(self, options: GridOptions, order: int, preview: bool = False) -> ThresholdBody:
@@ -162,10 +174,23 @@ class ThresholdGrid:
         if options.spline_order > TRILINEAR and not preview:
             values = self.values if self.value is None else self.value(self.values)
             return smooth_threshold_body(
-                values, threshold, options.spline_order, order, self.matrix, self.background, options.filled
+                values,
+                threshold,
+                options.spline_order,
+                order,
+                self.matrix,
+                self.background,
+                options.filled,
             )
         return threshold_body(
-            self.values, threshold, order, self.matrix, self.background, options.filled, preview, self.value
+            self.values,
+            threshold,
+            order,
+            self.matrix,
+            self.background,
+            options.filled,
+            preview,
+            self.value,
         )
 
     def largest(self) -> float:
@@ -197,7 +222,12 @@ def threshold_grid_body(
         raise ReadError(THRESHOLD_NEEDS_FACTOR)
     above = grid.set_above(options, KNOWN_ORDER, preview)
     if not above.volume.total > 0.0:
-        raise ReadError(THRESHOLD_NOT_REACHED, grid=grid.name, threshold=options.threshold, largest=grid.largest())
+        raise ReadError(
+            THRESHOLD_NOT_REACHED,
+            grid=grid.name,
+            threshold=options.threshold,
+            largest=grid.largest(),
+        )
     mass = higher = None
     if above.mass is not None:
         mass = above.mass * options.value_density
@@ -207,7 +237,11 @@ def threshold_grid_body(
             raise ReadError(GRID_EMPTY)
         weighed = grid.set_above(options, order).mass if order > KNOWN_ORDER else None
         higher = None if weighed is None else weighed * options.value_density
-    findings = [finding(THRESHOLD_MEASURED, grid=grid.name, threshold=options.threshold, cells=above.cut_cells)]
+    findings = [
+        finding(
+            THRESHOLD_MEASURED, grid=grid.name, threshold=options.threshold, cells=above.cut_cells
+        )
+    ]
     if above.clipped:
         findings.append(finding(THRESHOLD_CLIPPED, grid=grid.name))
     return ThresholdGridBody(

@@ -32,7 +32,9 @@ from .reading import Reading
 
 def singular_instances_message(reading: Reading) -> Finding:
     """Return the finding that some instances enclose nothing."""
-    return finding(FLAT_SURFACES, count=reading.singular_instance_count, total=reading.instance_count)
+    return finding(
+        FLAT_SURFACES, count=reading.singular_instance_count, total=reading.instance_count
+    )
 
 
 def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
@@ -76,24 +78,42 @@ class PlaceComparison:
 
 def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]]) -> PlaceComparison:
     """Find solids that overlap or contain each other in their places, given by (k, 4, 4) maps for each solid."""
-    points, triangles, component, owner, place, closed = [], [], [], [], [], []
+    points = []
+    triangles = []
+    component = []
+    owner = []
+    place = []
+    closed = []
     number = shift = places = 0
     displacement = 0.0
     for which, (solid, matrices) in enumerate(solids):
-        parts, count = solid.parts(), len(matrices)
-        linear, at = matrices[:, :3, :3], np.arange(count)
-        points.append(parts.points.astype(np.float64) @ linear.transpose(0, 2, 1) + matrices[:, None, :3, 3])
+        parts = solid.parts()
+        count = len(matrices)
+        linear = matrices[:, :3, :3]
+        at = np.arange(count)
+        points.append(
+            parts.points.astype(np.float64) @ linear.transpose(0, 2, 1) + matrices[:, None, :3, 3]
+        )
         mirrored = np.linalg.det(linear)[:, None, None] < 0.0
         images = np.where(mirrored, parts.triangles[:, ::-1], parts.triangles).astype(np.intp)
         triangles.append(images + (shift + len(parts.points) * at)[:, None, None])
         component.append(parts.part + (number + parts.number * at)[:, None])
-        owner.append(np.tile(np.stack([np.full(parts.number, which), np.arange(parts.number)], axis=1), (count, 1)))
+        owner.append(
+            np.tile(
+                np.stack([np.full(parts.number, which), np.arange(parts.number)], axis=1),
+                (count, 1),
+            )
+        )
         place.append(np.repeat(places + at, parts.number))
         closed.append(np.tile(solid.oriented.solid & ~solid.oriented.mesh.open, count))
         moved = np.abs(linear) @ solid.repaired_surface.coordinate_error
         displacement = max(displacement, float(np.linalg.norm(moved, axis=1).max()))
-        number, shift, places = number + count * parts.number, shift + count * len(parts.points), places + count
-    owner, place, closed = np.concatenate(owner), np.concatenate(place), np.concatenate(closed)
+        number = number + count * parts.number
+        shift = shift + count * len(parts.points)
+        places = places + count
+    owner = np.concatenate(owner)
+    place = np.concatenate(place)
+    closed = np.concatenate(closed)
     corners = np.concatenate([image.reshape(-1, 3) for image in points])
     components = sort_components(
         corners,
@@ -126,7 +146,9 @@ def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]])
     )
 
 
-def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison) -> list[Finding]:
+def overlap_findings(
+    reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison
+) -> list[Finding]:
     """Return findings about places that overlap or contain each other, with [face, source name] as elements."""
     findings = []
     for code, components, slight in (
@@ -136,8 +158,11 @@ def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], compari
         if len(components):
             elements = []
             for which in np.unique(components[:, 0]):
-                parts, name = solids[which].parts(), reading.parts[which].source_object_name or reading.name
-                of_these = np.isin(parts.part, components[components[:, 0] == which, 1]) & (parts.face >= 0)
+                parts = solids[which].parts()
+                name = reading.parts[which].source_object_name or reading.name
+                of_these = np.isin(parts.part, components[components[:, 0] == which, 1]) & (
+                    parts.face >= 0
+                )
                 elements += [[face, name] for face in np.unique(parts.face[of_these]).tolist()]
             findings.append(finding(code, elements, slight=slight, count=len(components)))
     if comparison.undecided_pairs:
@@ -158,12 +183,17 @@ def instances_size(reading: Reading) -> float:
 
 def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return (k, 3) middles and (k, 3) half sides of the boxes around the places of parts."""
-    centers, extents = zip(*[placed_boxes(part.surface.box, part.matrices) for part in reading.parts])
+    centers, extents = zip(
+        *[placed_boxes(part.surface.box, part.matrices) for part in reading.parts]
+    )
     return np.concatenate(centers), np.concatenate(extents)
 
 
 def area_of_instances(
-    surface: Surface, area: Moments, matrices: NDArray, measured: Callable[[Surface], Moments] | None
+    surface: Surface,
+    area: Moments,
+    matrices: NDArray,
+    measured: Callable[[Surface], Moments] | None,
 ) -> Iterator[Moments]:
     """Yield the area moments of a surface's images, `measured` once for each uneven map, or None for totals alone."""
     if measured is None:
@@ -177,13 +207,19 @@ def area_of_instances(
         yield sum_of_images(area if image is surface else measured(image), matrices_of_image)
 
 
-def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
+def group_by_similarity(
+    surface: Surface, matrices: NDArray
+) -> Iterator[tuple[Surface, NDArray, NDArray]]:
     """Yield (surface, (j, 4, 4) similarities, (j,) rows of `matrices`), with a mapped surface for each uneven map."""
     for rows, is_even in similarity_groups(matrices):
         if is_even:
             yield surface, matrices[rows], rows
         else:
-            yield surface.transform(matrices[rows[0], :3, :3]), affine_matrices(np.eye(3), matrices[rows, :3, 3]), rows
+            yield (
+                surface.transform(matrices[rows[0], :3, :3]),
+                affine_matrices(np.eye(3), matrices[rows, :3, 3]),
+                rows,
+            )
 
 
 def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
@@ -197,7 +233,9 @@ def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth
         "defective_elements": DefectiveElements(),
         "closed": all(h.closed for h, *_ in healths),
         "welded": any(h.welded for h, *_ in healths),
-        SELF_INTERSECTION: min((h.self_intersection for h, *_ in healths), key=list(Intersection).index),
+        SELF_INTERSECTION: min(
+            (h.self_intersection for h, *_ in healths), key=list(Intersection).index
+        ),
         "volume_spread": sum(h.volume_spread for h, *_ in healths),
         "cap_area_share": sum(h.cap_area_share * part_area for h, _, part_area in healths) / area
         if area > 0.0

@@ -24,7 +24,12 @@ from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict.finding import Finding, finding
 from ..verdict.method import Method, Procedure, least_trusted
 from ..verdict.tolerances import NEGLIGIBLE
-from .findings import DRAWN_AS_POLYGONS, FLAT_SURFACES, INSTANCE_OVERLAP_UNCHECKED, NON_PLANAR_FACES_OF_DISPLAY_MESH
+from .findings import (
+    DRAWN_AS_POLYGONS,
+    FLAT_SURFACES,
+    INSTANCE_OVERLAP_UNCHECKED,
+    NON_PLANAR_FACES_OF_DISPLAY_MESH,
+)
 from .instances import (
     area_of_instances,
     compare_places,
@@ -62,7 +67,9 @@ class MeshBody(Body):
 
     def _to_order(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         volumes, areas = [], []
-        alone = 0 if order <= 3 else None  # up to third order the area is found on the way, and makes bounds smaller
+        alone = (
+            0 if order <= 3 else None
+        )  # up to third order the area is found on the way, and makes bounds smaller
 
         def measured(surface: Surface) -> Moments:
             return polyhedron_moments(
@@ -98,14 +105,21 @@ class MeshBody(Body):
             if are_similarities(matrices[:, :3, :3])[0]:
                 in_place = replace(self, solids=((solid, np.eye(4)[None]),), _known={})
                 volume, areas = in_place.moments(order, area)
-                own = with_known(volume, solid.volume) if areas is None else with_known(areas, solid.area)
+                own = (
+                    with_known(volume, solid.volume)
+                    if areas is None
+                    else with_known(areas, solid.area)
+                )
                 return own_moments([own], np.zeros(1, np.intp), matrices[:, :3, :3])
         return super().moments_for_axes(order, area)
 
     def third_order(self) -> Moments:
         """Return the moments of the volume, the third order exact to rounding."""
         return sum_moments(
-            [sum_of_images(solid.exact_third_order(self.threads), matrices) for solid, matrices in self.solids]
+            [
+                sum_of_images(solid.exact_third_order(self.threads), matrices)
+                for solid, matrices in self.solids
+            ]
         )
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
@@ -123,7 +137,10 @@ def with_known(moments: Moments, known: Moments) -> Moments:
     lower = len(known.raw)
     return replace(
         moments,
-        **{name: np.concatenate([getattr(known, name), getattr(moments, name)[lower:]]) for name in names},
+        **{
+            name: np.concatenate([getattr(known, name), getattr(moments, name)[lower:]])
+            for name in names
+        },
     )
 
 
@@ -145,7 +162,8 @@ def extend_input_error(moments: Moments, known: Moments) -> Moments:
 
 def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:
     """Return the moments, in own coordinates, of m images of `shapes` (`which`) under (m, 3, 3) linear maps."""
-    is_mirrored, is_even = np.linalg.det(linear) < 0.0, are_similarities(linear)
+    is_mirrored = np.linalg.det(linear) < 0.0
+    is_even = are_similarities(linear)
     rotation = np.eye(3)[None].repeat(len(which), 0)
     rotation[is_even] = polar_rotation(linear[is_even])[0]
     rotation[is_mirrored & is_even] *= -1.0
@@ -156,15 +174,26 @@ def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDAr
         key = (shape, int(is_mirrored[body])) if is_even[body] else (shape, 0, body)
         if key not in number:
             number[key] = len(moments)
-            own = shapes[shape] if is_even[body] else shapes[shape].transform(affine_matrices(linear[body]))
-            moments.append(invert_through_point(own) if is_even[body] and is_mirrored[body] else own)
+            own = (
+                shapes[shape]
+                if is_even[body]
+                else shapes[shape].transform(affine_matrices(linear[body]))
+            )
+            moments.append(
+                invert_through_point(own) if is_even[body] and is_mirrored[body] else own
+            )
         of_bodies.append(number[key])
     return OwnMoments(stack_moments(moments), np.array(of_bodies), rotation)
 
 
 def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
     """Return the sum of all parts, each measured once in its own coordinates, and mapped to its places."""
-    volumes, areas, healths, procedures, by_part, parts = [], [], [], [], [], []
+    volumes = []
+    areas = []
+    healths = []
+    procedures = []
+    by_part = []
+    parts = []
     drawn = drawn_names(reading)
 
     def measured_area(surface: Surface) -> Moments:
@@ -180,7 +209,9 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
         total = float(solid.volume.raw[0])
         stretch = float(volumes[-1].raw[0]) / total if total else 0.0  # Σ |det|
         health = replace(solid.health, volume_spread=solid.health.volume_spread * stretch)
-        healths.append((health, len(matrices), sum([float(moments.raw[0]) for moments in image_areas])))
+        healths.append(
+            (health, len(matrices), sum([float(moments.raw[0]) for moments in image_areas]))
+        )
         flat = not shell and not solid.volume.raw.any()
         procedures.append(None if flat else Procedure(solid.method))
         if shell:  # A sheet is not repaired.
@@ -193,10 +224,15 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
     findings = findings_by_part(by_part, reading.name)
     health = merge_health(healths)
     if not shell and instances_overlap(reading):
-        if sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
+        if (
+            sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts)
+            <= MAX_COMPARED_TRIANGLES
+        ):
             comparison = compare_places(parts)
             findings += overlap_findings(reading, [solid for solid, _ in parts], comparison)
-            nested, overlapping = (len(pairs) for pairs in (comparison.nested, comparison.overlapping))
+            nested, overlapping = (
+                len(pairs) for pairs in (comparison.nested, comparison.overlapping)
+            )
             health = replace(
                 health,
                 nested_components=health.nested_components + nested,
@@ -206,9 +242,17 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
             findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
     of_solids = [procedure for procedure in procedures if procedure]
     if of_solids and len(of_solids) < len(procedures):
-        flat_area = sum([area for (_, _, area), procedure in zip(healths, procedures) if procedure is None])
-        slight = flat_area * unit * instances_size(reading) < NEGLIGIBLE * float(sum_moments(volumes).total)
-        findings.append(finding(FLAT_SURFACES, slight=slight, count=procedures.count(None), total=len(procedures)))
+        flat_area = sum(
+            [area for (_, _, area), procedure in zip(healths, procedures) if procedure is None]
+        )
+        slight = flat_area * unit * instances_size(reading) < NEGLIGIBLE * float(
+            sum_moments(volumes).total
+        )
+        findings.append(
+            finding(
+                FLAT_SURFACES, slight=slight, count=procedures.count(None), total=len(procedures)
+            )
+        )
     return MeshBody(
         sum_moments(volumes),
         sum_moments(areas),
@@ -216,7 +260,10 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
         Method(least_trusted(of_solids)),
         tuple(findings),
         face_count=sum(
-            [len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads) for solid, _ in parts]
+            [
+                len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads)
+                for solid, _ in parts
+            ]
         ),
         solids=tuple(parts),
         threads=threads,
@@ -241,4 +288,7 @@ def of_drawn(findings: Iterable[Finding], parts: Iterable[Part], drawn: set[str]
     if not drawn.issuperset([part.source_object_name for part in parts]):
         return list(findings)
     of_display_mesh = NON_PLANAR_FACES_OF_DISPLAY_MESH
-    return [replace(result, code=of_display_mesh) if result.code == NON_PLANAR_FACES else result for result in findings]
+    return [
+        replace(result, code=of_display_mesh) if result.code == NON_PLANAR_FACES else result
+        for result in findings
+    ]

@@ -115,7 +115,11 @@ class Reading:
     def join(self) -> Surface:
         """Return all parts, in their places, as one surface of triangles in the world, float64."""
         return join_surfaces(
-            [part.surface.transform(matrix[:3, :3], matrix[:3, 3]) for part in self.parts for matrix in part.matrices]
+            [
+                part.surface.transform(matrix[:3, :3], matrix[:3, 3])
+                for part in self.parts
+                for matrix in part.matrices
+            ]
         )
 
 
@@ -136,13 +140,19 @@ def float64_matrix(matrix) -> NDArray[np.float64]:
     return np.array([row[:] for row in matrix], np.float64)
 
 
-def measure_reading(reading: Reading, body: Body, settings: Settings, transform: str = "") -> Measurement:
+def measure_reading(
+    reading: Reading, body: Body, settings: Settings, transform: str = ""
+) -> Measurement:
     """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown moments.
 
     transform: the key of the object's transform in the fingerprint.
     """
     settings = replace(settings, varying=body.density_key)
-    digested = [moments for moments in (body.volume, body.area, body.mass, body.length) if moments is not None]
+    digested = [
+        moments
+        for moments in (body.volume, body.area, body.mass, body.length)
+        if moments is not None
+    ]
     geometry = b"".join([moments.raw.tobytes() for moments in digested])
     return measure_body(
         body,

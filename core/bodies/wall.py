@@ -70,7 +70,11 @@ class WallPiece:
     def moments(self, side: str, thickness: float, order: int = KNOWN_ORDER) -> Moments:
         """Return the moments of the wall, in SI units."""
         reach = split_thickness(side, thickness / self.scale)
-        own = self.offset.moments(*reach) if order <= KNOWN_ORDER else wall_moments(self.offset, *reach, order)
+        own = (
+            self.offset.moments(*reach)
+            if order <= KNOWN_ORDER
+            else wall_moments(self.offset, *reach, order)
+        )
         return sum_of_images(own, self.matrices)
 
     def per_thickness(self) -> Moments:
@@ -84,7 +88,9 @@ class WallPiece:
 
     def boxes(self, side: str, thickness: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return (k, 3) middles and (k, 3) half sides of boxes around the wall in its places, in m."""
-        return placed_boxes(self.offset.box(*split_thickness(side, thickness / self.scale)), self.matrices)
+        return placed_boxes(
+            self.offset.box(*split_thickness(side, thickness / self.scale)), self.matrices
+        )
 
 
 @dataclass(frozen=True)
@@ -128,8 +134,16 @@ class Walls:
         """Return a copy without the arrays that are as large as the mesh."""
         return replace(
             self,
-            thin=Body(self.thin.volume, self.thin.area, self.thin.health, self.thin.method, self.thin.findings),
-            pieces=tuple(replace(piece, offset=piece.offset.drop_arrays()) for piece in self.pieces),
+            thin=Body(
+                self.thin.volume,
+                self.thin.area,
+                self.thin.health,
+                self.thin.method,
+                self.thin.findings,
+            ),
+            pieces=tuple(
+                replace(piece, offset=piece.offset.drop_arrays()) for piece in self.pieces
+            ),
         )
 
     def _folded_reason(self, thickness: float) -> Finding:
@@ -138,8 +152,16 @@ class Walls:
         point = None
         if len(piece.offset.points):
             matrix = piece.matrices[0]
-            point = (matrix[:3, :3] @ piece.offset.first_fold_location(self.side) + matrix[:3, 3]).tolist()
-        return finding(WALL_FOLDS, thickness=thickness, side=self.side, largest=_round_down(largest), point=point)
+            point = (
+                matrix[:3, :3] @ piece.offset.first_fold_location(self.side) + matrix[:3, 3]
+            ).tolist()
+        return finding(
+            WALL_FOLDS,
+            thickness=thickness,
+            side=self.side,
+            largest=_round_down(largest),
+            point=point,
+        )
 
     def _decisions(self, thickness: float, looked: bool) -> list[Finding]:
         findings = [finding(WALL_MEASURED, thickness=thickness, side=self.side), *self.findings]
@@ -147,7 +169,9 @@ class Walls:
         maximum = float(max(piece.offset.max_ratio for piece in self.pieces))
         if minimum < 1.0 - REPORTED or maximum > 1.0 + REPORTED:
             slight = self._unevenness() < NEGLIGIBLE
-            findings.append(finding(WALL_THICKNESS_VARIES, slight=slight, minimum=minimum, maximum=maximum))
+            findings.append(
+                finding(WALL_THICKNESS_VARIES, slight=slight, minimum=minimum, maximum=maximum)
+            )
         ignored = sum(piece.offset.degenerate_triangles for piece in self.pieces)
         if ignored:
             findings.append(finding(WALL_FACES_WITHOUT_AREA, count=ignored))
@@ -164,8 +188,14 @@ class Walls:
     def _unevenness(self) -> float:
         """Return the largest relative difference of moments (order 0 to 2) between a very thin wall and the surface."""
         surface = self.thin.area
-        center, degree = surface.center, monomials(2).sum(axis=1)
-        wall = sum_moments([piece.per_thickness() for piece in self.pieces]).about_point(center).truncate(2).raw
+        center = surface.center
+        degree = monomials(2).sum(axis=1)
+        wall = (
+            sum_moments([piece.per_thickness() for piece in self.pieces])
+            .about_point(center)
+            .truncate(2)
+            .raw
+        )
         sheet = surface.about_point(center).truncate(2).raw
         reach = np.sqrt(sheet[(degree == 2) & (monomials(2).max(axis=1) == 2)].sum() / sheet[0])
         return float((np.abs(wall - sheet) / (sheet[0] * reach**degree)).max())
@@ -183,7 +213,9 @@ class WallBody(Body):
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments of the wall, and of the surface itself."""
         walls = self.walls
-        wall = sum_moments([piece.moments(walls.side, self.thickness, order) for piece in walls.pieces])
+        wall = sum_moments(
+            [piece.moments(walls.side, self.thickness, order) for piece in walls.pieces]
+        )
         return wall, walls.thin.moments(order, True)[1] if area else None
 
 
@@ -200,7 +232,9 @@ def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
             _, which = np.unique(np.round(np.log(scale) / SAME_SCALE_RTOL), return_inverse=True)
             for i in range(int(which.max()) + 1):
                 members = which.ravel() == i
-                pieces.append(WallPiece(offset, float(scale[members].mean()), image_matrices[members]))
+                pieces.append(
+                    WallPiece(offset, float(scale[members].mean()), image_matrices[members])
+                )
     return Walls(body, side, tuple(pieces), unique(findings))
 
 
@@ -208,8 +242,14 @@ def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Find
     """Return the surface with faces outward if it is closed, else unchanged with a finding."""
     if solid.method in (Procedure.EXACT, Procedure.REORIENTED):
         area = polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[1].total
-        if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:  # else the repair has removed faces
-            findings += [result for result in solid.findings if result.code in {FLIPPED_FACES, INVERTED_COMPONENTS}]
+        if (
+            abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total
+        ):  # else the repair has removed faces
+            findings += [
+                result
+                for result in solid.findings
+                if result.code in {FLIPPED_FACES, INVERTED_COMPONENTS}
+            ]
             return solid.repaired_surface
     findings.append(finding(WALL_UNORIENTED))
     return surface

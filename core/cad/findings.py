@@ -4,14 +4,20 @@
 
 from ..verdict.finding import error, note, warning
 
-IGES_NOT_ASCII = error("iges_not_ascii", "The IGES file is binary or compressed. Save it in fixed ASCII form.")
+IGES_NOT_ASCII = error(
+    "iges_not_ascii", "The IGES file is binary or compressed. Save it in fixed ASCII form."
+)
 IGES_DAMAGED = error(
     "iges_damaged",
     "The IGES file is damaged: its {section:word} has “{text}”, which is not complete or not possible. Export it "
     "again.",
 )
-IGES_UNIT = error("iges_unit", "The IGES file has the unknown unit “{unit}”. Export it in millimeters or meters.")
-OBJ_CALL = error("obj_call", "The file runs another one by “call”, which is not followed. Insert the other file.")
+IGES_UNIT = error(
+    "iges_unit", "The IGES file has the unknown unit “{unit}”. Export it in millimeters or meters."
+)
+OBJ_CALL = error(
+    "obj_call", "The file runs another one by “call”, which is not followed. Insert the other file."
+)
 NO_SURFACE_KEPT = error("no_surface_kept", "No surface of the file can be kept: {causes}")
 SURFACE_TRIMMED = warning(
     "surface_trimmed",
@@ -54,7 +60,9 @@ FACES_NOT_READ = warning(
     "{count} faces were not read, so the body is not the whole of the file; the file's errors name them.",
 )
 SURFACES_HIDDEN = note(
-    "surfaces_hidden", "{count} hidden surface was left out.", "{count} hidden surfaces were left out."
+    "surfaces_hidden",
+    "{count} hidden surface was left out.",
+    "{count} hidden surfaces were left out.",
 )
 CURVES_LEFT_OUT = note(
     "curves_left_out",

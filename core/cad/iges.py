@@ -22,8 +22,23 @@ from ..nurbs.flat_face import FlatFace
 from ..nurbs.splines import Curve, Face, Patch, patches_size
 from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, finding
-from .findings import CURVES_LEFT_OUT, SURFACE_DAMAGED, SURFACE_TRIMMED, SURFACE_UNSUPPORTED, SURFACES_HIDDEN
-from .iges_entities import MAX_DEPTH, CurveReader, Entry, IgesText, decimal_rounding, integers, numbers, padded
+from .findings import (
+    CURVES_LEFT_OUT,
+    SURFACE_DAMAGED,
+    SURFACE_TRIMMED,
+    SURFACE_UNSUPPORTED,
+    SURFACES_HIDDEN,
+)
+from .iges_entities import (
+    MAX_DEPTH,
+    CurveReader,
+    Entry,
+    IgesText,
+    decimal_rounding,
+    integers,
+    numbers,
+    padded,
+)
 from .surfaces import (
     MAX_SURFACES,
     Refusals,
@@ -35,24 +50,65 @@ from .surfaces import (
 )
 from .trimmed import Boundary, first_region, trimmed_faces
 
-MATRIX, SURFACE, TRIMMED, DEFINITION, INSTANCE = 124, 128, 144, 308, 408
-PLANE, PLANE_SURFACE, DIRECTION = 108, 190, 123
-SOLID, EDGES, LOOP, FACE, SHELL = 186, 504, 508, 510, 514
+MATRIX = 124
+SURFACE = 128
+TRIMMED = 144
+DEFINITION = 308
+INSTANCE = 408
+PLANE = 108
+PLANE_SURFACE = 190
+DIRECTION = 123
+SOLID = 186
+EDGES = 504
+LOOP = 508
+FACE = 510
+SHELL = 514
 RECURSION = "references to itself, or nested too deeply"
 # Surfaces and solids that Blender's surfaces cannot represent, by the names of the specification. All other types
 # are curves, points, annotation or structure.
 REFUSED = {
-    **{108: "Plane", 114: "Parametric Spline Surface", 118: "Ruled Surface", 120: "Surface of Revolution"},
-    **{122: "Tabulated Cylinder", 140: "Offset Surface", 143: "Bounded Surface", 150: "Block", 152: "Wedge"},
-    **{154: "Cylinder", 156: "Cone Frustum", 158: "Sphere", 160: "Torus", 162: "Solid of Revolution"},
-    **{164: "Solid of Linear Extrusion", 168: "Ellipsoid", 180: "Boolean Tree", 184: "Solid Assembly"},
+    **{
+        108: "Plane",
+        114: "Parametric Spline Surface",
+        118: "Ruled Surface",
+        120: "Surface of Revolution",
+    },
+    **{
+        122: "Tabulated Cylinder",
+        140: "Offset Surface",
+        143: "Bounded Surface",
+        150: "Block",
+        152: "Wedge",
+    },
+    **{
+        154: "Cylinder",
+        156: "Cone Frustum",
+        158: "Sphere",
+        160: "Torus",
+        162: "Solid of Revolution",
+    },
+    **{
+        164: "Solid of Linear Extrusion",
+        168: "Ellipsoid",
+        180: "Boolean Tree",
+        184: "Solid Assembly",
+    },
     **{190: "Plane Surface", 192: "Cylindrical Surface", 194: "Conical Surface"},
-    **{196: "Spherical Surface", 198: "Toroidal Surface", 412: "Rectangular Array", 414: "Circular Array"},
+    **{
+        196: "Spherical Surface",
+        198: "Toroidal Surface",
+        412: "Rectangular Array",
+        414: "Circular Array",
+    },
     **{416: "External Reference", 430: "Solid Instance"},
 }
 PARTS = {FACE: "Face", SHELL: "Shell"}  # A solid or a file has them.
 NAMES = {
-    **{SURFACE: "Rational B-Spline Surface", TRIMMED: "Trimmed Surface", INSTANCE: "Subfigure Instance"},
+    **{
+        SURFACE: "Rational B-Spline Surface",
+        TRIMMED: "Trimmed Surface",
+        INSTANCE: "Subfigure Instance",
+    },
     **{SOLID: "Manifold Solid B-Rep", **PARTS, **REFUSED},
 }
 # Index of the parameter that points to the surface or solid which an entity refers to.
@@ -72,7 +128,9 @@ class IgesReader:
         self._entries = self._text.entries
         self._refusals = Refusals()
         self._matrices: dict[int, NDArray[np.float64] | None] = {0: np.eye(4)}
-        self._name, self._placed, self._rounding = path.stem, 0, 0.0
+        self._name = path.stem
+        self._placed = 0
+        self._rounding = 0.0
         self._curves = CurveReader(self._text, self._matrix)
 
     def read(self) -> SurfaceFile:
@@ -83,14 +141,24 @@ class IgesReader:
         for entry in self._entries.values():
             if entry.type not in NAMES:
                 others += entry.type in CURVES and not entry.dependent
-            elif entry.number in used or entry.dependent and (entry.type in REFUSED or entry.type in PARTS):
+            elif (
+                entry.number in used
+                or entry.dependent
+                and (entry.type in REFUSED or entry.type in PARTS)
+            ):
                 continue
             elif entry.hidden:
                 hidden += 1
             else:
                 patches += self._place(entry, np.eye(4), ())
-        notes = [finding(code, count=n) for code, n in ((SURFACES_HIDDEN, hidden), (CURVES_LEFT_OUT, others)) if n]
-        return self._refusals.file([SurfaceBody(self._name, tuple(patches), self._rounding)], self._text.unit, notes)
+        notes = [
+            finding(code, count=n)
+            for code, n in ((SURFACES_HIDDEN, hidden), (CURVES_LEFT_OUT, others))
+            if n
+        ]
+        return self._refusals.file(
+            [SurfaceBody(self._name, tuple(patches), self._rounding)], self._text.unit, notes
+        )
 
     def _references(self) -> Iterator[int]:
         """Yield the numbers of entities that are parts of other entities, and so are not placed by themselves."""
@@ -123,13 +191,18 @@ class IgesReader:
             pairs = integers(fields[1:], 2 * count)
         if not pairs:
             raise ValueError("no parts")
-        return [(self._entry(part, kind), bool(flag)) for part, flag in zip(pairs[::2], pairs[1::2])]
+        return [
+            (self._entry(part, kind), bool(flag)) for part, flag in zip(pairs[::2], pairs[1::2])
+        ]
 
     def _place(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Face]:
         """Return an entity's faces in place. above, path: (4, 4) matrix and pointers of the subfigures around it."""
-        kind, name = NAMES[entry.type], entry.label or "D{}".format(entry.number)
+        kind = NAMES[entry.type]
+        name = entry.label or "D{}".format(entry.number)
         if entry.type in REFUSED:
-            self._refusals.add(SURFACE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name, base=kind)
+            self._refusals.add(
+                SURFACE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name, base=kind
+            )
             return []
         self._placed += 1
         if self._placed > MAX_SURFACES:
@@ -142,13 +215,16 @@ class IgesReader:
                 return self._shells(entry, above)
             if entry.type == SURFACE:
                 return self._within(entry, above @ self._matrix(entry), [], True)
-            return (self._trimmed if entry.type == TRIMMED else self._face)(entry, above @ self._matrix(entry))
+            return (self._trimmed if entry.type == TRIMMED else self._face)(
+                entry, above @ self._matrix(entry)
+            )
 
         return self._refusals.keep("{} ({})".format(kind, entry.type), name, make)
 
     def _shells(self, entry: Entry, above: NDArray) -> list[Face]:
         """Return the faces of a solid or a shell, turned outward if a flag says that they face inward."""
-        matrix, kind = above @ self._matrix(entry), SHELL if entry.type == SOLID else FACE
+        matrix = above @ self._matrix(entry)
+        kind = SHELL if entry.type == SOLID else FACE
         faces: list[Face] = []
         for part, is_outward in self._parts(entry, kind):
             made = self._place(part, matrix, ())
@@ -180,7 +256,8 @@ class IgesReader:
 
     def _matrix(self, entry: Entry) -> NDArray[np.float64]:
         """Return the (4, 4) matrix of an entity: its transformation, followed by the ones that this refers to."""
-        chain, pointer = [], entry.matrix
+        chain = []
+        pointer = entry.matrix
         while pointer not in self._matrices and len(chain) < MAX_DEPTH:
             chain.append(self._entry(pointer, MATRIX))
             pointer = chain[-1].matrix
@@ -226,7 +303,9 @@ class IgesReader:
         pointer, count, _ = integers(fields, 3)
         loops = integers(fields[3:], count)
         base = self._entries[pointer]
-        return self._within(base, matrix @ self._matrix(base), [self._loop(loop, matrix) for loop in loops], True)
+        return self._within(
+            base, matrix @ self._matrix(base), [self._loop(loop, matrix) for loop in loops], True
+        )
 
     def _loop(self, pointer: int, matrix: NDArray) -> Boundary:
         """Return a boundary of edges; edges that are a vertex, such as a pole, have no curve in space."""
@@ -234,7 +313,9 @@ class IgesReader:
         fields = self._text.fields(entry)
         matrix = matrix @ self._matrix(entry)
         (count,) = integers(fields, 1)
-        at, in_space, by_parameters = 1, [], []
+        at = 1
+        in_space = []
+        by_parameters = []
         for _ in range(count):
             is_vertex, edges, index, forward, uses = integers(fields[at:], 5)
             ways = integers(fields[at + 5 :], 2 * uses)[1::2]
@@ -248,24 +329,35 @@ class IgesReader:
     def _edge(self, pointer: int, index: int, forward: bool, matrix: NDArray) -> list[Curve] | None:
         """Return an edge of a list, in the direction of its use."""
         entry = self._entry(pointer, EDGES)
-        (curve,) = integers(self._text.fields(entry)[1 + 5 * (index - 1) :], 1) if index > 0 else (0,)
+        (curve,) = (
+            integers(self._text.fields(entry)[1 + 5 * (index - 1) :], 1) if index > 0 else (0,)
+        )
         curves = self._curves.read(curve, matrix @ self._matrix(entry))
         return curves if forward or curves is None else [one.reverse() for one in reversed(curves)]
 
-    def _within(self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary], has_outer: bool) -> list[Face]:
+    def _within(
+        self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary], has_outer: bool
+    ) -> list[Face]:
         """Return the faces of a surface within boundaries. matrix: (4, 4), of the surface and all that is around it."""
         if base.type in (PLANE, PLANE_SURFACE):
             loops = [boundary.curves for boundary in boundaries] if has_outer else []
             faces: list[Face] = [first_region([loops], self._plane_normal(base, matrix))]
         elif base.type != SURFACE:
-            raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
+            raise SurfaceRefusedError(
+                SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type))
+            )
         else:
             fields = self._text.fields(base)
             knots, orders, points, weights, domain = _spline(fields)
             surface = placed_surface(knots, orders, points, weights, matrix)
             rounding = self._note_rounding(fields, surface, matrix)
             faces = trimmed_faces(
-                surface, domain, bezier_surface(surface, domain, self._for_blender), boundaries, has_outer, rounding
+                surface,
+                domain,
+                bezier_surface(surface, domain, self._for_blender),
+                boundaries,
+                has_outer,
+                rounding,
             )
         if self._for_blender and any(isinstance(face, FlatFace) for face in faces):
             raise SurfaceRefusedError(SURFACE_TRIMMED)
@@ -275,8 +367,12 @@ class IgesReader:
         """Note and return the uncertainty of a surface's points by the decimals of its points and weights."""
         count = surface.points.size // 3
         start = 9 + sum(len(space.knots) for space in surface.spaces)
-        moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(fields[start + count : start + 4 * count])
-        if surface.weights is not None:  # A point is a mean of control points: it moves by twice its weights' share.
+        moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(
+            fields[start + count : start + 4 * count]
+        )
+        if (
+            surface.weights is not None
+        ):  # A point is a mean of control points: it moves by twice its weights' share.
             share = decimal_rounding(fields[start : start + count]) / float(surface.weights.min())
             moved += 2.0 * share * patches_size([surface])
         self._rounding = max(self._rounding, moved)
@@ -287,7 +383,9 @@ class IgesReader:
         fields = self._text.fields(base)
         if base.type == PLANE_SURFACE:
             fields = self._text.fields(self._entry(integers(fields, 2)[1], DIRECTION))
-        return np.linalg.solve(matrix[:3, :3].T, numbers(fields[:3])) * np.sign(np.linalg.det(matrix[:3, :3]))
+        return np.linalg.solve(matrix[:3, :3].T, numbers(fields[:3])) * np.sign(
+            np.linalg.det(matrix[:3, :3])
+        )
 
 
 def _joined(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:
@@ -296,10 +394,13 @@ def _joined(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:
     return [curve for part in known for curve in part] if len(known) == len(parts) else None
 
 
-def _spline(fields: list[str]) -> tuple[Pair[list[float]], Pair[int], NDArray, NDArray, Pair[Pair[float]]]:
+def _spline(
+    fields: list[str],
+) -> tuple[Pair[list[float]], Pair[int], NDArray, NDArray, Pair[Pair[float]]]:
     """Return knots, orders, (count_s, count_t, 3) points, (count_s, count_t) weights and domain of a surface."""
     last_s, last_t, degree_s, degree_t = integers(fields, 4)
-    counts, degrees = (last_s + 1, last_t + 1), (degree_s, degree_t)
+    counts = (last_s + 1, last_t + 1)
+    degrees = (degree_s, degree_t)
     if min(degrees) < 1:
         raise ValueError("degrees")
     knot_counts = [count + degree + 1 for count, degree in zip(counts, degrees)]
@@ -309,6 +410,13 @@ def _spline(fields: list[str]) -> tuple[Pair[list[float]], Pair[int], NDArray, N
         values, np.cumsum([knot_counts[0], knot_counts[1], total, 3 * total])
     )
     domain = (float(part[0]), float(part[1])), (float(part[2]), float(part[3]))
-    knots, orders = (s_knots.tolist(), t_knots.tolist()), (degree_s + 1, degree_t + 1)
+    knots = (s_knots.tolist(), t_knots.tolist())
+    orders = (degree_s + 1, degree_t + 1)
     # The first direction runs fastest.
-    return knots, orders, points.reshape(*counts[::-1], 3).swapaxes(0, 1), weights.reshape(counts[::-1]).T, domain
+    return (
+        knots,
+        orders,
+        points.reshape(*counts[::-1], 3).swapaxes(0, 1),
+        weights.reshape(counts[::-1]).T,
+        domain,
+    )

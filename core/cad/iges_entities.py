@@ -39,10 +39,15 @@ UNIT_NAMES = {
 }
 UNIT_BY_NAME = 3
 MANY_DIGITS = 8  # Numbers with fewer significant digits are taken as exact.
-ARC, CHAIN, LINE, SPLINE = 100, 102, 110, 126
+ARC = 100
+CHAIN = 102
+LINE = 110
+SPLINE = 126
 MAX_DEPTH = 50  # nesting of subfigures, transformations and curves
 MAX_PIECES = 10_000  # pieces of the boundary of a surface
-MAX_ARC = 2.0 * math.pi / 3.0  # radians; a quadratic piece of a circle keeps its weights away from zero
+MAX_ARC = (
+    2.0 * math.pi / 3.0
+)  # radians; a quadratic piece of a circle keeps its weights away from zero
 _DECIMALS = re.compile(r"([0-9]*)\.([0-9]*)(?:[EDed]([+-]?[0-9]+))?")
 _NUMBERS = re.compile(r"[0-9+\-.eEdD \n]*")
 _STRING = re.compile(r"\s*(\d{1,9})H")
@@ -92,7 +97,8 @@ class IgesText:
     def fields(self, entry: Entry) -> list[str]:
         """Return an entity's parameters without its type. ValueError if they are cut short or of another entity."""
         first, count = entry.parameters
-        start, end = first - 1, first - 1 + count
+        start = first - 1
+        end = first - 1 + count
         if not 0 <= start < end <= len(self._lines):
             raise ValueError("parameters beyond the section")
         text = "".join(line[:PARAMETERS] for line in self._lines[start:end])
@@ -139,7 +145,11 @@ def _directory(lines: list[str]) -> dict[int, Entry]:
     entries = {}
     for number in range(1, len(lines) + 1, 2):
         try:
-            words = [lines[number - 1 + row][start : start + 8] for row in (0, 1) for start in range(0, SECTION, 8)]
+            words = [
+                lines[number - 1 + row][start : start + 8]
+                for row in (0, 1)
+                for start in range(0, SECTION, 8)
+            ]
             status = "{:0>8}".format(words[8].strip())
             entries[number] = Entry(
                 number,
@@ -163,7 +173,8 @@ def _split(text: str, delimiter: str, end: str) -> list[str]:
         if not found:
             raise ValueError("no end")
         return record.split(delimiter)
-    fields, at = [], 0
+    fields = []
+    at = 0
     stop = re.compile("[{}]".format(re.escape(delimiter + end)))
     while True:
         start = _STRING.match(text, at)
@@ -228,7 +239,11 @@ class CurveReader:
         self._entries: Mapping[int, Entry] = text.entries
 
     def read(
-        self, pointer: int, matrix: NDArray | None, depth: int = 0, left: Iterator[int] | None = None
+        self,
+        pointer: int,
+        matrix: NDArray | None,
+        depth: int = 0,
+        left: Iterator[int] | None = None,
     ) -> list[Curve] | None:
         """Return a curve as Bézier splines end to end; None if a part is of another kind, too deep, or has weights ≤ 0.
 
@@ -237,7 +252,13 @@ class CurveReader:
         """
         left = iter(range(MAX_PIECES)) if left is None else left
         entry = self._entries.get(pointer)
-        if entry is None or depth >= MAX_DEPTH or next(left, None) is None or matrix is None and entry.matrix:
+        if (
+            entry is None
+            or depth >= MAX_DEPTH
+            or next(left, None) is None
+            or matrix is None
+            and entry.matrix
+        ):
             return None
         matrix = None if matrix is None else matrix @ self._matrix_of(entry)
         fields = self._text.fields(entry)
@@ -251,7 +272,9 @@ class CurveReader:
                 pieces += part
             return pieces
         made = _MAKERS[entry.type](fields) if entry.type in _MAKERS else None
-        return made if made is None or matrix is None else [curve.transform(matrix) for curve in made]
+        return (
+            made if made is None or matrix is None else [curve.transform(matrix) for curve in made]
+        )
 
 
 def _line(fields: list[str]) -> list[Curve]:
@@ -263,25 +286,33 @@ def _arc(fields: list[str]) -> list[Curve]:
     z, *plane = numbers(fields[:7]).tolist()
     center, begin, end = np.array(plane).reshape(3, 2)
     arms = begin - center, end - center
-    radius, angles = math.hypot(*arms[0]), [math.atan2(y, x) for x, y in arms]
+    radius = math.hypot(*arms[0])
+    angles = [math.atan2(y, x) for x, y in arms]
     if not radius > 0.0:
         raise ValueError("an arc without radius")
     turn = (angles[1] - angles[0]) % (2.0 * math.pi)
     turn = 2.0 * math.pi if np.array_equal(begin, end) or not turn else turn
     steps = math.ceil(turn / MAX_ARC)
-    half, curves = turn / steps / 2.0, []
+    half = turn / steps / 2.0
+    curves = []
     for step in range(steps):
         middle = angles[0] + (2 * step + 1) * half
         ring = [(middle - half, 1.0), (middle, 1.0 / math.cos(half)), (middle + half, 1.0)]
-        points = [(*(center + radius * far * np.array([math.cos(at), math.sin(at)])), z) for at, far in ring]
-        curves.append(Curve(clamped_space(3), np.array(points), np.array([1.0, math.cos(half), 1.0])))
+        points = [
+            (*(center + radius * far * np.array([math.cos(at), math.sin(at)])), z)
+            for at, far in ring
+        ]
+        curves.append(
+            Curve(clamped_space(3), np.array(points), np.array([1.0, math.cos(half), 1.0]))
+        )
     return curves
 
 
 def _spline(fields: list[str]) -> list[Curve] | None:
     """Return the used part of a B-spline curve; None if a weight is not positive."""
     last, degree = integers(fields, 2)
-    count, knot_count = last + 1, last + degree + 2
+    count = last + 1
+    knot_count = last + degree + 2
     if degree < 1 or count <= degree:
         raise ValueError("too few control points")
     values = numbers(fields[6 : 6 + knot_count + 4 * count + 2])
@@ -290,8 +321,14 @@ def _spline(fields: list[str]) -> list[Curve] | None:
     knots, weights, points, part = np.split(values, np.cumsum([knot_count, count, 3 * count]))
     if (weights <= 0.0).any():
         return None
-    curve = Curve(SplineSpace(tuple(knots.tolist()), degree + 1, count), points.reshape(count, 3), weights)
+    curve = Curve(
+        SplineSpace(tuple(knots.tolist()), degree + 1, count), points.reshape(count, 3), weights
+    )
     return bezier_curves(curve, (float(part[0]), float(part[1])))
 
 
-_MAKERS: dict[int, Callable[[list[str]], list[Curve] | None]] = {ARC: _arc, LINE: _line, SPLINE: _spline}
+_MAKERS: dict[int, Callable[[list[str]], list[Curve] | None]] = {
+    ARC: _arc,
+    LINE: _line,
+    SPLINE: _spline,
+}

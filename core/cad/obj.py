@@ -39,9 +39,24 @@ from .surfaces import (
 KIND = "surf"
 MAX_DEGREE = 100  # More would repeat the knots of a short file so often that they fill the memory.
 TRIMS = {"trim", "hole"}
-UPRIGHT = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+UPRIGHT = np.array(
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
+)
 _WORD = re.compile(rb"(?:^|[\r\n])[ \t]*surf[ \t\\]")
-_WANTED = {"v", "cstype", "deg", "surf", "parm", "end", "o", "call", "curv", "curv2", "bmat", *TRIMS}
+_WANTED = {
+    "v",
+    "cstype",
+    "deg",
+    "surf",
+    "parm",
+    "end",
+    "o",
+    "call",
+    "curv",
+    "curv2",
+    "bmat",
+    *TRIMS,
+}
 _COMMENT = re.compile(rb"#[^\n]*")
 _OBJECT = re.compile(rb"^[ \t\v]*o[ \t\v]+(\S[^\n]*?)\s*$", re.MULTILINE)
 
@@ -76,7 +91,9 @@ class ObjReader:
     """A reader of the surfaces of a file, or of those that Blender can hold."""
 
     def __init__(self, path: Path, for_blender: bool) -> None:
-        self._path, self._for_blender, self._refusals = path, for_blender, Refusals()
+        self._path = path
+        self._for_blender = for_blender
+        self._refusals = Refusals()
         self._vertices: list[list[str]] = []
         self._elements: list[_Element] = []
 
@@ -86,12 +103,19 @@ class ObjReader:
         points, weights = self._points()
         bodies: dict[str, list[Face]] = {}
         for element in self._elements:
-            made = self._refusals.keep(KIND, element.name, lambda: _faces(element, points, weights, self._for_blender))  # noqa: B023
+            made = self._refusals.keep(
+                KIND, element.name, lambda: _faces(element, points, weights, self._for_blender)
+            )  # noqa: B023
             bodies.setdefault(element.body, []).extend(made)
-        return self._refusals.file([SurfaceBody(name, tuple(patches)) for name, patches in bodies.items()])
+        return self._refusals.file(
+            [SurfaceBody(name, tuple(patches)) for name, patches in bodies.items()]
+        )
 
     def _parse(self) -> None:
-        kind, rational, degrees, body = "", False, [], self._path.stem
+        kind = ""
+        rational = False
+        degrees = []
+        body = self._path.stem
         current: _Element | None = None
         for word, rest in self._statements():
             if word == "v":
@@ -127,7 +151,8 @@ class ObjReader:
                 if line.endswith("\\"):
                     before.append(line[:-1])
                     continue
-                line, before = " ".join([*before, line]), []
+                line = " ".join([*before, line])
+                before = []
                 word, *_ = line.split(None, 1) or [""]
                 if word in _WANTED:
                     yield word, line.partition("#")[0].split()[1:]
@@ -168,7 +193,8 @@ def _faces(element: _Element, points: NDArray, weights: NDArray, for_blender: bo
     knots = [[_number(word) for word in element.knots.get(name, [])] for name in "uv"]
     if element.type == "bezier":
         knots = [
-            [row[0]] + [knot for knot in row for _ in range(degree)] + [row[-1]] for row, degree in zip(knots, degrees)
+            [row[0]] + [knot for knot in row for _ in range(degree)] + [row[-1]]
+            for row, degree in zip(knots, degrees)
         ]
     orders = (degrees[0] + 1, degrees[1] + 1)
     counts = [len(row) - order for row, order in zip(knots, orders)]
@@ -192,12 +218,18 @@ def _indices(words: list[str], count: int) -> NDArray[np.int64]:
     return numbers
 
 
-def read_obj_faces(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], list]:
+def read_obj_faces(
+    path: Path,
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], list]:
     """Return (n, 3) points, (k,) corners and (m,) sides of faces; of objects the first face, first vertex and name."""
     data = map_file(path) if path.stat().st_size else b""
     check_obj_text(data)
-    points, corners, sides = [np.zeros((0, 3))], [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
-    starts, counts, faces = [(0, 0, name_of_file(path))], np.zeros(3, np.int64), 0
+    points = [np.zeros((0, 3))]
+    corners = [np.zeros(0, np.int64)]
+    sides = [np.zeros(0, np.int64)]
+    starts = [(0, 0, name_of_file(path))]
+    counts = np.zeros(3, np.int64)
+    faces = 0
     for _, text in blocks(data):
         lines = Lines(_COMMENT.sub(b"", text) if b"#" in text else text, counts)
         points.append(_read_points(lines))
@@ -207,9 +239,12 @@ def read_obj_faces(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], 
         if b"o" in text:
             for name in _OBJECT.finditer(lines.text):
                 before = int(np.searchsorted(places, name.start()))
-                vertices = int(lines.before[0, np.searchsorted(lines.starts, name.start(), "right") - 1])
+                vertices = int(
+                    lines.before[0, np.searchsorted(lines.starts, name.start(), "right") - 1]
+                )
                 starts.append((faces + before, vertices, name[1].decode("utf-8", "replace")))
-        counts, faces = lines.after, faces + len(lengths)
+        counts = lines.after
+        faces = faces + len(lengths)
     return np.concatenate(points), np.concatenate(corners), np.concatenate(sides), starts
 
 
@@ -241,7 +276,9 @@ def read_obj_meshes(path: Path) -> list[FileMesh]:
     meshes = []
     for i, (end, last, _) in enumerate([*starts[1:], (len(sides), len(points), "")]):
         begin, first, name = starts[i]
-        if begin == end and (first == last or i == 0 < len(starts) - 1):  # Later faces may use the first vertices.
+        if begin == end and (
+            first == last or i == 0 < len(starts) - 1
+        ):  # Later faces may use the first vertices.
             continue
         own = corners[ends[begin] : ends[end]]
         own_points = points

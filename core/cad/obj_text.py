@@ -38,12 +38,15 @@ WHOLES = {b"deg": 1, b"curv2": 2}  # the least count of whole numbers
 FREE_FORM = {b"surf": 4, b"curv": 2}  # the count of numbers before the indices
 _KINDS = b"|".join([*VERTICES, *INDICES, *WHOLES, *FREE_FORM, b"parm"])
 _MARKED = re.compile(MARK + rb"[ \t]*(?:" + _KINDS + rb")(?!\S)")
-_SPACES = bytes.maketrans(bytes(range(10)) + bytes(range(11, 13)) + bytes(range(14, 32)), b" " * 30)  # not \n, \r
+_SPACES = bytes.maketrans(
+    bytes(range(10)) + bytes(range(11, 13)) + bytes(range(14, 32)), b" " * 30
+)  # not \n, \r
 _NEXT = b" \v "  # joins a line and its continuation, so that lines can still be counted
 _INDEX = rb"%(n)b(?:/(?:%(n)b)?+){0,2}+"
 _SHORT_INDEX, _ANY_INDEX = (_INDEX % {b"n": number} for number in (SHORT_WHOLE, rb"[+-]?[0-9]++"))
 _FIELDS = {
-    name: rb"(?:[ \r\v]++%b)" % field for name, field in ((b"n", SHORT), (b"m", SHORT_OR_NAN), (b"i", _SHORT_INDEX))
+    name: rb"(?:[ \r\v]++%b)" % field
+    for name, field in ((b"n", SHORT), (b"m", SHORT_OR_NAN), (b"i", _SHORT_INDEX))
 }
 _LINES = re.compile(
     rb"(?:(?:v(?:%(n)b{3,}+|t%(m)b++|n%(m)b{3,}+)|f%(i)b{3,}+|l%(i)b{2,}+|p%(i)b++)[ \r\v]*+\n"
@@ -71,7 +74,9 @@ def blocks(data: Data) -> Iterator[tuple[int, bytes]]:
     """Yield the offset and the text of blocks of whole statements, continued lines joined to one."""
     start = 0
     while start < len(data):
-        end = data.rfind(b"\n", start, start + BLOCK) + 1 or data.find(b"\n", start) + 1 or len(data)
+        end = (
+            data.rfind(b"\n", start, start + BLOCK) + 1 or data.find(b"\n", start) + 1 or len(data)
+        )
         while end < len(data) and data[max(start, end - 3) : end].endswith((b"\\\n", b"\\\r\n")):
             end = data.find(b"\n", end) + 1 or len(data)
         text = data[start:end].translate(_SPACES).replace(b"\\\r\n", _NEXT).replace(b"\\\n", _NEXT)
@@ -88,20 +93,25 @@ class Lines:
 
     def __init__(self, text: bytes, counts: NDArray[np.int64]) -> None:
         self.text = text
-        self.letters = np.frombuffer(text + b"\n\n\n", np.uint8)  # so that three letters can be read from any word on
+        self.letters = np.frombuffer(
+            text + b"\n\n\n", np.uint8
+        )  # so that three letters can be read from any word on
         self._is_word = self.letters > ord(" ")
         self._is_word[1:] &= self.letters[:-1] <= ord(" ")
         self.ends = np.flatnonzero(self.letters[:-3] == ord("\n"))
         self.starts = np.append(0, self.ends[:-1] + 1)
         words = np.append(np.flatnonzero(self._is_word), len(text))
         first = words[np.searchsorted(words, self.starts)]
-        kind, second, third = (np.where(first < self.ends, self.letters[first + shift], 0) for shift in range(3))
+        kind, second, third = (
+            np.where(first < self.ends, self.letters[first + shift], 0) for shift in range(3)
+        )
         self._kind = np.where(second <= ord(" "), kind, 0)
         is_vertex = kind == ord("v")
         of_two = [is_vertex & (second == ord(letter)) & (third <= ord(" ")) for letter in "tn"]
         self.kinds = np.array([is_vertex & (second <= ord(" ")), *of_two])
         behind = counts[:, None] + np.cumsum(self.kinds, axis=1)
-        self.before, self.after = behind - self.kinds, behind[:, -1]
+        self.before = behind - self.kinds
+        self.after = behind[:, -1]
 
     def has_kind(self, kinds: str) -> NDArray[np.bool_]:
         """Return whether the (n,) lines are statements of one of some letters."""
@@ -152,11 +162,15 @@ def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Fault | None:
     faults: Iterable[Fault | None]
     if kind in VERTICES:
         least = VERTICES[kind]
-        faults = (find_number_fault(word, kind == b"v" and place < 3) for place, word in enumerate(words))
+        faults = (
+            find_number_fault(word, kind == b"v" and place < 3) for place, word in enumerate(words)
+        )
     elif kind in INDICES:
-        least, faults = INDICES[kind], (_find_index_fault(word, before) for word in words)
+        least = INDICES[kind]
+        faults = (_find_index_fault(word, before) for word in words)
     elif kind in WHOLES:
-        least, faults = WHOLES[kind], map(find_whole_fault, words)
+        least = WHOLES[kind]
+        faults = map(find_whole_fault, words)
     else:
         numbers = FREE_FORM.get(kind, len(words))
         least = numbers + 1 if kind in FREE_FORM else 2

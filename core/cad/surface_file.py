@@ -23,7 +23,9 @@ _READERS = {".igs": IgesReader, ".iges": IgesReader, ".obj": ObjReader}
 SUFFIXES = tuple(_READERS)
 
 
-def read_surfaces(path: str | Path, limits: Limits = DEFAULT_LIMITS, for_blender: bool = True) -> SurfaceFile:
+def read_surfaces(
+    path: str | Path, limits: Limits = DEFAULT_LIMITS, for_blender: bool = True
+) -> SurfaceFile:
     """Return the B-spline surfaces of an IGES or .obj file of up to `limits.text_bytes`. Raise FileError or OSError.
 
     for_blender: only surfaces that Blender can represent.
@@ -41,9 +43,11 @@ def read_meshes(path: str | Path) -> tuple[list[FileMesh], NDArray[np.float64]]:
     """
     path, suffix = _existing_file(path, (*KINDS, ".obj"))
     if suffix == ".obj":
-        meshes, upright = read_obj_meshes(path), UPRIGHT
+        meshes = read_obj_meshes(path)
+        upright = UPRIGHT
     else:
-        meshes, upright = [KINDS[suffix](path).mesh()], np.eye(4)
+        meshes = [KINDS[suffix](path).mesh()]
+        upright = np.eye(4)
     for mesh in meshes:
         box_of_blocks([mesh.points], "vertex")
     return meshes, upright

@@ -17,7 +17,13 @@ from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 from ..nurbs.splines import Face, Patch
 from ..streams.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
-from .findings import NO_SURFACE_KEPT, SURFACE_DAMAGED, SURFACE_ORDER, SURFACE_POINTS, SURFACE_TOO_LARGE
+from .findings import (
+    NO_SURFACE_KEPT,
+    SURFACE_DAMAGED,
+    SURFACE_ORDER,
+    SURFACE_POINTS,
+    SURFACE_TOO_LARGE,
+)
 
 MAX_ORDER = 6  # largest order of the surfaces that are kept
 MAX_POINTS = 1 << 18  # control points of one patch in Bézier form
@@ -27,7 +33,9 @@ MAX_NAMES = 1000  # names in a refusal
 MAX_REASONS = 8  # reasons in one refusal
 MAX_COORDINATE = 3e38  # Just below the largest float32.
 # A quarter of a circle is (1 - t², 2t) / (1 + t²), which has the weights 1, 1, 2.
-_CIRCLE = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)], np.float64)
+_CIRCLE = np.array(
+    [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)], np.float64
+)
 _WEIGHTS = np.array([1.0, 1.0, 2.0, 1.0, 1.0, 1.0, 2.0, 1.0, 1.0])
 
 
@@ -74,7 +82,9 @@ class Refusals:
         try:
             patches = make()
             # A nested call for other surfaces of this file has counted their points.
-            self.points = max(self.points, before + sum(patch.points.size // 3 for patch in patches))
+            self.points = max(
+                self.points, before + sum(patch.points.size // 3 for patch in patches)
+            )
             if self.points > MAX_TOTAL_POINTS:
                 raise FileError(FILE_TOO_LARGE, limit=MAX_TOTAL_POINTS, content="control points")
             return patches
@@ -93,21 +103,33 @@ class Refusals:
         self.names.setdefault((code, kind, tuple(values.items())), []).append(name)
 
     def file(
-        self, bodies: Sequence[SurfaceBody], unit: float | None = None, notes: Sequence[Finding] = ()
+        self,
+        bodies: Sequence[SurfaceBody],
+        unit: float | None = None,
+        notes: Sequence[Finding] = (),
     ) -> SurfaceFile:
         """Return the file's bodies with patches, and its refusals. FileError if no body has patches."""
-        refused, kept = [], tuple(body for body in bodies if body.patches)
-        for (code, kind, values), names in self.names.items():  # one finding for each reason and kind
+        refused = []
+        kept = tuple(body for body in bodies if body.patches)
+        for (
+            code,
+            kind,
+            values,
+        ), names in self.names.items():  # one finding for each reason and kind
             known = dict(values)
             if "cause" in known:
                 known["cause"] = known["cause"].as_record()
-            refused.append(finding(code, kind=kind, count=len(names), names=names[:MAX_NAMES], **known))
+            refused.append(
+                finding(code, kind=kind, count=len(names), names=names[:MAX_NAMES], **known)
+            )
         if not kept and refused:
             causes = [reason.as_record() for reason in truncate_findings(refused, MAX_REASONS)]
             raise FileError(NO_SURFACE_KEPT, causes=causes)
         if not kept:
             raise FileError(FILE_WITHOUT_OBJECTS, content="surfaces")
-        return SurfaceFile(kept, unit, tuple(refused), tuple(notes), sum(map(len, self.names.values())))
+        return SurfaceFile(
+            kept, unit, tuple(refused), tuple(notes), sum(map(len, self.names.values()))
+        )
 
 
 def placed_surface(
@@ -133,7 +155,9 @@ def placed_surface(
 
 
 def bezier_surface(
-    surface: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None], for_blender: bool
+    surface: Patch,
+    domain: tuple[tuple[float, float] | None, tuple[float, float] | None],
+    for_blender: bool,
 ) -> list[Patch]:
     """Return a part of a surface as Bézier patches. for_blender: refuse patches that Blender cannot hold."""
     order = max(space.order for space in surface.spaces)
@@ -153,7 +177,9 @@ def is_storable(patch: Patch) -> bool:
     return patch.weights is None or bool(patch.weights.min() >= 1e-30 * patch.weights.max())
 
 
-def revolved_solid(bottom: float, top: float, height: float, axis: str, is_round: bool) -> Patch | None:
+def revolved_solid(
+    bottom: float, top: float, height: float, axis: str, is_round: bool
+) -> Patch | None:
     """Return a solid's surface about an axis "X", "Y" or "Z", facing outward, or None if it has no volume.
 
     bottom, top: the radii at the ends of its straight part, which is `height` long; with a negative height the ends
@@ -161,7 +187,9 @@ def revolved_solid(bottom: float, top: float, height: float, axis: str, is_round
     """
     bottom, top = (abs(top), abs(bottom)) if height < 0.0 else (abs(bottom), abs(top))
     half = abs(height) / 2.0
-    if not (math.isfinite(bottom + top + half) and max(bottom, top) > 0.0 and (half > 0.0 or is_round)):
+    if not (
+        math.isfinite(bottom + top + half) and max(bottom, top) > 0.0 and (half > 0.0 or is_round)
+    ):
         return None
     profile = _Profile(0.0, -half - bottom * is_round)
     profile.extend(bottom, -half, bend=is_round)
@@ -172,7 +200,11 @@ def revolved_solid(bottom: float, top: float, height: float, axis: str, is_round
     columns[..., 2] = heights
     # Rotated so that the third axis becomes the wanted one.
     points = np.roll(columns, max("ZXY".find(axis), 0), axis=2)
-    return Patch((bezier_space(len(_CIRCLE), 3), bezier_space(len(radii), 3)), points, np.outer(_WEIGHTS, weights))
+    return Patch(
+        (bezier_space(len(_CIRCLE), 3), bezier_space(len(radii), 3)),
+        points,
+        np.outer(_WEIGHTS, weights),
+    )
 
 
 class _Profile:
@@ -187,9 +219,12 @@ class _Profile:
         if (radius, height) == (last_radius, last_height):
             return
         if not bend:
-            middle, end = ((last_radius + radius) / 2.0, (last_height + height) / 2.0), weight
+            middle = ((last_radius + radius) / 2.0, (last_height + height) / 2.0)
+            end = weight
         elif radius > last_radius:
-            middle, end = (radius, last_height), 2.0 * weight
+            middle = (radius, last_height)
+            end = 2.0 * weight
         else:
-            middle, end = (last_radius, height), weight / 2.0
+            middle = (last_radius, height)
+            end = weight / 2.0
         self.rows += [(*middle, min(weight, end)), (radius, height, end)]

@@ -24,7 +24,9 @@ from .findings import SURFACE_TRIMMED
 from .surfaces import SurfaceRefusedError
 
 FLAT_RTOL = 1e-8  # Relative to the size: a surface that is farther from a plane is curved.
-END_TOLERANCE = 1e-5  # A curve that ends so near to the end of a side, as a share of it, ends there.
+END_TOLERANCE = (
+    1e-5  # A curve that ends so near to the end of a side, as a share of it, ends there.
+)
 SAMPLES = 33  # points at which a curve is compared with the sides of a surface
 TRIM_RTOL = 1e-7  # float32 rounding: distance of the curve from the sides, relative to the domain
 
@@ -93,7 +95,10 @@ def _flat_face(
     """Return the region of a flat surface within boundaries; SurfaceRefusedError if they do not bound one."""
     s, t = (np.linspace(*ends, 7) for ends in domain)
     grid = surface.evaluate_grid(s, t)
-    steps = [(grid[-1, 0] - grid[0, 0]) / (s[-1] - s[0]), (grid[0, -1] - grid[0, 0]) / (t[-1] - t[0])]
+    steps = [
+        (grid[-1, 0] - grid[0, 0]) / (s[-1] - s[0]),
+        (grid[0, -1] - grid[0, 0]) / (t[-1] - t[0]),
+    ]
     matrix = np.eye(4)
     matrix[:3, 0], matrix[:3, 1] = steps
     matrix[:3, 3] = grid[0, 0] - steps[0] * s[0] - steps[1] * t[0]
@@ -107,18 +112,27 @@ def _flat_face(
 
     in_space = [boundary.curves or placed(boundary) for boundary in boundaries]
     by_parameters = [placed(boundary) or boundary.curves for boundary in boundaries]
-    choices = [in_space, by_parameters][:: -1 if any(one.prefers_parameters for one in boundaries) else 1]
+    choices = [in_space, by_parameters][
+        :: -1 if any(one.prefers_parameters for one in boundaries) else 1
+    ]
     return first_region(choices, vector_area([surface]))
 
 
 def _follow_sides(
-    patch: Patch, domain: tuple[tuple[float, float], tuple[float, float]], boundaries: Sequence[Boundary]
+    patch: Patch,
+    domain: tuple[tuple[float, float], tuple[float, float]],
+    boundaries: Sequence[Boundary],
 ) -> bool:
     """Return whether boundaries follow a patch's boundary, in its parameters, or in space if these are unknown."""
     tolerance = WELDING_RTOL * patches_size([patch])
     sides = [[patch.side(axis, end) for end in (0, 1)] for axis in (0, 1)]
-    samples = [[curve.evaluate(np.linspace(*curve.space.domain, SAMPLES)) for curve in row] for row in sides]
-    poles = tuple((_is_point(first, tolerance), _is_point(last, tolerance)) for first, last in samples)
+    samples = [
+        [curve.evaluate(np.linspace(*curve.space.domain, SAMPLES)) for curve in row]
+        for row in sides
+    ]
+    poles = tuple(
+        (_is_point(first, tolerance), _is_point(last, tolerance)) for first, last in samples
+    )
     closed = tuple(bool(np.abs(first - last).max() <= tolerance) for first, last in samples)
 
     def along_sides(points: NDArray) -> Piece | None:
@@ -187,14 +201,20 @@ def trims_nothing(
     low, high = np.array(domain).T
     if not pieces or not (high > low).all():
         return False
-    runs = _runs([((piece.points - low) / (high - low), piece.straight) for piece in pieces], closed)
+    runs = _runs(
+        [((piece.points - low) / (high - low), piece.straight) for piece in pieces], closed
+    )
     if runs is None:
         return False
     senses: set[float] = set()
     for axis in (0, 1):
         along = sorted((at, begin, end) for run, at, begin, end in runs if run == axis)
-        sides_left = set() if closed[1 - axis] else {end for end in (0, 1) if not poles[1 - axis][end]}
-        starts = [k for k, run in enumerate(along) if not k or run[0] - along[k - 1][0] > 2.0 * TRIM_RTOL]
+        sides_left = (
+            set() if closed[1 - axis] else {end for end in (0, 1) if not poles[1 - axis][end]}
+        )
+        starts = [
+            k for k, run in enumerate(along) if not k or run[0] - along[k - 1][0] > 2.0 * TRIM_RTOL
+        ]
         for first, last in zip(starts, [*starts[1:], len(along)]):
             net, total = _traversals([run[1:] for run in along[first:last]], closed[axis])
             side = next((end for end in (0, 1) if abs(along[first][0] - end) <= TRIM_RTOL), None)
@@ -227,7 +247,8 @@ def _runs(
             if is_still.all():
                 continue
             axis = int(is_still.argmin())
-            at, ends = float(row[:, 1 - axis].mean()), row[[0, -1], axis].tolist()
+            at = float(row[:, 1 - axis].mean())
+            ends = row[[0, -1], axis].tolist()
             is_beyond = min(ends) < -TRIM_RTOL or max(ends) > 1.0 + TRIM_RTOL
             if not is_still.any() or is_beyond and not closed[axis]:
                 return None
@@ -239,10 +260,15 @@ def _runs(
 
 def _traversals(runs: Sequence[tuple[float, float]], closed: bool) -> tuple[NDArray, NDArray]:
     """Return for each piece of a line the counts of runs along it: the difference of both directions, and the sum."""
-    marks, changes = [0.0, 1.0], []
+    marks = [0.0, 1.0]
+    changes = []
     for begin, end in runs:
-        low, high, way = min(begin, end), max(begin, end), 1 if end > begin else -1
-        turns = range(int(np.floor(low + TRIM_RTOL)), int(np.ceil(high - TRIM_RTOL))) if closed else [0]
+        low = min(begin, end)
+        high = max(begin, end)
+        way = 1 if end > begin else -1
+        turns = (
+            range(int(np.floor(low + TRIM_RTOL)), int(np.ceil(high - TRIM_RTOL))) if closed else [0]
+        )
         for turn in turns:
             ends = max(low - turn, 0.0), min(high - turn, 1.0)
             changes.append((*ends, way))

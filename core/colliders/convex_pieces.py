@@ -27,7 +27,9 @@ HULL_RTOL = 1e-6  # of the resulting hulls
 SEARCH_RTOL = 1e-4  # of hulls that are only compared
 COARSE_POINTS = 96  # of the copy that planes are compared on
 MAX_PLANES = 24  # through concave edges
-DIRECTIONS, LIKELY_PLANES = 120, 6  # directions that choose planes, and planes that are compared exactly
+# directions that choose planes, and planes that are compared exactly
+DIRECTIONS = 120
+LIKELY_PLANES = 6
 SAMPLES_PER_BLOCK = 32  # after the first few, which most often decide
 SHARES = np.array([1, 2, 3]) / 4.0  # of the extent, where planes divide a piece evenly
 LEAST_GAIN = 1e-3  # relative to the body's volume: a smaller reduction is none
@@ -58,7 +60,9 @@ def cut_into_pieces(
             continue
         open_pieces += [(part, *_best_plane(part, outward, volume)) for part in parts]
         yield 0.9 * (len(done) + len(open_pieces)) / (SPARE * pieces)
-    groups = _merge([piece.points for piece in (*done, *(piece for piece, *_ in open_pieces))], pieces, volume)
+    groups = _merge(
+        [piece.points for piece in (*done, *(piece for piece, *_ in open_pieces))], pieces, volume
+    )
     yield 0.95
     return [convex_hull(points, HULL_RTOL, corners) for points in groups]
 
@@ -87,7 +91,9 @@ def _best_of(coarse: Piece, piece: Piece) -> tuple[float, NDArray[np.float64]]:
     """Return the largest reduction of the hulls by one plane, and the plane."""
     size = float(np.ptp(piece.points, axis=0).max())
     planes = np.concatenate([_concave_planes(piece, size), _even_planes(piece.points, SHARES)])
-    planes = planes[np.argsort(-_gains(coarse, planes, _rough_volumes), kind="stable")[:LIKELY_PLANES]]
+    planes = planes[
+        np.argsort(-_gains(coarse, planes, _rough_volumes), kind="stable")[:LIKELY_PLANES]
+    ]
     gains = _gains(coarse, planes)
     best = planes[gains.argmax()]
     if coarse is piece:
@@ -104,14 +110,18 @@ def _is_near_hull(piece: Piece, limit: float) -> bool:
     largest = np.argsort(-triangle_areas(hull.points, hull.triangles), kind="stable")
     corners = hull.points[hull.triangles[largest]]
     fans = piece.points[np.stack([piece.first()[piece.face], piece.start, piece.end], axis=1)]
-    samples = np.stack([corners.mean(axis=1), (corners[:, 0] + corners[:, 1]) / 2.0], axis=1).reshape(-1, 3)
+    samples = np.stack(
+        [corners.mean(axis=1), (corners[:, 0] + corners[:, 1]) / 2.0], axis=1
+    ).reshape(-1, 3)
     for block in np.array_split(samples, np.arange(4, len(samples), SAMPLES_PER_BLOCK)):
         if distances_from_triangles(block, fans).max() > limit:
             return False
     return True
 
 
-def distances_from_triangles(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def distances_from_triangles(
+    points: NDArray[np.float64], corners: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Return the (n,) distances of points from the nearest of some (m, 3, 3) triangles."""
     pairs = points.repeat(len(corners), axis=0), np.tile(corners, (len(points), 1, 1))
     return triangle_distances(*pairs).reshape(-1, len(corners)).min(axis=1)
@@ -119,14 +129,22 @@ def distances_from_triangles(points: NDArray[np.float64], corners: NDArray[np.fl
 
 def _coarse(piece: Piece) -> Piece:
     """Return a copy of a piece with at most some points: one for each cell of a grid, the farthest from the middle."""
-    points, cells = piece.points, 16
+    points = piece.points
+    cells = 16
     if len(points) <= COARSE_POINTS:
         return piece
-    low, extent = points.min(axis=0), np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
+    low = points.min(axis=0)
+    extent = np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
     far = np.argsort(-((points - points.mean(axis=0)) ** 2).sum(axis=1), kind="stable")
     while True:
-        number = np.maximum(np.ceil(cells * extent / extent.max()), 2.0)  # a thin body keeps both of its sides
-        cell = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp) @ (cells * cells, cells, 1)
+        number = np.maximum(
+            np.ceil(cells * extent / extent.max()), 2.0
+        )  # a thin body keeps both of its sides
+        cell = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp) @ (
+            cells * cells,
+            cells,
+            1,
+        )
         _, first, which = np.unique(cell[far], return_index=True, return_inverse=True)
         if len(first) <= COARSE_POINTS or cells == 2:
             break
@@ -144,12 +162,19 @@ def _concave_planes(piece: Piece, size: float) -> NDArray[np.float64]:
     order = np.lexsort((piece.start > piece.end, key))
     same = key[order][1:] == key[order][:-1]
     alone = ~np.append(False, same[:-1]) & ~np.append(same[1:], False)
-    first, second = order[:-1][same & alone], order[1:][same & alone]
-    a, b = piece.points[piece.start[first]], piece.points[piece.end[first]]
-    one, other = piece.normals[piece.face[first]], piece.normals[piece.face[second]]
+    first = order[:-1][same & alone]
+    second = order[1:][same & alone]
+    a = piece.points[piece.start[first]]
+    b = piece.points[piece.end[first]]
+    one = piece.normals[piece.face[first]]
+    other = piece.normals[piece.face[second]]
     turn = np.einsum("ij,ij->i", np.cross(one, other), b - a)
     concave = turn < -1e-6 * size
-    a, b, one, other, weight = a[concave], b[concave], one[concave], other[concave], -turn[concave]
+    a = a[concave]
+    b = b[concave]
+    one = one[concave]
+    other = other[concave]
+    weight = -turn[concave]
     if not len(a):
         return np.zeros((0, 4))
     between = np.cross(one + other, b - a)
@@ -157,8 +182,11 @@ def _concave_planes(piece: Piece, size: float) -> NDArray[np.float64]:
     length = np.linalg.norm(normal, axis=1)
     real = length > 1e-9 * size
     normal = normal[real] / length[real, None]
-    at, weight = np.tile(a, (3, 1))[real], np.tile(weight, 3)[real]
-    normal *= np.where(normal[np.arange(len(normal)), np.abs(normal).argmax(axis=1)] < 0.0, -1.0, 1.0)[:, None]
+    at = np.tile(a, (3, 1))[real]
+    weight = np.tile(weight, 3)[real]
+    normal *= np.where(
+        normal[np.arange(len(normal)), np.abs(normal).argmax(axis=1)] < 0.0, -1.0, 1.0
+    )[:, None]
     planes = np.column_stack([normal, np.einsum("ij,ij->i", normal, at)])
     middle = np.append(piece.points.mean(axis=0), -1.0)
     steps = np.column_stack([np.rint(normal * 6.0), np.rint(planes @ middle / size * 24.0)])
@@ -178,7 +206,9 @@ def _even_planes(points: NDArray[np.float64], shares: NDArray[np.float64]) -> ND
 
 
 def _gains(
-    piece: Piece, planes: NDArray[np.float64], measure: Callable[..., NDArray[np.float64]] = hull_volumes
+    piece: Piece,
+    planes: NDArray[np.float64],
+    measure: Callable[..., NDArray[np.float64]] = hull_volumes,
 ) -> NDArray[np.float64]:
     """Return by how much each plane reduces the volume of the hulls of connected parts, for each part it adds."""
     points = piece.points
@@ -189,8 +219,13 @@ def _gains(
     edge, plane = np.nonzero(a * b < 0.0)
     share = (a[edge, plane] / (a[edge, plane] - b[edge, plane]))[:, None]
     new = (1.0 - share) * points[edges[edge, 0]] + share * points[edges[edge, 1]]
-    sets, owners, inward = [points], [np.zeros(len(points), np.intp)], [np.zeros(1, bool)]
-    out = np.stack([np.bincount(piece.start, column[piece.face], len(points)) for column in piece.normals.T], axis=1)
+    sets = [points]
+    owners = [np.zeros(len(points), np.intp)]
+    inward = [np.zeros(1, bool)]
+    out = np.stack(
+        [np.bincount(piece.start, column[piece.face], len(points)) for column in piece.normals.T],
+        axis=1,
+    )
     total = 1
     whose = [np.full(1, -1)]
     for sign in (1.0, -1.0):
@@ -199,7 +234,9 @@ def _gains(
         number = np.full(height.shape, -1)
         number[vertex, of] = np.arange(len(vertex))
         ends = number[edges]  # (e, 2, k)
-        link = np.nonzero((ends >= 0).all(axis=1) & ((a != 0.0) | (b != 0.0)))  # an edge in the plane joins nothing
+        link = np.nonzero(
+            (ends >= 0).all(axis=1) & ((a != 0.0) | (b != 0.0))
+        )  # an edge in the plane joins nothing
         new_number = len(vertex) + np.arange(len(new))
         inner = ends[edge, :, plane].max(axis=1)
         label, parts = connected_components(
@@ -214,7 +251,9 @@ def _gains(
         owner[label] = np.concatenate([of, plane])
         whose.append(owner)
         total += parts
-    owner, place, whose = np.concatenate(owners), np.concatenate(sets), np.concatenate(whose)
+    owner = np.concatenate(owners)
+    place = np.concatenate(sets)
+    whose = np.concatenate(whose)
     order = np.argsort(owner, kind="stable")
     starts = np.searchsorted(owner[order], np.arange(total))
     around = _boxes_around(place[order], starts, whose, np.concatenate(inward))
@@ -222,7 +261,9 @@ def _gains(
     outer, starts = np.unique(around[owner[order]], return_index=True)
     volumes = measure(place[order], starts, SEARCH_RTOL)
     parts = np.bincount(whose[outer[1:]], minlength=len(planes))
-    return (volumes[0] - np.bincount(whose[outer[1:]], volumes[1:], len(planes))) / np.maximum(parts - 1, 1)
+    return (volumes[0] - np.bincount(whose[outer[1:]], volumes[1:], len(planes))) / np.maximum(
+        parts - 1, 1
+    )
 
 
 @lru_cache(maxsize=1)
@@ -230,7 +271,9 @@ def _directions() -> ConvexHull:
     return convex_hull(spread_directions(DIRECTIONS), 1e-9)
 
 
-def _rough_volumes(points: NDArray[np.float64], starts: NDArray[np.intp], _: float) -> NDArray[np.float64]:
+def _rough_volumes(
+    points: NDArray[np.float64], starts: NDArray[np.intp], _: float
+) -> NDArray[np.float64]:
     """Return about the volumes of hulls: those of polyhedra of the farthest points in some directions."""
     ball = _directions()
     sizes = np.diff(np.append(starts, len(points)))
@@ -243,12 +286,18 @@ def _rough_volumes(points: NDArray[np.float64], starts: NDArray[np.intp], _: flo
     return np.einsum("ijk,ijk->i", a, np.cross(b, c)) / 6.0
 
 
-def _face_inward(points: NDArray, out: NDArray, label: NDArray[np.intp], parts: int) -> NDArray[np.bool_]:
+def _face_inward(
+    points: NDArray, out: NDArray, label: NDArray[np.intp], parts: int
+) -> NDArray[np.bool_]:
     """Return a (parts,) mask of the parts whose faces look at the middle: walls of holes. out: (n, 3) normals."""
     count = np.bincount(label, minlength=parts)
     flux = np.bincount(label, np.einsum("ij,ij->i", points, out), parts)
     for place, normal in zip(points.T, out.T):
-        flux -= np.bincount(label, place, parts) * np.bincount(label, normal, parts) / np.maximum(count, 1)
+        flux -= (
+            np.bincount(label, place, parts)
+            * np.bincount(label, normal, parts)
+            / np.maximum(count, 1)
+        )
     return flux < 0.0
 
 
@@ -256,15 +305,20 @@ def _boxes_around(
     points: NDArray, starts: NDArray[np.intp], plane: NDArray[np.intp], inward: NDArray[np.bool_]
 ) -> NDArray[np.intp]:
     """Return, for each set of points, itself, or of walls of a hole the set of the same plane around its box."""
-    low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
+    low = np.minimum.reduceat(points, starts)
+    high = np.maximum.reduceat(points, starts)
     size = (high - low).sum(axis=1)
     around = np.arange(len(starts))
     order = np.argsort(plane, kind="stable")
     for group in np.split(order, np.flatnonzero(np.diff(plane[order])) + 1):
         if inward[group].any():
-            inside = (low[group] <= low[group, None]).all(axis=2) & (high[group] >= high[group, None]).all(axis=2)
+            inside = (low[group] <= low[group, None]).all(axis=2) & (
+                high[group] >= high[group, None]
+            ).all(axis=2)
             largest = np.where(inside, size[group], -1.0).argmax(axis=1)
-            around[group] = np.where(inward[group] & (size[group][largest] > size[group]), group[largest], group)
+            around[group] = np.where(
+                inward[group] & (size[group][largest] > size[group]), group[largest], group
+            )
     return around
 
 
@@ -277,19 +331,25 @@ def _merge(sets: list[NDArray[np.float64]], most: int, volume: float) -> list[ND
     volumes = _volumes(hulls)
     cost = np.full((len(sets), len(sets)), np.inf)
     rows, columns = np.triu_indices(len(sets), 1)
-    cost[rows, columns] = _volumes([np.concatenate([hulls[i], hulls[j]]) for i, j in zip(rows, columns)])
+    cost[rows, columns] = _volumes(
+        [np.concatenate([hulls[i], hulls[j]]) for i, j in zip(rows, columns)]
+    )
     cost[rows, columns] -= volumes[rows] + volumes[columns]
     while len(sets) > 1:
         i, j = (int(place) for place in np.unravel_index(cost.argmin(), cost.shape))
         if len(sets) <= most and cost[i, j] > LEAST_GAIN * volume:
             break
         keep = [k for k in range(len(sets)) if k not in (i, j)]
-        merged = convex_hull(np.concatenate([hulls[i], hulls[j]]), SEARCH_RTOL, MERGE_CORNERS).points
-        sets, cost = [*(sets[k] for k in keep), np.concatenate([sets[i], sets[j]])], cost[np.ix_(keep, keep)]
+        merged = convex_hull(
+            np.concatenate([hulls[i], hulls[j]]), SEARCH_RTOL, MERGE_CORNERS
+        ).points
+        sets = [*(sets[k] for k in keep), np.concatenate([sets[i], sets[j]])]
+        cost = cost[np.ix_(keep, keep)]
         hulls = [hulls[k] for k in keep]
         both = _volumes([*(np.concatenate([one, merged]) for one in hulls), merged])
         column = both[:-1] - volumes[keep] - both[-1]
-        volumes, hulls = np.append(volumes[keep], both[-1]), [*hulls, merged]
+        volumes = np.append(volumes[keep], both[-1])
+        hulls = [*hulls, merged]
         cost = np.pad(cost, ((0, 1), (0, 1)), constant_values=np.inf)
         cost[:-1, -1] = column
     return sets

@@ -42,14 +42,22 @@ from ..verdict.finding import MeasureError
 SUMS = monomial_count(2)  # mass, first and second moments
 DEGREE = monomials(2).sum(axis=1)
 # Products count twice in the norm of a tensor.
-IN_NORM = np.where(monomials(2).max(axis=1) * 2 == DEGREE, np.sqrt(2.0), 1.0) * (DEGREE > 0) + (DEGREE == 0)
-HELD_WEIGHT, NEARNESS = 30.0, 1e-5  # Beside sums that are not held. Repetition takes the effect on held ones away.
+IN_NORM = np.where(monomials(2).max(axis=1) * 2 == DEGREE, np.sqrt(2.0), 1.0) * (DEGREE > 0) + (
+    DEGREE == 0
+)
+# Beside sums that are not held. Repetition takes the effect on held ones away.
+HELD_WEIGHT = 30.0
+NEARNESS = 1e-5
 REPETITIONS = 40
-ROUNDING, REACHED = 1e-15, 1e-11  # of the body's mass and size
+# of the body's mass and size
+ROUNDING = 1e-15
+REACHED = 1e-11
 MOVES_REACHED = 1e-8  # of the body's volume and size, as precise as single precision
 NEAR = 1e-6  # beyond which the volume is given up
 MAX_STEPS, MAX_MULTIPLIER_STEPS = 60, 60
-FIRST_RADIUS, LEAST_RADIUS = 0.1, 1e-6  # of the trust region, in the body's radii of gyration
+# of the trust region, in the body's radii of gyration
+FIRST_RADIUS = 0.1
+LEAST_RADIUS = 1e-6
 MIN_AREA = 1e-3  # of the largest share: corners with less move as if they had so much
 SLACK = 1e-9  # of the effect of all moves: how far sums that cannot be reached may be from the nearest ones
 TINY = float(np.finfo(np.float64).tiny)
@@ -66,7 +74,9 @@ def effect(body: MassProperties, shapes: Sequence[Shape], volume: float) -> Effe
         raise MeasureError(NO_CERTAIN_VOLUME)
     shift = sums[1:4] / sums[0]
     second = sums[SECOND_MOMENT_INDEX] - sums[0] * np.outer(shift, shift)
-    own = Inertial(body.mass, body.center, body.inertia, body.principal.moments, body.principal.axes)
+    own = Inertial(
+        body.mass, body.center, body.inertia, body.principal.moments, body.principal.axes
+    )
     return compare(own, float(sums[0]), shift, second, ratio(float(sum(shares)), volume))
 
 
@@ -90,7 +100,8 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
     target[SECOND_MOMENT_INDEX] = second / body.mass
     size = sqrt(max(float(rows[[4, 7, 9]].sum(axis=0).max()), float(second.trace()) / body.mass))
     units = IN_NORM / size**DEGREE
-    rows, target = rows * weights * units[:, None], target * units
+    rows = rows * weights * units[:, None]
+    target = target * units
     roots, off = _nearest(rows, target, SUMS, weights)
     if off > REACHED:
         center, off = _nearest(rows[:4], target[:4], 4, weights)
@@ -102,7 +113,9 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
     return (body.mass / shares.sum() * shares).tolist()
 
 
-def _ten_sums(body: MassProperties, shapes: Sequence[Shape]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _ten_sums(
+    body: MassProperties, shapes: Sequence[Shape]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return (n,) volumes of colliders, and (10, n) moments by their masses, about the body's center."""
     moments = [moments_of(shape).truncate(2) for shape in shapes]
     volumes = np.array([float(one.total) for one in moments])
@@ -119,7 +132,9 @@ def _nearest(
     """
     weights = np.where(np.arange(len(rows)) < held, HELD_WEIGHT, 1.0)
     system = np.concatenate([rows * weights[:, None], NEARNESS * np.eye(len(wish))])
-    wanted, x, off = target.copy(), wish, np.inf
+    wanted = target.copy()
+    x = wish
+    off = np.inf
     for _ in range(REPETITIONS):
         x = _nonnegative(system, np.concatenate([wanted * weights, NEARNESS * wish]), x)
         missing = (target - rows @ x)[:held]
@@ -130,14 +145,22 @@ def _nearest(
     return x, off
 
 
-def _nonnegative(system: NDArray[np.float64], target: NDArray[np.float64], x: NDArray) -> NDArray[np.float64]:
+def _nonnegative(
+    system: NDArray[np.float64], target: NDArray[np.float64], x: NDArray
+) -> NDArray[np.float64]:
     """Return (n,) x ≥ 0 with the least |system @ x - target| (Lawson and Hanson 1974), from a start ≥ 0.
 
     The columns must be independent.
     """
-    size, x = len(x), x.copy()
+    size = len(x)
+    x = x.copy()
     free = x > 0.0
-    noise = 64.0 * np.finfo(float).eps * float(np.abs(system).sum(axis=0).max()) * float(np.abs(target).max())
+    noise = (
+        64.0
+        * np.finfo(float).eps
+        * float(np.abs(system).sum(axis=0).max())
+        * float(np.abs(target).max())
+    )
     for _ in range(10 * size + 10):
         while True:
             best = np.zeros(size)
@@ -168,11 +191,15 @@ def correct_vertices(
     tolerance, in m; if that does not suffice, the result comes as near to the body as it is found to come. Primitives
     stay as they are. surface: the body's. MeasureError if it has no volume.
     """
-    meshes = {place: shape.surface for place, shape in enumerate(shapes) if shape.surface is not None}
+    meshes = {
+        place: shape.surface for place, shape in enumerate(shapes) if shape.surface is not None
+    }
     if not meshes:
         return list(shapes)
     fixed = [moments_of(shape) for shape in shapes if shape.surface is None]
-    parts = [shapes[place].pose.apply(mesh.points * shapes[place].size) for place, mesh in meshes.items()]
+    parts = [
+        shapes[place].pose.apply(mesh.points * shapes[place].size) for place, mesh in meshes.items()
+    ]
     volume = polyhedron_moments(surface)[0].total
     hulls = _Hulls(body, volume, parts, fixed)
     points, off = _solve(hulls, min(outward, inward) / hulls.size)
@@ -194,13 +221,16 @@ class _Hulls:
 
     is_density_free = False
 
-    def __init__(self, body: MassProperties, volume: float, parts: list[NDArray], fixed: list[Moments]) -> None:
+    def __init__(
+        self, body: MassProperties, volume: float, parts: list[NDArray], fixed: list[Moments]
+    ) -> None:
         second = (body.inertia.trace() / 2.0 * np.eye(3) - body.inertia) / body.mass
         self.size = sqrt(float(second.trace()))
         self.start = (np.concatenate(parts) - body.center) / self.size
         self.starts = np.cumsum([0, *(len(part) for part in parts)])
         self.density = self.size**3 / volume
-        self.target, self.fixed = np.zeros(SUMS), np.zeros(SUMS)
+        self.target = np.zeros(SUMS)
+        self.fixed = np.zeros(SUMS)
         self.target[0] = 1.0
         self.target[SECOND_MOMENT_INDEX] = second / self.size**2
         for moments in fixed:
@@ -212,14 +242,18 @@ class _Hulls:
 
     def evaluate(self, points: NDArray[np.float64]) -> tuple[NDArray, NDArray, NDArray]:
         """Return the (10,) sums that are missing, (10, n, 3) derivatives of the sums and (n,) areas of corners."""
-        sums, gradient, areas = np.zeros(SUMS), np.zeros((SUMS, *points.shape)), np.zeros(len(points))
+        sums = np.zeros(SUMS)
+        gradient = np.zeros((SUMS, *points.shape))
+        areas = np.zeros(len(points))
         for first, hull in zip(self.starts, self.take(points)):
-            surface, places = Surface(hull.points, hull.triangles), first + hull.indices
+            surface = Surface(hull.points, hull.triangles)
+            places = first + hull.indices
             sums += polyhedron_moments(surface, about=np.zeros(3))[0].raw[:SUMS]
             gradient[:, places] = volume_gradient(surface, np.zeros(3), order=2).transpose(1, 0, 2)
             shares = np.repeat(triangle_areas(hull.points, hull.triangles), 3)
             areas[places] = sums_by_index(hull.triangles.ravel(), shares, len(hull.points))
-        sums, gradient = self.fixed + self.density * sums, self.density * gradient
+        sums = self.fixed + self.density * sums
+        gradient = self.density * gradient
         if self.is_density_free:
             sums, gradient = sums / sums[0], gradient / sums[0]
             gradient -= sums[:, None, None] * gradient[0]
@@ -228,7 +262,8 @@ class _Hulls:
 
 def _solve(hulls: _Hulls, limit: float) -> tuple[NDArray[np.float64], float]:
     """Return the (n, 3) corners that have the body's sums with the least motion, or nearly, and what is missing."""
-    moves, (missing, gradient, areas) = np.zeros_like(hulls.start), hulls.evaluate(hulls.start)
+    moves = np.zeros_like(hulls.start)
+    (missing, gradient, areas) = hulls.evaluate(hulls.start)
     off = float(np.linalg.norm(missing))
     areas = np.maximum(areas, MIN_AREA * areas.max())
     radius = FIRST_RADIUS
@@ -250,7 +285,9 @@ def _solve(hulls: _Hulls, limit: float) -> tuple[NDArray[np.float64], float]:
         still_off = float(np.linalg.norm(state[0]))
         if off - still_off > 0.1 * (off - expected):
             radius *= 2.0 if off - still_off > 0.5 * (off - expected) else 1.0
-            off, moves, (missing, gradient, _) = still_off, trial, state
+            off = still_off
+            moves = trial
+            (missing, gradient, _) = state
         else:
             gradient = (gradient + state[1]) / 2.0
             radius /= 2.0
@@ -284,9 +321,14 @@ def _least_moves(
     for _ in range(MAX_MULTIPLIER_STEPS):
         slope = np.einsum("knd,nd->k", rows, moves) + slack * multiplier - wanted
         spread = (rows * np.sqrt(cut / areas)[:, None]).reshape(count, -1)
-        radial = np.einsum("knd,nd->kn", rows, along) * np.sqrt(np.where(cut < 1.0, cut, 0.0) / areas)
-        change = -np.linalg.solve(spread @ spread.T - radial @ radial.T + slack * np.eye(count), slope)
-        share, state = 1.0, judge(multiplier + change)
+        radial = np.einsum("knd,nd->kn", rows, along) * np.sqrt(
+            np.where(cut < 1.0, cut, 0.0) / areas
+        )
+        change = -np.linalg.solve(
+            spread @ spread.T - radial @ radial.T + slack * np.eye(count), slope
+        )
+        share = 1.0
+        state = judge(multiplier + change)
         while share > LEAST_RADIUS and not state[0] <= value + 1e-4 * share * float(slope @ change):
             share /= 2.0
             state = judge(multiplier + share * change)

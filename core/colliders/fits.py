@@ -30,15 +30,21 @@ AXES_CORNERS = 48  # of the hull whose faces and edges give the directions of bo
 BALL_RTOL = 1e-12  # points outside a ball by less are on it
 SIMPLE = ("sphere", "box", "capsule", "cylinder", "hull")  # tried in this order, before pieces
 EQUAL = "equal_"
-STEPS, COARSE_STEPS = 24, 6  # sides of triangles between samples, over the extent of what is sampled
+# sides of triangles between samples, over the extent of what is sampled
+STEPS = 24
+COARSE_STEPS = 6
 MOST_SAMPLES = 20_000
-ROUND_POINTS, RING_POINTS = 400, 96  # of the polyhedra in round shapes
+# of the polyhedra in round shapes
+ROUND_POINTS = 400
+RING_POINTS = 96
 END = np.array([0.0, 0.0, 0.5])
 BALL_SAG = 0.012  # of the radius: the greatest depth of their faces in a ball
 CONVEX_RTOL = 1e-9  # of the volume that a convex body lacks in its hull
 PAIRS_PER_BLOCK = 1 << 20
 INSIDE_RTOL = 1e-9  # of the size
-ON_BODY_RTOL, NEAR_BODY = 1e-10, 0.02  # of the size: reach of the first searches for the body around a place
+# of the size: reach of the first searches for the body around a place
+ON_BODY_RTOL = 1e-10
+NEAR_BODY = 0.02
 
 
 @dataclass(frozen=True)
@@ -68,17 +74,25 @@ def make_colliders(
     """
     if wanted.shape.startswith(EQUAL):
         frame = body.principal
-        inertial = Inertial.with_agreeing_axes(body.mass, body.center, body.inertia, frame.moments, frame.axes)
+        inertial = Inertial.with_agreeing_axes(
+            body.mass, body.center, body.inertia, frame.moments, frame.axes
+        )
         return [equal_inertia_shape(inertial, wanted.shape.removeprefix(EQUAL))]
     hull = hull or convex_hull(surface.points)
     fits = _Fits(hull, body.principal.axes, wanted.vertices)
     if wanted.shape not in ("automatic", "pieces"):
         return [fits.make(wanted.shape)]
     if wanted.shape == "automatic":
-        size, reach = float(np.linalg.norm(np.ptp(hull.points, axis=0))), wanted.outward
+        size = float(np.linalg.norm(np.ptp(hull.points, axis=0)))
+        reach = wanted.outward
         area = float(triangle_areas(hull.points, hull.triangles).sum())
         # Steiner's formula bounds the volume of all places this near to the hull; its mean width is below its diagonal.
-        most = hull_volume(hull) + area * reach + 2.0 * pi * size * reach**2 + 4.0 / 3.0 * pi * reach**3
+        most = (
+            hull_volume(hull)
+            + area * reach
+            + 2.0 * pi * size * reach**2
+            + 4.0 / 3.0 * pi * reach**3
+        )
         for name in SIMPLE:
             shape = fits.make(name)
             if shape.kind == "mesh" or _volume(shape) <= most:
@@ -93,26 +107,35 @@ class _Fits:
     """The shapes around a hull. axes: principal axes as columns. corners: of a simpler hull, at most."""
 
     def __init__(self, hull: ConvexHull, axes: NDArray[np.float64], corners: int) -> None:
-        self.hull, self.points, self.axes, self.corners = hull, hull.points, axes, corners
+        self.hull = hull
+        self.points = hull.points
+        self.axes = axes
+        self.corners = corners
 
     @cached_property
     def box(self) -> Shape:
         """The smallest box."""
         is_simple = len(self.points) <= AXES_CORNERS
-        return _smallest_box(self.hull if is_simple else convex_hull(self.points, max_corners=AXES_CORNERS), self)
+        return _smallest_box(
+            self.hull if is_simple else convex_hull(self.points, max_corners=AXES_CORNERS), self
+        )
 
     @cached_property
     def circles(self) -> list[tuple[NDArray[np.float64], NDArray[np.float64], float]]:
         """Axes as columns, with center and radius of the smallest circle around the points along the third axis."""
         frames = (self.axes, self.box.pose.rotation, np.eye(3))
-        turned = [frame[:, order] for frame in frames for order in ([0, 1, 2], [1, 2, 0], [2, 0, 1])]
+        turned = [
+            frame[:, order] for frame in frames for order in ([0, 1, 2], [1, 2, 0], [2, 0, 1])
+        ]
         return [(frame, *enclosing_ball(self.points @ frame[:, :2])) for frame in turned]
 
     def make(self, shape: str) -> Shape:
         """Return the shape of this name in `Wanted`."""
         if shape == "hull":
             is_simple = len(self.points) <= self.corners
-            return _hull_shape(self.hull if is_simple else convex_hull(self.points, max_corners=self.corners))
+            return _hull_shape(
+                self.hull if is_simple else convex_hull(self.points, max_corners=self.corners)
+            )
         if shape == "box":
             return self.box
         if shape == "axes_box":
@@ -120,7 +143,9 @@ class _Fits:
         if shape == "sphere":
             center, radius = enclosing_ball(self.points)
             return Shape("sphere", (radius,), Pose(center))
-        return min((_round_shape(shape, self.points, *circle) for circle in self.circles), key=_volume)
+        return min(
+            (_round_shape(shape, self.points, *circle) for circle in self.circles), key=_volume
+        )
 
 
 def _hull_shape(hull: ConvexHull) -> Shape:
@@ -161,12 +186,16 @@ def _units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     return vectors / np.linalg.norm(vectors, axis=1)[:, None]
 
 
-def _round_shape(kind: str, points: NDArray, axes: NDArray[np.float64], middle: NDArray, radius: float) -> Shape:
+def _round_shape(
+    kind: str, points: NDArray, axes: NDArray[np.float64], middle: NDArray, radius: float
+) -> Shape:
     """Return the cylinder around points along the third axis, or the capsule, which is as thin."""
-    along, caps = points @ axes, np.zeros(len(points))
+    along = points @ axes
+    caps = np.zeros(len(points))
     if kind == "capsule":
         caps = np.sqrt(np.maximum(radius**2 - ((along[:, :2] - middle) ** 2).sum(axis=1), 0.0))
-    high, low = (along[:, 2] - caps).max(), (along[:, 2] + caps).min()
+    high = (along[:, 2] - caps).max()
+    low = (along[:, 2] + caps).min()
     center = axes @ np.append(middle, (low + high) / 2.0)
     return Shape(kind, (radius, max(float(high - low), 0.0)), Pose(center, axes))
 
@@ -220,7 +249,9 @@ def distances(
     points = np.asarray(surface.points, np.float64)
     size = float(np.ptp(hull.points, axis=0).max())
     solids, sags = zip(*(_polyhedron(shape, hull) for shape in shapes))
-    samples, step = (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size / STEPS)
+    samples, step = (
+        (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size / STEPS)
+    )
     nearest = np.full(len(samples), np.inf)
     for shape, solid in zip(shapes, solids):
         rest = np.flatnonzero(nearest > 0.0)
@@ -230,11 +261,17 @@ def distances(
     corners = np.concatenate([solid.points for solid in solids])
     outward = float(_heights(corners, hull).max())
     if outward <= enough:
-        outward = float(_distances_from_hull(corners, hull, np.full(len(corners), np.inf), size).max())
+        outward = float(
+            _distances_from_hull(corners, hull, np.full(len(corners), np.inf), size).max()
+        )
     is_convex = hull_volume(hull) - volume_and_center(surface)[0] <= CONVEX_RTOL * hull_volume(hull)
     if is_convex or outward > enough:
         return max(outward, 0.0), inward, step + max(sags)
-    tree = Bvh(points, sort_components(points, triangles, np.zeros(len(triangles), np.intp), 1), np.ones(1, bool))
+    tree = Bvh(
+        points,
+        sort_components(points, triangles, np.zeros(len(triangles), np.intp), 1),
+        np.ones(1, bool),
+    )
     own_step = 0.0
     for fineness in (COARSE_STEPS, STEPS) if enough < inf else (STEPS,):
         places, own_step = _outer_samples(solids, size, fineness)
@@ -249,18 +286,23 @@ def _farthest_outside(tree: Bvh, places: NDArray[np.float64], size: float, enoug
 
     Most places are on the body or near to it, and short searches leave few for the long one.
     """
-    farthest, component = 0.0, np.zeros(len(places), np.intp)
+    farthest = 0.0
+    component = np.zeros(len(places), np.intp)
     for step, within in enumerate((ON_BODY_RTOL * size, min(NEAR_BODY * size, enough), enough)):
         distance = tree.distances(places, component[: len(places)], within)
         farthest = float(distance[distance < inf].max(initial=farthest))
         places = places[distance == inf]
         if step == 0:
-            winding, sure = tree.winding_numbers(places, component[: len(places)], INSIDE_RTOL * size)
+            winding, sure = tree.winding_numbers(
+                places, component[: len(places)], INSIDE_RTOL * size
+            )
             places = places[~((winding != 0) & sure)]
     return inf if len(places) else farthest
 
 
-def _outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> tuple[NDArray[np.float64], float]:
+def _outer_samples(
+    solids: Sequence[ConvexHull], size: float, fineness: int
+) -> tuple[NDArray[np.float64], float]:
     """Return places on the surface of the union of solids, and the bound of their distances as of `_samples`."""
     kept, steps = [], []
     for solid in solids:
@@ -300,13 +342,16 @@ def _polyhedron(shape: Shape, body: ConvexHull) -> tuple[ConvexHull, float]:
     if shape.surface is not None:
         points = shape.pose.apply(shape.surface.points * shape.size)
         return body if np.array_equal(points, body.points) else convex_hull(points, 1e-9), 0.0
-    hull, size = _unit("sphere" if shape.kind == "ellipsoid" else shape.kind), shape.size
+    hull = _unit("sphere" if shape.kind == "ellipsoid" else shape.kind)
+    size = shape.size
     if shape.kind == "capsule":  # the ends move apart, and no face changes
         ends = np.where((hull.indices < ROUND_POINTS)[:, None], END, -END)
         points = size[0] * (hull.points - ends) + size[1] * ends
     else:
         points = hull.points * (size if shape.kind != "cylinder" else (size[0], size[0], size[1]))
-    return replace(hull, points=shape.pose.apply(points)), 0.0 if shape.kind == "box" else BALL_SAG * max(size)
+    return replace(
+        hull, points=shape.pose.apply(points)
+    ), 0.0 if shape.kind == "box" else BALL_SAG * max(size)
 
 
 def _face_normals(hull: ConvexHull) -> NDArray[np.float64]:
@@ -341,7 +386,9 @@ def _distances_from_shape(
     return np.maximum(np.linalg.norm(np.maximum(place - core, 0.0), axis=1) - radius, 0.0)
 
 
-def _distances_from_hull(points: NDArray, hull: ConvexHull, nearest: NDArray, size: float) -> NDArray[np.float64]:
+def _distances_from_hull(
+    points: NDArray, hull: ConvexHull, nearest: NDArray, size: float
+) -> NDArray[np.float64]:
     """Return the distances of points from a hull, 0 inside; those above `nearest` may be too small."""
     distance = np.zeros(len(points))
     normal = _face_normals(hull)
@@ -353,10 +400,14 @@ def _distances_from_hull(points: NDArray, hull: ConvexHull, nearest: NDArray, si
         height = heights[np.arange(len(part)), face]
         distance[begin : begin + rows] = np.where(height > INSIDE_RTOL * size, height, 0.0)
         # The largest height is a lower bound, and the distance if its foot is on the hull.
-        farther = np.flatnonzero((height > INSIDE_RTOL * size) & (height < nearest[begin : begin + rows]))
+        farther = np.flatnonzero(
+            (height > INSIDE_RTOL * size) & (height < nearest[begin : begin + rows])
+        )
         feet = part[farther] - height[farther, None] * normal[face[farther]]
         farther = farther[_heights(feet, hull).max(axis=1, initial=-np.inf) > INSIDE_RTOL * size]
-        distance[begin + farther] = distances_from_triangles(part[farther], hull.points[hull.triangles])
+        distance[begin + farther] = distances_from_triangles(
+            part[farther], hull.points[hull.triangles]
+        )
     return distance
 
 

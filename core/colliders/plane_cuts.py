@@ -36,7 +36,9 @@ class Piece:
     def volume(self) -> float:
         """Return the signed volume: the sum of the cones of each face's fan."""
         origin = self.points[self.start[0]]
-        a, b, c = (self.points[ids] - origin for ids in (self.first()[self.face], self.start, self.end))
+        a, b, c = (
+            self.points[ids] - origin for ids in (self.first()[self.face], self.start, self.end)
+        )
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
 
     def first(self) -> NDArray[np.intp]:
@@ -61,7 +63,8 @@ def piece_from_surface(surface: Surface) -> Piece:
     real = np.linalg.norm(normal, axis=1) > 0.0
     triangles, normal = triangles[real], normal[real]
     face = np.arange(len(triangles)).repeat(3)
-    start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
+    start = triangles.ravel()
+    end = triangles[:, [1, 2, 0]].ravel()
     return Piece(points, face, start, end, normal / np.linalg.norm(normal, axis=1)[:, None])
 
 
@@ -70,7 +73,8 @@ def _join_open_edges(points: NDArray[np.float64], triangles: NDArray[np.intp]) -
 
     Other points stay apart, so that parts that only touch do not become one.
     """
-    start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
+    start = triangles.ravel()
+    end = triangles[:, [1, 2, 0]].ravel()
     is_open = ~np.isin(start * len(points) + end, end * len(points) + start)
     ends = np.unique(np.concatenate([start[is_open], end[is_open]]))
     if not len(ends):
@@ -86,12 +90,15 @@ def cut(piece: Piece, plane: NDArray[np.float64]) -> Iterator[Piece]:
     normal = plane[:3]
     height = piece.points @ normal - plane[3]
     height[np.abs(height) <= ON_PLANE_RTOL * np.ptp(piece.points, axis=0).max()] = 0.0
-    low, high = np.minimum(piece.start, piece.end), np.maximum(piece.start, piece.end)
+    low = np.minimum(piece.start, piece.end)
+    high = np.maximum(piece.start, piece.end)
     crosses = np.flatnonzero(height[low] * height[high] < 0.0)
     keys, which = np.unique(low[crosses] * len(height) + high[crosses], return_inverse=True)
     low, high = np.divmod(keys, len(height))
     share = (height[low] / (height[low] - height[high]))[:, None]
-    points = np.concatenate([piece.points, (1.0 - share) * piece.points[low] + share * piece.points[high]])
+    points = np.concatenate(
+        [piece.points, (1.0 - share) * piece.points[low] + share * piece.points[high]]
+    )
     crossing = np.full(len(piece.start), -1)
     crossing[crosses] = len(height) + which
     for sign in (1.0, -1.0):
@@ -102,22 +109,27 @@ def cut(piece: Piece, plane: NDArray[np.float64]) -> Iterator[Piece]:
 
 def _half(piece: Piece, height: NDArray, crossing: NDArray, normal: NDArray) -> Piece | None:
     """Return the part of a piece above a plane, closed in the plane; crossing: the point on each edge, or -1."""
-    from_above, to_above = height[piece.start] > 0.0, height[piece.end] > 0.0
+    from_above = height[piece.start] > 0.0
+    to_above = height[piece.end] > 0.0
     crosses = crossing >= 0
-    from_below, to_below = height[piece.start] < 0.0, height[piece.end] < 0.0
+    from_below = height[piece.start] < 0.0
+    to_below = height[piece.end] < 0.0
     kept = (from_above | to_above) & ~from_below & ~to_below | crosses
     if not kept.any():
         return None
     start = np.where(crosses & from_below, crossing, piece.start)
     end = np.where(crosses & to_below, crossing, piece.end)
-    leaves, enters = kept & from_above & ~to_above, kept & to_above & ~from_above
+    leaves = kept & from_above & ~to_above
+    enters = kept & to_above & ~from_above
     where = np.concatenate([end[leaves], start[enters]])
     face = np.concatenate([piece.face[leaves], piece.face[enters]])
     step = np.ones(len(where), np.intp)
     step[int(np.count_nonzero(leaves)) :] = -1
     along = np.einsum("ij,ij->i", piece.points[where], np.cross(piece.normals[face], normal))
     order = np.lexsort((along, face))
-    where, face, count = where[order], face[order], np.cumsum(step[order])
+    where = where[order]
+    face = face[order]
+    count = np.cumsum(step[order])
     chords = np.flatnonzero((count[:-1] != 0) & (where[:-1] != where[1:]))
     chords = chords.repeat(np.abs(count[chords]))
     forward = count[chords] > 0
@@ -170,23 +182,33 @@ def _join(parts: Sequence[Piece]) -> Piece:
     )
 
 
-def _joined_by_faces(piece: Piece, label: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _joined_by_faces(
+    piece: Piece, label: NDArray[np.intp]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return pairs of labels: of the holes in faces, and of the cycles around these."""
     pairs = []
     of_edge = label[piece.start]
-    low, high = np.full(len(piece.normals), len(label)), np.zeros(len(piece.normals), np.intp)
+    low = np.full(len(piece.normals), len(label))
+    high = np.zeros(len(piece.normals), np.intp)
     np.minimum.at(low, piece.face, of_edge)
     np.maximum.at(high, piece.face, of_edge)
     for face in np.flatnonzero(low < high).tolist():
         edges = np.flatnonzero(piece.face == face)
-        a, b = piece.points[piece.start[edges]], piece.points[piece.end[edges]]
+        a = piece.points[piece.start[edges]]
+        b = piece.points[piece.end[edges]]
         middle = a.mean(axis=0)
         twice = np.einsum("ij,j->i", np.cross(a - middle, b - middle), piece.normals[face])
         cycles, which = np.unique(of_edge[edges], return_inverse=True)
         area = np.bincount(which, twice)
-        box = np.array([[a[which == i].min(axis=0), a[which == i].max(axis=0)] for i in range(len(cycles))])
+        box = np.array(
+            [[a[which == i].min(axis=0), a[which == i].max(axis=0)] for i in range(len(cycles))]
+        )
         for hole in np.flatnonzero(area <= 0.0).tolist():
-            around = (area > 0.0) & (box[:, 0] <= box[hole, 0]).all(axis=1) & (box[:, 1] >= box[hole, 1]).all(axis=1)
+            around = (
+                (area > 0.0)
+                & (box[:, 0] <= box[hole, 0]).all(axis=1)
+                & (box[:, 1] >= box[hole, 1]).all(axis=1)
+            )
             if around.any():
                 outer = np.flatnonzero(around)[area[around].argmin()]
                 pairs.append((cycles[hole], cycles[outer]))

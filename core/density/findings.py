@@ -4,12 +4,16 @@
 
 from ..verdict.finding import error, note, warning
 
-POLYNOMIAL_EMPTY = error("polynomial_empty", "The polynomial is empty. Type one, such as 1000 + 20*z.")
+POLYNOMIAL_EMPTY = error(
+    "polynomial_empty", "The polynomial is empty. Type one, such as 1000 + 20*z."
+)
 POLYNOMIAL_TOO_LONG = error(
-    "polynomial_too_long", "The polynomial is longer than {limit} characters or nested too deeply. Shorten it."
+    "polynomial_too_long",
+    "The polynomial is longer than {limit} characters or nested too deeply. Shorten it.",
 )
 POLYNOMIAL_SYNTAX = error(
-    "polynomial_syntax", "The polynomial cannot be read at “{part}”. Write products with *, as in 20*z."
+    "polynomial_syntax",
+    "The polynomial cannot be read at “{part}”. Write products with *, as in 20*z.",
 )
 POLYNOMIAL_NOT_ALLOWED = error(
     "polynomial_not_allowed",
@@ -17,9 +21,13 @@ POLYNOMIAL_NOT_ALLOWED = error(
     "powers with **, and parentheses.",
 )
 POLYNOMIAL_DIVISION_BY_ZERO = error("polynomial_division_by_zero", "“{part}” divides by zero.")
-POLYNOMIAL_EXPONENT = error("polynomial_exponent", "The exponent in “{part}” must be a whole number from 0 to {limit}.")
+POLYNOMIAL_EXPONENT = error(
+    "polynomial_exponent", "The exponent in “{part}” must be a whole number from 0 to {limit}."
+)
 POLYNOMIAL_DEGREE = error("polynomial_degree", "“{part}” has a degree above {limit}.")
-POLYNOMIAL_NOT_CONSTANT = error("polynomial_not_constant", "“{part}” must be a number, without x, y and z.")
+POLYNOMIAL_NOT_CONSTANT = error(
+    "polynomial_not_constant", "“{part}” must be a number, without x, y and z."
+)
 POLYNOMIAL_OVERFLOW = error("polynomial_overflow", "“{part}” is outside the range of numbers.")
 POLYNOMIAL_BEYOND_NUMBERS = error(
     "polynomial_beyond_numbers",
@@ -30,7 +38,8 @@ GRID_TRANSFORM_SINGULAR = error(
     "grid_transform_singular", "The transform of the grid is singular or not finite. Set its scale."
 )
 DENSITY_NON_FINITE = error(
-    "density_non_finite", "The densities are not finite, or too large to be summed. Remove such values."
+    "density_non_finite",
+    "The densities are not finite, or too large to be summed. Remove such values.",
 )
 TRANSFER_TABLE_SYNTAX = error(
     "transfer_table_syntax",
@@ -40,9 +49,15 @@ TRANSFER_TABLE_NUMBERS = error(
     "transfer_table_numbers",
     "The transfer table needs at least two pairs, with ascending values and finite densities that are not negative.",
 )
-VALUES_SCALED = note("values_scaled", "A value of 1 stands for {density:.6g} kg/m³ (spline order {order}).")
-VALUES_BY_TABLE = note("values_by_table", "Values become densities by the transfer table (spline order {order}).")
-BACKGROUND_EMPTY = warning("background_empty", "Voxels with the background value {value:.6g} count as empty.")
+VALUES_SCALED = note(
+    "values_scaled", "A value of 1 stands for {density:.6g} kg/m³ (spline order {order})."
+)
+VALUES_BY_TABLE = note(
+    "values_by_table", "Values become densities by the transfer table (spline order {order})."
+)
+BACKGROUND_EMPTY = warning(
+    "background_empty", "Voxels with the background value {value:.6g} count as empty."
+)
 VALUES_NEGATIVE = error(
     "values_negative",
     "Negative densities, down to {density:.6g} kg/m³. Convert the samples, set Values to Table, or Measure As to Solid "

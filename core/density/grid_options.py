@@ -32,7 +32,9 @@ class GridOptions(NamedTuple):
     @classmethod
     def from_settings(cls, settings, density: float | None = None) -> GridOptions:
         """Return the options of an object's settings. density: overrides the density of a value of 1, and the table."""
-        table = settings.transfer_table if settings.values_from == "TABLE" and density is None else ""
+        table = (
+            settings.transfer_table if settings.values_from == "TABLE" and density is None else ""
+        )
         return cls(
             settings.grid,
             settings.grid_as == "SOLID",
@@ -49,10 +51,16 @@ class GridOptions(NamedTuple):
         """Tuple of the options that the results depend on."""
         if self.threshold is not None and not self.filled:
             return self.grid, "threshold", self.threshold, self.spline_order
-        values = (self.grid, "solid") if self.solid else (self.grid, self.table or self.value_density)
+        values = (
+            (self.grid, "solid") if self.solid else (self.grid, self.table or self.value_density)
+        )
         if self.sample_positions:
             values = (*values, self.sample_positions)
-        return (*values, self.spline_order) if self.threshold is None else (*values, self.spline_order, self.threshold)
+        return (
+            (*values, self.spline_order)
+            if self.threshold is None
+            else (*values, self.spline_order, self.threshold)
+        )
 
     def needs_even_samples(self, grid: str) -> None:
         """Raise ReadError about the grid of this name if its samples are uneven."""

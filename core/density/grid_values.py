@@ -24,7 +24,9 @@ from .findings import (
 from .grid_options import GridOptions
 
 
-def sample_positions(options: GridOptions, grid: str, low: NDArray, shape: Sequence[int]) -> Positions:
+def sample_positions(
+    options: GridOptions, grid: str, low: NDArray, shape: Sequence[int]
+) -> Positions:
     """Return the scan's sample positions by axis, in voxels, None for even ones, or raise ReadError."""
     if not options.sample_positions:
         return EVEN
@@ -39,7 +41,9 @@ def sample_positions(options: GridOptions, grid: str, low: NDArray, shape: Seque
     return x, y, z
 
 
-def density_function(options: GridOptions, background: float | None) -> Callable[[NDArray], NDArray]:
+def density_function(
+    options: GridOptions, background: float | None
+) -> Callable[[NDArray], NDArray]:
     """Return a function from values to densities, kg/m³, 0 for the background; it raises ReadError for bad ones."""
     pairs = parse_table(options.table) if options.table else None
 
@@ -69,7 +73,11 @@ def empty_background_note(options: GridOptions, background: float | None) -> tup
 
 def positions_text(positions: Positions) -> str:
     """Return positions as JSON for an object, in voxels, scaled so that the last sample keeps its place in Blender."""
-    known = {axis: (row * ((len(row) - 1) / row[-1])).tolist() for axis, row in zip(AXES, positions) if row is not None}
+    known = {
+        axis: (row * ((len(row) - 1) / row[-1])).tolist()
+        for axis, row in zip(AXES, positions)
+        if row is not None
+    }
     return json.dumps(known, separators=(",", ":")) if known else ""
 
 
@@ -79,7 +87,9 @@ def _parsed_positions(text: str) -> dict[str, NDArray[np.float64]] | None:
         rows = {axis: np.array(row, np.float64) for axis, row in json.loads(text).items()}
     except (ValueError, TypeError, AttributeError, RecursionError):
         return None
-    ascending = all(row.ndim == 1 and len(row) > 1 and (np.diff(row) > 0.0).all() for row in rows.values())
+    ascending = all(
+        row.ndim == 1 and len(row) > 1 and (np.diff(row) > 0.0).all() for row in rows.values()
+    )
     return rows if ascending and all(np.isfinite(row).all() for row in rows.values()) else None
 
 

@@ -14,7 +14,8 @@ PNNL = 'PNNL-15870 Rev. 1 (2011), Compendium of Material Composition Data for Ra
 NIST = 'NIST, Tables of X-Ray Mass Attenuation Coefficients (NISTIR 5632), table 2, "{:s}"'
 INGEO = "NatureWorks, Ingeo Biopolymer 3D850 technical data sheet (ASTM D1505)"
 CURA = 'UltiMaker, material profiles of Cura (fdm_materials), "{:s}"'
-FILAMENT, RESIN = "3D Printing Filament", "3D Printing Resin and Powder"
+FILAMENT = "3D Printing Filament"
+RESIN = "3D Printing Resin and Powder"
 CRC = 'CRC Handbook of Chemistry and Physics, 97th ed. (2016), section 15, Density of Various Solids, "{:s}"'
 
 
@@ -27,8 +28,13 @@ class Material(NamedTuple):
     source: str
 
 
-def _materials_of(category: str, template: str, *entries: tuple[str, float, str]) -> tuple[Material, ...]:
-    return tuple(Material(name, category, density, template.format(entry)) for name, density, entry in entries)
+def _materials_of(
+    category: str, template: str, *entries: tuple[str, float, str]
+) -> tuple[Material, ...]:
+    return tuple(
+        Material(name, category, density, template.format(entry))
+        for name, density, entry in entries
+    )
 
 
 MATERIALS: tuple[Material, ...] = (
@@ -156,7 +162,9 @@ MATERIALS: tuple[Material, ...] = (
         ("Silicon", 2330.0, "Silicon"),
         ("Silicon Carbide", 3210.0, "Silicon Carbide (Hexagonal)"),
     ),
-    *_materials_of("Glass and Ceramics", NIST, ("Glass, Borosilicate", 2230.0, "Glass, Borosilicate (Pyrex)")),
+    *_materials_of(
+        "Glass and Ceramics", NIST, ("Glass, Borosilicate", 2230.0, "Glass, Borosilicate (Pyrex)")
+    ),
     *_materials_of(
         "Liquids",
         PNNL,
@@ -199,7 +207,11 @@ DENSITY_UNITS = {  # name of a setting → kg/m³, unit
     "LB_IN3": (POUND / (FOOT / 12.0) ** 3, "lb/in³"),
     "LB_FT3": (POUND / FOOT**3, "lb/ft³"),
 }
-SYSTEM_UNITS = {"METRIC": "KG_M3", "IMPERIAL": "LB_FT3", "NONE": "KG_M3"}  # The customary units of tables, not kg/mm³.
+SYSTEM_UNITS = {
+    "METRIC": "KG_M3",
+    "IMPERIAL": "LB_FT3",
+    "NONE": "KG_M3",
+}  # The customary units of tables, not kg/mm³.
 
 
 def density_unit(chosen: str, system: str) -> str:

@@ -44,7 +44,9 @@ def _block_size(order: int) -> int:
     return max(TRIANGLES_PER_BLOCK * 20 // monomial_count(order), MIN_TRIANGLES_PER_BLOCK)
 
 
-def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, like: Moments) -> Moments:
+def solid_mass_moments(
+    points: NDArray, triangles: NDArray, density: NDArray, like: Moments
+) -> Moments:
     """Return ∫ ρ x^p y^q z^r dV for triangles (t, 3) with (t,) densities of their parts; like: their volume moments."""
     sums, sizes, tau = _accumulate(points, triangles, density, like, solid=True)
     reach = _reach(points, triangles, like.about)
@@ -77,8 +79,12 @@ def sheet_mass_moments(
     raw = sums * factorial_ratios(monomials(like.order), 2 + more)
     bounds = _monomial_bounds(reach, like.order)
     size = sizes / 2.0 * bounds
-    error = 9.0 * U * tau.sum() / 2.0 * bounds + _relative_rounding(len(triangles), like.order) * size
-    inputs = like.input_error * float(density.max(initial=0.0)) + (FLOAT32_HALF_ULP * size if stored else 0.0)
+    error = (
+        9.0 * U * tau.sum() / 2.0 * bounds + _relative_rounding(len(triangles), like.order) * size
+    )
+    inputs = like.input_error * float(density.max(initial=0.0)) + (
+        FLOAT32_HALF_ULP * size if stored else 0.0
+    )
     return Moments(raw, like.about, Measure.AREA, error + 8.0 * U * np.abs(raw), inputs)
 
 
@@ -86,21 +92,31 @@ def _accumulate(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, solid: bool
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
     """Return (K,) Σ ρ h weight, Σ ρ |weight| and (3,) Σ ρ τ; weights are determinants or, for sheets, doubled areas."""
-    order, step = like.order, _block_size(like.order)
+    order = like.order
+    step = _block_size(like.order)
     series = _complete_homogeneous if density.ndim == 1 else _with_linear_density
-    block_sums, sizes, tau = [np.zeros(monomial_count(order))], 0.0, np.zeros(3)
+    block_sums = [np.zeros(monomial_count(order))]
+    sizes = 0.0
+    tau = np.zeros(3)
     columns = [np.ascontiguousarray(column, np.float64) for column in points.T]
     for start in range(0, len(triangles), step):
         index_of = np.ascontiguousarray(triangles[start : start + step].T, np.intp)
         block_density = density[start : start + step]
         place = np.array([column.take(index_of) for column in columns])  # (3 axes, 3 corners, k)
         (ax, bx, cx), (ay, by, cy), (az, bz, cz) = place
-        ux, uy, uz, vx, vy, vz = bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az
+        ux = bx - ax
+        uy = by - ay
+        uz = bz - az
+        vx = cx - ax
+        vy = cy - ay
+        vz = cz - az
         products = ((uy * vz, uz * vy), (uz * vx, ux * vz), (ux * vy, uy * vx))
         normal = np.array([plus - minus for plus, minus in products])
         place -= like.about[:, None, None]
         mean = block_density if block_density.ndim == 1 else block_density.sum(axis=1) / 3.0
-        weight = (normal * place[:, 0]).sum(axis=0) if solid else np.sqrt((normal * normal).sum(axis=0))
+        weight = (
+            (normal * place[:, 0]).sum(axis=0) if solid else np.sqrt((normal * normal).sum(axis=0))
+        )
         sizes += float(np.abs(weight) @ mean)
         tau += [float((np.abs(plus) + np.abs(minus)) @ mean) for plus, minus in products]
         block_sums.append(np.add.reduce(series(place, block_density.T, order) * weight, axis=1))
@@ -148,7 +164,12 @@ def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.f
 
 def _relative_rounding(count: int, order: int) -> NDArray[np.float64]:
     """Return the (K,) rounding errors relative to the sum of the terms' sizes."""
-    return U * (27.0 * (monomials(order).sum(axis=1) + 1) + PAIRWISE_SUM_ROUNDINGS + count / _block_size(order) + 2.0)
+    return U * (
+        27.0 * (monomials(order).sum(axis=1) + 1)
+        + PAIRWISE_SUM_ROUNDINGS
+        + count / _block_size(order)
+        + 2.0
+    )
 
 
 def _monomial_bounds(reach: NDArray, order: int) -> NDArray[np.float64]:
@@ -179,17 +200,23 @@ class PartDensities:
     most_by_area: NDArray[np.float64]
 
 
-def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
+def part_densities(
+    parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None
+) -> PartDensities:
     """Return one density for each part: the mean of the (f,) face densities by area under the linear map."""
     of_mesh = parts.face >= 0
-    part, face, area = parts.part[of_mesh], parts.face[of_mesh], parts.areas(linear)[of_mesh]
+    part = parts.part[of_mesh]
+    face = parts.face[of_mesh]
+    area = parts.areas(linear)[of_mesh]
     first = np.full(parts.number, np.iinfo(np.int64).max)
-    least, most = np.full(parts.number, np.inf), np.full(parts.number, -np.inf)
+    least = np.full(parts.number, np.inf)
+    most = np.full(parts.number, -np.inf)
     np.minimum.at(first, part, face)
     np.minimum.at(least, part, faces[face])
     np.maximum.at(most, part, faces[face])
     there = first < np.iinfo(np.int64).max
-    least, most = np.where(there, least, 0.0), np.where(there, most, 0.0)
+    least = np.where(there, least, 0.0)
+    most = np.where(there, most, 0.0)
     total = np.asarray(np.bincount(part, area, minlength=parts.number), np.float64)
     sums = np.bincount(part, area * faces[face], minlength=parts.number)
     mean = np.divide(sums, total, out=(least + most) / 2.0, where=total > 0.0)

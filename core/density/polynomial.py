@@ -91,31 +91,41 @@ class Polynomial:
     def __call__(self, points: NDArray) -> NDArray[np.float64]:
         """Return the (n,) values at (n, 3) points."""
         points = np.asarray(points, np.float64)
-        coefficients, result = self.coefficients(), np.zeros(len(points))
+        coefficients = self.coefficients()
+        result = np.zeros(len(points))
         for start in range(0, len(points), POINTS_PER_BLOCK):
             part = points[start : start + POINTS_PER_BLOCK].T
             powers = [power_table(row, self.degree) for row in part]
             for (p, q, r), value in zip(monomials(self.degree), coefficients):
                 if value:
-                    result[start : start + POINTS_PER_BLOCK] += value * powers[0][p] * powers[1][q] * powers[2][r]
+                    result[start : start + POINTS_PER_BLOCK] += (
+                        value * powers[0][p] * powers[1][q] * powers[2][r]
+                    )
         return result
 
     def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
         """Return a lower bound of the polynomial on a box, less rounding; boxes are halved as long as that may help."""
-        low, high = np.asarray(low, float), np.asarray(high, float)
+        low = np.asarray(low, float)
+        high = np.asarray(high, float)
         local = self.translate(low).coefficients()
         top = monomials(self.degree)
         net = np.zeros((self.degree + 1,) * 3)
         net[tuple(top.T)] = local * np.multiply.reduce((high - low) ** top, axis=1)
         tolerance = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
         every = range(self.degree + 1)
-        bernstein = np.array([[math.comb(i, j) / math.comb(self.degree, j) for j in every] for i in every])
+        bernstein = np.array(
+            [[math.comb(i, j) / math.comb(self.degree, j) for j in every] for i in every]
+        )
         for axis in range(3):  # from coefficients of t^j to Bernstein coefficients on [0, 1]
             net = np.moveaxis(np.tensordot(bernstein, net, (1, axis)), 0, axis)
-        boxes = [(float(net.min()), 0, net)]  # a heap: the least bound first; the number breaks ties
+        boxes = [
+            (float(net.min()), 0, net)
+        ]  # a heap: the least bound first; the number breaks ties
         for number in range(1, 2 * MAX_BOXES, 2):
             least, _, net = boxes[0]
-            if least >= -tolerance or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values
+            if (
+                least >= -tolerance or min(net[corner] for corner in CORNERS) < 0.0
+            ):  # corners of the net are values
                 break
             heapq.heappop(boxes)
             # Second differences bound the net's distance from the polynomial.
@@ -135,7 +145,11 @@ def parse_polynomial(text: str) -> Polynomial:
     try:
         tree = ast.parse(text, mode="eval").body
     except (SyntaxError, ValueError) as error:
-        start = max((error.offset or 1) - 1, 0) if isinstance(error, SyntaxError) and error.lineno in (None, 1) else 0
+        start = (
+            max((error.offset or 1) - 1, 0)
+            if isinstance(error, SyntaxError) and error.lineno in (None, 1)
+            else 0
+        )
         raise MeasureError(POLYNOMIAL_SYNTAX, part=text[start:][:20] or text[:20]) from error
     except (RecursionError, MemoryError) as error:
         raise MeasureError(POLYNOMIAL_TOO_LONG, limit=MAX_LENGTH) from error
@@ -143,7 +157,9 @@ def parse_polynomial(text: str) -> Polynomial:
         if isinstance(tree, (ast.Tuple, ast.List)):
             values = [_constant(_terms(item, text), item, text) for item in tree.elts]
             if order_from_count(len(values)) > MAX_DEGREE:
-                raise MeasureError(POLYNOMIAL_DEGREE, part=_source_text(tree, text), limit=MAX_DEGREE)
+                raise MeasureError(
+                    POLYNOMIAL_DEGREE, part=_source_text(tree, text), limit=MAX_DEGREE
+                )
             return Polynomial.from_list(values)
         return Polynomial(_terms(tree, text))
     except RecursionError as error:
@@ -155,7 +171,9 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         if isinstance(node.value, float) and not math.isfinite(node.value):
             raise MeasureError(POLYNOMIAL_OVERFLOW, part=_source_text(node, text))
-        number = Fraction(node.value if isinstance(node.value, int) else str(node.value))  # the decimal that was typed
+        number = Fraction(
+            node.value if isinstance(node.value, int) else str(node.value)
+        )  # the decimal that was typed
         return _validated(_nonzero({(0, 0, 0): number}), node, text)
     if isinstance(node, ast.Name) and node.id in VARIABLES:
         return {VARIABLES[node.id]: Fraction(1)}
@@ -168,10 +186,14 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
 
 
 def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
-    left, right = _terms(node.left, text), _terms(node.right, text)
+    left = _terms(node.left, text)
+    right = _terms(node.right, text)
     if isinstance(node.op, (ast.Add, ast.Sub)):
-        sign, zero = 1 if isinstance(node.op, ast.Add) else -1, Fraction(0)
-        return _nonzero({one: left.get(one, zero) + sign * right.get(one, zero) for one in (*left, *right)})
+        sign = 1 if isinstance(node.op, ast.Add) else -1
+        zero = Fraction(0)
+        return _nonzero(
+            {one: left.get(one, zero) + sign * right.get(one, zero) for one in (*left, *right)}
+        )
     if isinstance(node.op, ast.Mult):
         return _multiply(left, right, node, text)
     if isinstance(node.op, ast.Div):
@@ -219,9 +241,12 @@ def _constant(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> Fr
     return terms.get((0, 0, 0), Fraction(0))
 
 
-def _validated(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> dict[Exponents, Fraction]:
+def _validated(
+    terms: dict[Exponents, Fraction], node: ast.expr, text: str
+) -> dict[Exponents, Fraction]:
     for value in terms.values():
-        above, below = value.numerator.bit_length(), value.denominator.bit_length()
+        above = value.numerator.bit_length()
+        below = value.denominator.bit_length()
         if max(above, below) > MAX_LENGTH or abs(above - below) > MAX_EXPONENT:
             raise MeasureError(POLYNOMIAL_OVERFLOW, part=_source_text(node, text))
     return terms
@@ -232,7 +257,9 @@ def _source_text(node: ast.expr, text: str) -> str:
     return part if len(part) <= 40 else part[:39] + "…"
 
 
-def _translate(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dict[Exponents, Fraction]:
+def _translate(
+    terms: dict[Exponents, Fraction], axis: int, by: Fraction
+) -> dict[Exponents, Fraction]:
     """Return the terms with (t + by)^n for t^n along one axis."""
     result: dict[Exponents, Fraction] = {}
     for powers, value in terms.items():
@@ -247,8 +274,11 @@ def _halves(net: NDArray, axis: int) -> tuple[NDArray, NDArray]:
     """Return the Bernstein coefficients on both halves of a box, by de Casteljau's scheme."""
     coefficients = np.moveaxis(net, axis, 0).copy()
     last = len(coefficients) - 1
-    left, right = np.empty_like(coefficients), np.empty_like(coefficients)
+    left = np.empty_like(coefficients)
+    right = np.empty_like(coefficients)
     for step in range(last + 1):
         left[step], right[last - step] = coefficients[0], coefficients[last - step]
-        coefficients[: last - step] = (coefficients[: last - step] + coefficients[1 : last - step + 1]) / 2.0
+        coefficients[: last - step] = (
+            coefficients[: last - step] + coefficients[1 : last - step + 1]
+        ) / 2.0
     return np.moveaxis(left, 0, axis), np.moveaxis(right, 0, axis)

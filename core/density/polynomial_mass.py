@@ -10,7 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.point_triangle import winding_number
-from ..moments.affine_maps import absolute_moments, multiply_by_linear_form, to_trailing_axis, transform_by_horner
+from ..moments.affine_maps import (
+    absolute_moments,
+    multiply_by_linear_form,
+    to_trailing_axis,
+    transform_by_horner,
+)
 from ..moments.exponents import monomial_count, monomials, order_from_count, product_indices
 from ..moments.images import MAPS_PER_BLOCK
 from ..moments.moments import Measure, Moments, U, measure_scale_factors
@@ -44,9 +49,12 @@ def polynomial_mass_of_images(
     fields = matrices if fields is None else fields
     linear, offsets = to_trailing_axis(matrices)
     turn, shift = to_trailing_axis(fields)
-    point, extent = moments.about[:, None], np.abs(moments.about)[:, None]
+    point = moments.about[:, None]
+    extent = np.abs(moments.about)[:, None]
     origins = (linear * point).sum(axis=1) + offsets
-    center: NDArray[np.float64] = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
+    center: NDArray[np.float64] = (
+        origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
+    )
     origins_local = (turn * point).sum(axis=1) + shift
     origin = origins_local.mean(axis=1)
     terms = density.translate(origin).float_terms()
@@ -57,19 +65,41 @@ def polynomial_mass_of_images(
         misplacement = (
             8.0
             * U
-            * ((np.abs(turn[:, :, part]) * extent).sum(axis=1) + np.abs(shift[:, part]) + np.abs(origin)[:, None])
+            * (
+                (np.abs(turn[:, :, part]) * extent).sum(axis=1)
+                + np.abs(shift[:, part])
+                + np.abs(origin)[:, None]
+            )
         )
-        weighed, weighed_error, weighed_input, largest = _mass_functional(moments, order, terms, forms, misplacement)
-        maps, offset = linear[:, :, part], origins[:, part] - center[:, None]
+        weighed, weighed_error, weighed_input, largest = _mass_functional(
+            moments, order, terms, forms, misplacement
+        )
+        maps = linear[:, :, part]
+        offset = origins[:, part] - center[:, None]
         weight, weight_error, anisotropy = measure_scale_factors(moments.measure, maps)
         weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
         raw += (transform_by_horner(weighed, order, maps, offset) * weight).sum(axis=1)
-        tolerance = 6.0 * U * ((np.abs(maps) * extent).sum(axis=1) + np.abs(offsets[:, part]) + np.abs(center)[:, None])
+        tolerance = (
+            6.0
+            * U
+            * (
+                (np.abs(maps) * extent).sum(axis=1)
+                + np.abs(offsets[:, part])
+                + np.abs(center)[:, None]
+            )
+        )
         reach = np.abs(maps), np.abs(offset)
-        size = transform_by_horner(np.abs(weighed) + weighed_error, order, reach[0], reach[1] + tolerance)
+        size = transform_by_horner(
+            np.abs(weighed) + weighed_error, order, reach[0], reach[1] + tolerance
+        )
         rounding = weight * transform_by_horner(weighed_error, order, *reach) + weight_error * size
         for axis, raised in enumerate(product_indices(order) if order else ()):
-            rounding[raised] += monomials(order)[raised, axis, None] * tolerance[axis] * weight * size[: len(raised)]
+            rounding[raised] += (
+                monomials(order)[raised, axis, None]
+                * tolerance[axis]
+                * weight
+                * size[: len(raised)]
+            )
         moved = transform_by_horner(weighed_input, order, *reach)
         error += rounding.sum(axis=1)
         inputs += (weight * moved).sum(axis=1)
@@ -80,7 +110,11 @@ def polynomial_mass_of_images(
 
 
 def _mass_functional(
-    moments: Moments, order: int, terms: Terms, forms: tuple[NDArray, NDArray], misplacement: NDArray
+    moments: Moments,
+    order: int,
+    terms: Terms,
+    forms: tuple[NDArray, NDArray],
+    misplacement: NDArray,
 ) -> tuple[NDArray, NDArray, NDArray, NDArray]:
     """Return four (K, k) arrays: G, its rounding bound, its bound by `moments.input_error`, bounds of magnitudes.
 
@@ -101,12 +135,18 @@ def _mass_functional(
         }
         if slope:
             error += misplacement[axis] * _apply_polynomial(size, order, slope, reach)
-    largest = absolute_moments(moments.raw, moments.order) + moments.rounding_error + moments.input_error
-    inputs, largest = (_apply_polynomial(one, order, absolute, reach) for one in (moments.input_error, largest))
+    largest = (
+        absolute_moments(moments.raw, moments.order) + moments.rounding_error + moments.input_error
+    )
+    inputs, largest = (
+        _apply_polynomial(one, order, absolute, reach) for one in (moments.input_error, largest)
+    )
     return value, error, inputs, largest
 
 
-def _apply_polynomial(values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, NDArray]) -> NDArray[np.float64]:
+def _apply_polynomial(
+    values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, NDArray]
+) -> NDArray[np.float64]:
     """Return the (K, k) products of a functional, (K',), with Σ c l0^p l1^q l2^r in the k columns of linear forms."""
     linear, offset = forms
     count = monomial_count(order)
@@ -149,7 +189,8 @@ def find_negative_point(
     if density.degree > 1:
         tried = np.concatenate([tried, points[triangles].mean(axis=1)])
     values = density(tried)
-    low, high = points[used].min(axis=0), points[used].max(axis=0)
+    low = points[used].min(axis=0)
+    high = points[used].max(axis=0)
     grid = low + GRID_STEPS * (high - low) if solid and density.degree > 1 else tried[:0]
     inner = density(grid)
 
@@ -159,7 +200,9 @@ def find_negative_point(
     largest = float(np.abs(values).max())
     least = int(np.argmin(values))
     if values[least] < 0.0:  # the density may be close to zero all over the surface
-        most = next(filter(inside, np.argsort(-inner, kind="stable")[:MAX_LOCATED_POINTS].tolist()), None)
+        most = next(
+            filter(inside, np.argsort(-inner, kind="stable")[:MAX_LOCATED_POINTS].tolist()), None
+        )
         largest = largest if most is None else max(largest, inner[most])
     if values[least] < -NEGLIGIBLE_RTOL * largest:
         return (float(values[least]), tried[least]), False
@@ -168,5 +211,11 @@ def find_negative_point(
     if density.lower_bound(low, high) >= -NEGLIGIBLE_RTOL * largest:
         return None, False
     worst = np.argsort(inner, kind="stable")[:MAX_LOCATED_POINTS]
-    negative_index = next(filter(inside, worst[inner[worst] < -NEGLIGIBLE_RTOL * largest].tolist()), None)
-    return (None, True) if negative_index is None else ((float(inner[negative_index]), grid[negative_index]), False)
+    negative_index = next(
+        filter(inside, worst[inner[worst] < -NEGLIGIBLE_RTOL * largest].tolist()), None
+    )
+    return (
+        (None, True)
+        if negative_index is None
+        else ((float(inner[negative_index]), grid[negative_index]), False)
+    )

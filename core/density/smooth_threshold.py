@@ -51,12 +51,14 @@ def smooth_threshold_body(
         finer = matrix @ place @ np.diag([1.0 / parts] * 3 + [1.0])
         body = threshold_body(values, threshold, order, finer, with_density=with_density)
         if coarse is not None:
-            last, extrapolated = extrapolated or coarse, _combine(body, coarse, 1.0 / 3.0)
+            last = extrapolated or coarse
+            extrapolated = _combine(body, coarse, 1.0 / 3.0)
             estimated = _combine(extrapolated, last, None)
             error = estimated.volume.rounding_error[0]
             if error <= TOLERANCE * estimated.volume.total or 8 * values.size > MAX_SAMPLES:
                 return estimated
-        coarse, parts = body, 2 * parts
+        coarse = body
+        parts = 2 * parts
 
 
 def spline_values(coefficients: NDArray, order: int, parts: int) -> NDArray[np.float64]:
@@ -81,7 +83,8 @@ def spline_values(coefficients: NDArray, order: int, parts: int) -> NDArray[np.f
 def _cardinal(order: int, x: float) -> float:
     """Return the value at x of the centered B-spline of this order, with knots at unit distance."""
     return sum(
-        (-1.0) ** j * math.comb(order, j) * max(x + order / 2.0 - j, 0.0) ** (order - 1) for j in range(order + 1)
+        (-1.0) ** j * math.comb(order, j) * max(x + order / 2.0 - j, 0.0) ** (order - 1)
+        for j in range(order + 1)
     ) / math.factorial(order - 1)
 
 
@@ -95,4 +98,6 @@ def _combine(body: ThresholdBody, other: ThresholdBody, share: float | None) -> 
         return replace(fine, raw=fine.raw + share * difference)
 
     names = [name for name in ("volume", "area", "mass") if getattr(body, name) is not None]
-    return replace(body, **{name: combined(getattr(body, name), getattr(other, name)) for name in names})
+    return replace(
+        body, **{name: combined(getattr(body, name), getattr(other, name)) for name in names}
+    )

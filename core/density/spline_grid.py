@@ -66,7 +66,10 @@ def density_moments(
     variance = moments.raw[[4, 7, 9]] / moments.total - shift * shift
     if not (shift * shift > MAX_OFFSET_RATIO * np.maximum(variance, 0.0)).any():
         return moments
-    nearest = [axis.knots[np.abs(axis.knots - center).argmin()] for axis, center in zip(axes, about + shift)]
+    nearest = [
+        axis.knots[np.abs(axis.knots - center).argmin()]
+        for axis, center in zip(axes, about + shift)
+    ]
     return _moments_about(coefficients, axes, order, value, np.array(nearest))
 
 
@@ -125,7 +128,9 @@ def grid_moments(
     if not np.isfinite(matrix).all() or not np.linalg.det(matrix[:3, :3]):
         raise MeasureError(GRID_TRANSFORM_SINGULAR)
     axes = [
-        SplineAxis.uniform(count, spline_order) if row is None else SplineAxis.at_positions(row, spline_order)
+        SplineAxis.uniform(count, spline_order)
+        if row is None
+        else SplineAxis.at_positions(row, spline_order)
         for count, row in zip(shape, positions)
     ]
     if [axis.count for axis in axes] != list(shape):
@@ -135,7 +140,11 @@ def grid_moments(
 
 
 def _moments_about(
-    coefficients: NDArray | Blocks, axes: tuple[SplineAxis, ...], order: int, value: Callable | None, about: NDArray
+    coefficients: NDArray | Blocks,
+    axes: tuple[SplineAxis, ...],
+    order: int,
+    value: Callable | None,
+    about: NDArray,
 ) -> Moments:
     """Return the moments about a point, with their bounds."""
     axis_order = np.arange(3)
@@ -150,11 +159,15 @@ def _moments_about(
             block = np.asarray(block, np.float64)
         if value is not None:
             block = value(block)
-        factors = [table[:, first : first + length] for table, first, length in zip(tables, part, block.shape)]
+        factors = [
+            table[:, first : first + length]
+            for table, first, length in zip(tables, part, block.shape)
+        ]
         added = contract(block, factors)
         total += added
         size += added if block.min() >= 0.0 else contract(np.abs(block), factors)
-        blocks, longest = blocks + 1, max(longest, sum(block.shape))
+        blocks = blocks + 1
+        longest = max(longest, sum(block.shape))
     if not np.isfinite(total).all():
         raise MeasureError(DENSITY_NON_FINITE)
     p, q, r = monomials(order)[:, axis_order].T
@@ -187,7 +200,8 @@ def contract(block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
 
 def _absolute_from_even(axis: SplineAxis, order: int, center: float) -> NDArray[np.float64]:
     """Return the (order + 1, order + 1) matrix that turns even moments into bounds of the absolute moments."""
-    reach, width = axis.reach(center), axis.width
+    reach = axis.reach(center)
+    width = axis.width
     matrix = np.zeros((order + 1, order + 1))
     for power in range(order + 1):
         for j in range(power + 1):
@@ -218,9 +232,13 @@ class SplineAxis:
             raise ValueError("knots must ascend")
 
     @classmethod
-    def uniform(cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0) -> SplineAxis:
+    def uniform(
+        cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0
+    ) -> SplineAxis:
         """Return an axis of `count` functions with full supports, the i-th centered at origin + i spacing."""
-        return cls(origin + spacing * (np.arange(count + order, dtype=np.float64) - order / 2.0), order)
+        return cls(
+            origin + spacing * (np.arange(count + order, dtype=np.float64) - order / 2.0), order
+        )
 
     @classmethod
     def at_positions(cls, positions: ArrayLike, order: int = 1) -> SplineAxis:

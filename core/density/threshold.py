@@ -32,9 +32,13 @@ from .spline_grid import contract
 from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules
 
 RULES = ((3, 5), (8, 12))  # points along x and y of two rules to compare; then of two finer rules
-TOLERANCE = 1e-11  # Relative to the volume: allowed difference of the rules in all uncut cells together.
+TOLERANCE = (
+    1e-11  # Relative to the volume: allowed difference of the rules in all uncut cells together.
+)
 AREA_TOLERANCE = 1e-9  # Relative to a cell's face: allowed difference in one cell.
-MAX_PARTS, MIN_PARTS = 64, 1 << 13  # limit of parts: first per cut cell, plus second; the rest is in the bounds
+# limit of parts: first per cut cell, plus second; the rest is in the bounds
+MAX_PARTS = 64
+MIN_PARTS = 1 << 13
 MAX_CUT_CELLS = 1 << 21  # Limit of cells kept for measuring.
 CELLS_PER_BATCH = 1 << 9  # cut cells whose points are in memory at a time
 CELLS_PER_SLAB = 1 << 21  # cells of the grid at a time
@@ -129,7 +133,9 @@ def threshold_body(
     cofactors = np.linalg.det(linear) * np.linalg.inv(linear)  # they map the normals of the surface
     about = (shape - 1) // 2 - margin
     sums = _Sums(order, with_density, preview, cofactors @ cofactors.T)
-    clipped, count, cut = False, 0, []
+    clipped = False
+    count = 0
+    cut = []
     for first, values in _slabs(samples, background, value):
         if not np.isfinite(values).all():
             raise MeasureError(DENSITY_NON_FINITE)
@@ -147,7 +153,8 @@ def threshold_body(
     about = about.astype(np.float64)
 
     def moments(name: str, measure: Measure, scaled_as: Measure = Measure.VOLUME) -> Moments:
-        raw, error = getattr(sums, name), sums.rounding_error(name)
+        raw = getattr(sums, name)
+        error = sums.rounding_error(name)
         return replace(Moments(raw, about, scaled_as, error).transform(matrix), measure=measure)
 
     return ThresholdBody(
@@ -194,13 +201,18 @@ class _Sums:
     """The moments so far, about the middle of the grid, and bounds of their errors."""
 
     def __init__(self, order: int, with_density: bool, preview: bool, metric: NDArray) -> None:
-        self.order, self.with_density, self.preview, self.metric = order, with_density, preview, metric
+        self.order = order
+        self.with_density = with_density
+        self.preview = preview
+        self.metric = metric
         self.face = np.sqrt(np.trace(metric) / 3.0)  # roughly the area of a cell's face
         self.powers = monomials(order)
-        self.volume, self.area, self.mass, self.volume_size, self.area_size, self.mass_size = np.zeros(
-            (6, len(self.powers))
+        self.volume, self.area, self.mass, self.volume_size, self.area_size, self.mass_size = (
+            np.zeros((6, len(self.powers)))
         )
-        self.volume_estimate, self.area_estimate, self.mass_estimate = np.zeros((3, len(self.powers)))
+        self.volume_estimate, self.area_estimate, self.mass_estimate = np.zeros(
+            (3, len(self.powers))
+        )
         self.terms = 0
 
     def rounding_error(self, measure: str) -> NDArray[np.float64]:
@@ -213,7 +225,10 @@ class _Sums:
         if not whole.any():
             return
         mask = whole.astype(np.float64)
-        tables = [_interval_moments(first + np.arange(n), self.order + 1) for first, n in zip(origin, whole.shape)]
+        tables = [
+            _interval_moments(first + np.arange(n), self.order + 1)
+            for first, n in zip(origin, whole.shape)
+        ]
         full = [table[: self.order + 1] for table in tables]
         sizes = [np.abs(table) for table in full]
         self.volume += self._contract(mask, full)
@@ -221,7 +236,10 @@ class _Sums:
         self.terms += sum(whole.shape)
         if not self.with_density:
             return
-        rising = [table[1:] - (first + np.arange(table.shape[1])) * table[:-1] for first, table in zip(origin, tables)]
+        rising = [
+            table[1:] - (first + np.arange(table.shape[1])) * table[:-1]
+            for first, table in zip(origin, tables)
+        ]
         for place in np.ndindex(2, 2, 2):
             x, y, z = (slice(i, i + n) for i, n in zip(place, whole.shape))
             factors = [up if i else even - up for i, up, even in zip(place, rising, full)]
@@ -266,23 +284,32 @@ class _Sums:
             for rules in RULES:
                 if not len(left.size):
                     break
-                columns, estimates = compare_rules(left, turn, rules[:1] if self.preview else rules, self.metric)
+                columns, estimates = compare_rules(
+                    left, turn, rules[:1] if self.preview else rules, self.metric
+                )
                 good = (estimates[0] <= allowed) & (estimates[1] <= AREA_TOLERANCE * self.face)
                 self._add_columns(columns, good, left, turn, threshold)
                 kept = left[good]
                 self._add_largest("estimate", kept, threshold, *estimates[:, good])
-                self._add_largest("size", kept, threshold, kept.size**3, amounts_of(columns, left)[1, good])
+                self._add_largest(
+                    "size", kept, threshold, kept.size**3, amounts_of(columns, left)[1, good]
+                )
                 left = left[~good]
             rest.append(left)
         return Cells.join(rest)
 
-    def _add_columns(self, columns: Columns, good: NDArray, cells: Cells, turn: tuple, threshold: float) -> None:
+    def _add_columns(
+        self, columns: Columns, good: NDArray, cells: Cells, turn: tuple, threshold: float
+    ) -> None:
         kept = good[columns.cell]
-        cell, size = columns.cell[kept], cells.size[columns.cell[kept]]
+        cell = columns.cell[kept]
+        size = cells.size[columns.cell[kept]]
         first = cells.origin[cell]
         place = [first[:, axis] + size * of[kept] for axis, of in zip(turn, (columns.x, columns.y))]
         z0 = first[:, turn[2]]
-        low, high, level = (z0 + size * of[kept] for of in (columns.low, columns.high, columns.level))
+        low, high, level = (
+            z0 + size * of[kept] for of in (columns.low, columns.high, columns.level)
+        )
         floor = columns.weight[kept] * size**2
         xs, ys = (power_table(values, self.order) for values in place)
         ends = zip(power_table(high, self.order + 1)[1:], power_table(low, self.order + 1)[1:])
@@ -299,14 +326,20 @@ class _Sums:
         if not self.with_density:
             return
         # The density is linear along a column, so that Gauss's rule is exact for the masses.
-        first, height = columns.low[kept], (columns.high - columns.low)[kept]
+        first = columns.low[kept]
+        height = (columns.high - columns.low)[kept]
         for node, weight in zip(*gauss_legendre((self.order + 1) // 2 + 1)):
             z = first + node * height
             density = threshold + columns.density[kept] + columns.growth[kept] * z
-            self._add_points("mass", floor * size * height * weight * density, [*place, z0 + size * z], turn)
+            self._add_points(
+                "mass", floor * size * height * weight * density, [*place, z0 + size * z], turn
+            )
 
-    def _add_points(self, measure: str, amounts: NDArray, points: list[NDArray], turn: tuple = TURNS[2]) -> None:
-        total, size = getattr(self, measure), getattr(self, measure + "_size")
+    def _add_points(
+        self, measure: str, amounts: NDArray, points: list[NDArray], turn: tuple = TURNS[2]
+    ) -> None:
+        total = getattr(self, measure)
+        size = getattr(self, measure + "_size")
         xs, ys, zs = (power_table(values, self.order) for values in points)
         for number, (p, q, r) in enumerate(self.powers[:, turn].tolist()):
             term = amounts * xs[p] * ys[q] * zs[r]
@@ -324,7 +357,9 @@ class _Sums:
             volumes = weights[list(place)].prod() * cells.size**3
             self._add_points("volume", volumes, points)
             if self.with_density:
-                above = np.einsum("nijk,i,j,k->n", cells.corners, (1.0 - u, u), (1.0 - v, v), (1.0 - w, w))
+                above = np.einsum(
+                    "nijk,i,j,k->n", cells.corners, (1.0 - u, u), (1.0 - v, v), (1.0 - w, w)
+                )
                 self._add_points("mass", volumes * (threshold + above), points)
         self.terms += len(cells.size)
 
@@ -334,13 +369,19 @@ class _Sums:
         self._add_points("volume", cells.size**3 / 2.0, list(center.T))
         if self.with_density:
             self._add_points("mass", threshold * cells.size**3 / 2.0, list(center.T))
-        self._add_largest("estimate", cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2)
+        self._add_largest(
+            "estimate", cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2
+        )
 
-    def _add_largest(self, name: str, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray) -> None:
+    def _add_largest(
+        self, name: str, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray
+    ) -> None:
         """Add the largest moments of volumes, areas and masses in cells to the totals "estimate" or "size"."""
         reach = power_table((np.abs(cells.origin) + cells.size[:, None]).T, self.order)
         density = abs(threshold) + np.abs(cells.corners).max(axis=(1, 2, 3))
-        largest = np.stack([reach[p][0] * reach[q][1] * reach[r][2] for p, q, r in self.powers.tolist()])
+        largest = np.stack(
+            [reach[p][0] * reach[q][1] * reach[r][2] for p, q, r in self.powers.tolist()]
+        )
         for measure, amounts in (("volume", volumes), ("area", areas), ("mass", volumes * density)):
             total = getattr(self, measure + "_" + name)
             total += np.einsum("ki,i->k", largest, amounts)

@@ -34,7 +34,12 @@ class Cells:
 
     @classmethod
     def join(cls, parts: list[Cells]) -> Cells:
-        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__annotations__))
+        return cls(
+            *(
+                np.concatenate([getattr(part, name) for part in parts])
+                for name in cls.__annotations__
+            )
+        )
 
     def __getitem__(self, chosen: slice | NDArray) -> Cells:
         return Cells(self.corners[chosen], self.origin[chosen], self.size[chosen])
@@ -58,7 +63,9 @@ class Cells:
 
     def column_axes(self) -> NDArray[np.intp]:
         """Return for n cells the axis along which the density is most clearly monotone, -1 if it is along none."""
-        steps = np.stack([np.diff(self.corners, axis=axis).reshape(-1, 4) for axis in (1, 2, 3)], axis=1)
+        steps = np.stack(
+            [np.diff(self.corners, axis=axis).reshape(-1, 4) for axis in (1, 2, 3)], axis=1
+        )
         one_way = (steps >= 0.0).all(axis=2) | (steps <= 0.0).all(axis=2)
         steps = np.abs(steps)
         clearness = np.where(one_way, steps.min(axis=2) + 1e-3 * steps.max(axis=2), 0.0)
@@ -90,12 +97,18 @@ def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
     """Return columns at the Gauss points between the lines where the surface leaves a cell; metric: of its area."""
     nodes, weights = gauss_legendre(points)
     _, exponent = np.frexp(np.abs(corners).max(axis=(1, 2, 3)))
-    corners = np.ldexp(corners, -exponent[:, None, None, None])  # so that no product leaves the range of numbers
-    near, step = corners[:, 0], corners[:, 1] - corners[:, 0]  # by y and z: at x = 0, and along x
+    corners = np.ldexp(
+        corners, -exponent[:, None, None, None]
+    )  # so that no product leaves the range of numbers
+    # by y and z: at x = 0, and along x
+    near = corners[:, 0]
+    step = corners[:, 1] - corners[:, 0]
     cell, start, length = _smooth_intervals(near.reshape(-1, 4), corners[:, 1].reshape(-1, 4))
     middle = near[cell] + (start + length / 2.0)[:, None, None] * step[cell]
     some = (middle > 0.0).any(axis=(1, 2))  # else the whole interval is outside
-    cell, start, length = cell[some], start[some], length[some]
+    cell = cell[some]
+    start = start[some]
+    length = length[some]
     x = (start[:, None] + length[:, None] * nodes).ravel()
     width = (length[:, None] * weights).ravel()
     cell = np.repeat(cell, points)
@@ -105,7 +118,9 @@ def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
     weight = (width[row, None] * length[:, None] * weights).ravel()
     row = np.repeat(row, points)
     cell, x = cell[row], x[row]
-    along_x, along_y = step[cell], line[row, 1] - line[row, 0]  # (m, y, z), (m, z)
+    # (m, y, z), (m, z)
+    along_x = step[cell]
+    along_y = line[row, 1] - line[row, 0]
     floor, ceiling = (line[row, 0] + y[:, None] * along_y).T
     growth = ceiling - floor
     with np.errstate(divide="ignore"):
@@ -118,9 +133,13 @@ def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
     slope_x = floor_x + level * (ceiling_x - floor_x)
     slope_y = along_y[:, 0] + level * (along_y[:, 1] - along_y[:, 0])
     with np.errstate(divide="ignore"):
-        slope = np.where(crossed, np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(growth), 0.0)
-    low, high = np.where(rises, level, 0.0), np.where(rises, 1.0, level)
-    density, growth = np.ldexp(floor, exponent[cell]), np.ldexp(growth, exponent[cell])
+        slope = np.where(
+            crossed, np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(growth), 0.0
+        )
+    low = np.where(rises, level, 0.0)
+    high = np.where(rises, 1.0, level)
+    density = np.ldexp(floor, exponent[cell])
+    growth = np.ldexp(growth, exponent[cell])
     return Columns(cell, x, y, weight, low, high, level, slope, density, growth)
 
 

@@ -29,7 +29,9 @@ PIECES_PER_BATCH = 1 << 17  # Expected pieces of the triangles taken at a time.
 MAX_VOXELS = 1 << 27  # voxels of the box around the surface
 
 
-def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -> tuple[Moments, float]:
+def inside_moments(
+    triangles: ArrayLike, densities: ArrayLike, order: int = 3
+) -> tuple[Moments, float]:
     """Return the mass moments of a closed surface filled with a grid of voxels, and the volume of the body in the grid.
 
     The moments are about the middle of the bounding box within the grid, rounded to a corner of voxels. triangles: (n,
@@ -45,7 +47,9 @@ def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -
     if not np.isfinite(densities).all():
         raise MeasureError(DENSITY_NON_FINITE)
     shape = np.array(densities.shape)
-    about = np.round(np.clip((triangles.min(axis=(0, 1)) + triangles.max(axis=(0, 1))) / 2.0, 0, shape))
+    about = np.round(
+        np.clip((triangles.min(axis=(0, 1)) + triangles.max(axis=(0, 1))) / 2.0, 0, shape)
+    )
     exponents = monomials(order)
     total, size = np.zeros((2, len(exponents)))
     below = _sums_below(densities, about[2], order)
@@ -56,7 +60,9 @@ def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -
     for part in batches(expected, PIECES_PER_BATCH):
         pieces = _cut_at_voxels(triangles[part], shape)
         centers = pieces.mean(axis=1)
-        inside = ((centers[:, :2] > 0) & (centers[:, :2] < shape[:2])).all(axis=1) & (centers[:, 2] > 0)
+        inside = ((centers[:, :2] > 0) & (centers[:, :2] < shape[:2])).all(axis=1) & (
+            centers[:, 2] > 0
+        )
         pieces, centers = pieces[inside], centers[inside]
         if not len(pieces):
             continue
@@ -70,11 +76,15 @@ def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -
             x, y, z = u * a + v * b + w * c
             z = np.clip(z, k, k + 1.0)  # above the grid its whole column is filled
             volume += float((double * weight) @ z)
-            x, y, z = x - about[0], y - about[1], z - about[2]
+            x = x - about[0]
+            y = y - about[1]
+            z = z - about[2]
             columns = [
-                sums + voxel_density * (z ** (r + 1) - corner ** (r + 1)) / (r + 1) for r, sums in enumerate(filled)
+                sums + voxel_density * (z ** (r + 1) - corner ** (r + 1)) / (r + 1)
+                for r, sums in enumerate(filled)
             ]
-            xs, ys = power_table(x, order), power_table(y, order)
+            xs = power_table(x, order)
+            ys = power_table(y, order)
             for n, (p, q, r) in enumerate(exponents.tolist()):
                 term = double * weight * xs[p] * ys[q] * columns[r]
                 total[n] += term.sum()
@@ -102,7 +112,8 @@ def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
     for axis in range(3):
         done = [triangles[:0]]
         while len(triangles):
-            low, high = triangles[:, :, axis].min(axis=1), triangles[:, :, axis].max(axis=1)
+            low = triangles[:, :, axis].min(axis=1)
+            high = triangles[:, :, axis].max(axis=1)
             first = np.maximum(np.floor(low) + 1.0, 0.0)  # the planes strictly between
             last = np.minimum(np.ceil(high) - 1.0, float(shape[axis]))
             across = first <= last
@@ -127,6 +138,8 @@ def _split_triangles(triangles: NDArray, axis: int, plane: NDArray) -> NDArray[n
         return point
 
     ab, ac = crossing(b), crossing(c)
-    pieces = np.concatenate([np.stack(corners, axis=1) for corners in ((a, ab, ac), (ab, b, c), (ab, c, ac))])
+    pieces = np.concatenate(
+        [np.stack(corners, axis=1) for corners in ((a, ab, ac), (ab, b, c), (ab, c, ac))]
+    )
     doubled = np.cross(pieces[:, 1] - pieces[:, 0], pieces[:, 2] - pieces[:, 0])
     return pieces[(doubled != 0.0).any(axis=1)]

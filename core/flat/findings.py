@@ -5,7 +5,9 @@
 from ..verdict.finding import error
 
 SECTION_NO_AREA = error("section_no_area", "The faces have no area. Select other faces.")
-SECTION_ENCLOSES_NOTHING = error("section_encloses_nothing", "The outlines enclose no area. Close them.")
+SECTION_ENCLOSES_NOTHING = error(
+    "section_encloses_nothing", "The outlines enclose no area. Close them."
+)
 SECTION_NOT_FLAT = error(
     "section_not_flat",
     "Not flat: points are up to {share:percent} of the size off a plane. Select faces of one plane, or flatten them.",

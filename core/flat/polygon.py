@@ -31,13 +31,17 @@ from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, multi_in
 from ..verdict.finding import MeasureError
 from .findings import OUTLINE_OPEN, OUTLINES_COINCIDE, SECTION_ENCLOSES_NOTHING
 
-SAMPLES_PER_OUTLINE = 16  # Edge midpoints of an outline that are tested for lying in other outlines.
+SAMPLES_PER_OUTLINE = (
+    16  # Edge midpoints of an outline that are tested for lying in other outlines.
+)
 # Limit of compared pairs of edges, and of pairs of a ray and an edge; rays beyond it are thinned out.
 MAX_EDGE_PAIRS = 10_000_000
 PAIRS_PER_BLOCK = 1 << 18  # Pairs at a time.
 RAYS_PER_BLOCK = 64  # neighboring rays at a time, which meet much the same edges
 GRID_CELLS = 1024  # along a side of the grid that edges are compared in
-TOUCH_RTOL = 1e-9  # Relative to the polygon's size: edges that pass each other by less than this touch.
+TOUCH_RTOL = (
+    1e-9  # Relative to the polygon's size: edges that pass each other by less than this touch.
+)
 BOUND_ROUNDING = 1.0 + 1e-9  # The sums that make a bound are rounded themselves.
 EDGES_PER_BLOCK = 4096
 
@@ -60,7 +64,9 @@ class OutlineDefects:
     shared_length: float = 0.0
 
 
-def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
+def area_moments(
+    points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None
+) -> SimplexMoments:
     """Return ∫ x^p y^q dA of the region left of (m, 2) closed edges, about the middle of the box, with error bounds."""
     points, edges = edge_arrays(points, edges)
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)]
@@ -106,7 +112,8 @@ def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.in
     points = float_array("points", points, "n", 2)
     loops = [index_array("loops", loop, "k", count=len(points)) for loop in loops]
     lows, highs = (
-        np.array([extreme(points[loop], axis=0) for loop in loops]).reshape(-1, 2) for extreme in (np.min, np.max)
+        np.array([extreme(points[loop], axis=0) for loop in loops]).reshape(-1, 2)
+        for extreme in (np.min, np.max)
     )
     order = []
     for i, loop in enumerate(loops):
@@ -150,7 +157,13 @@ def find_defects(points: ArrayLike, edges: ArrayLike, error: float = 0.0) -> Out
     crossings, shared, lost = _crossing_pairs(local, edges, touch)
     left, right = _side_windings(local, edges, touch)
     negative = bool((right < 0).any())
-    return OutlineDefects(crossings, lost, negative or bool((left < right).any() or (left > 1).any()), negative, shared)
+    return OutlineDefects(
+        crossings,
+        lost,
+        negative or bool((left < right).any() or (left > 1).any()),
+        negative,
+        shared,
+    )
 
 
 def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> NDArray[np.float64]:
@@ -160,17 +173,21 @@ def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> N
     for start in range(0, len(query_points), block):
         spans = points[edges] - query_points[start : start + block, None, None]  # (k, m, 2 ends, 2)
         a, b = spans[:, :, 0], spans[:, :, 1]
-        cross, along = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=2)
+        cross = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+        along = (a * b).sum(axis=2)
         # A point on an edge sees its ends in opposite directions, with a sign that is rounding.
         on = (np.abs(cross) <= 1e-12 * np.abs(along)) & (along <= 0.0)
         turns.append(np.where(on, 0.0, np.arctan2(cross, along)).sum(axis=1) / (2.0 * np.pi))
     return np.concatenate(turns)
 
 
-def _side_windings(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _side_windings(
+    points: NDArray, edges: NDArray, touch: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the (k,) winding numbers left and right of edges, by rays across them; of a sample of many edges."""
     span = np.abs(points[edges[:, 1]] - points[edges[:, 0]])
-    steep, long = span[:, 1] >= span[:, 0], np.hypot(*span.T) > 4.0 * touch
+    steep = span[:, 1] >= span[:, 0]
+    long = np.hypot(*span.T) > 4.0 * touch
     parts = [
         _steep_side_windings(points, edges, np.flatnonzero(steep & long), touch),
         # Mirrored, and each edge turned round: left stays left.
@@ -180,16 +197,21 @@ def _side_windings(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArr
     return np.concatenate(left), np.concatenate(right)
 
 
-def _steep_side_windings(points: NDArray, edges: NDArray, chosen: NDArray, touch: float) -> tuple[NDArray, NDArray]:
+def _steep_side_windings(
+    points: NDArray, edges: NDArray, chosen: NDArray, touch: float
+) -> tuple[NDArray, NDArray]:
     """Return `_side_windings` of the chosen, steep edges, by rays to the right from their middles."""
     start, end = points[edges[:, 0]], points[edges[:, 1]]
-    low, high = np.minimum(start, end)[:, 1] - touch, np.maximum(start, end)[:, 1] + touch
+    low = np.minimum(start, end)[:, 1] - touch
+    high = np.maximum(start, end)[:, 1] + touch
     along = end - start
     length = np.hypot(*along.T)
     height = float(high.max() - low.min()) or 1.0
     # Share of the edges that a ray may meet.
     share = min(1.0, float((high - low).mean()) / height + RAYS_PER_BLOCK / len(edges))
-    chosen = chosen[:: max(1, int(len(chosen) * len(edges) * max(share, 1.0 / RAYS_PER_BLOCK) / MAX_EDGE_PAIRS))]
+    chosen = chosen[
+        :: max(1, int(len(chosen) * len(edges) * max(share, 1.0 / RAYS_PER_BLOCK) / MAX_EDGE_PAIRS))
+    ]
     chosen = chosen[np.argsort((start[chosen] + end[chosen])[:, 1], kind="stable")]
     middle = (start[chosen] + end[chosen]) / 2.0
     rays_per_block = max(1, min(RAYS_PER_BLOCK, PAIRS_PER_BLOCK // len(edges)))
@@ -198,8 +220,12 @@ def _steep_side_windings(points: NDArray, edges: NDArray, chosen: NDArray, touch
         part = slice(first, first + rays_per_block)
         x, y = middle[part, 0, None], middle[part, 1, None]
         near = np.flatnonzero((high >= y.min()) & (low <= y.max()))
-        a, b, d = start[near], end[near], along[near]
-        up = (b[:, 1] > y).astype(np.int64) - (a[:, 1] > y)  # 1 where the ray's line is crossed upward, -1 downward
+        a = start[near]
+        b = end[near]
+        d = along[near]
+        up = (b[:, 1] > y).astype(np.int64) - (
+            a[:, 1] > y
+        )  # 1 where the ray's line is crossed upward, -1 downward
         ahead = d[:, 0] * (y - a[:, 1]) - d[:, 1] * (x - a[:, 0])  # positive to the edge's left
         within = (x - a[:, 0]) * (x - b[:, 0]) + (y - a[:, 1]) * (y - b[:, 1]) <= 0.0
         on = within & (np.abs(ahead) <= np.maximum(touch, 1e-12 * length[near]) * length[near])
@@ -216,7 +242,8 @@ def _steep_side_windings(points: NDArray, edges: NDArray, chosen: NDArray, touch
 def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
     """Count pairs of edges that cross by more than `touch`, and sum opposed lengths; True if there are too many."""
     start, end = points[edges[:, 0]], points[edges[:, 1]]
-    low, high = np.minimum(start, end), np.maximum(start, end)
+    low = np.minimum(start, end)
+    high = np.maximum(start, end)
     span = np.abs(end - start)
     length = np.hypot(*span.T)
     length[length == 0.0] = 1.0
@@ -229,32 +256,51 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
         return 0, 0.0, True
     edge = np.repeat(np.arange(len(edges)), entered)
     within = segment_ranges(entered)
-    key = (low[edge, 0] + within // tall[edge]) * (2 * GRID_CELLS) + low[edge, 1] + within % tall[edge]
+    key = (
+        (low[edge, 0] + within // tall[edge]) * (2 * GRID_CELLS)
+        + low[edge, 1]
+        + within % tall[edge]
+    )
     order = np.argsort(key)
     edge, key = edge[order], key[order]
-    active, crossings, opposed, compared_count = np.arange(len(edge)), [np.zeros(0, np.int64)], {}, 0
+    active = np.arange(len(edge))
+    crossings = [np.zeros(0, np.int64)]
+    opposed = {}
+    compared_count = 0
     for step in range(1, len(edge)):
         active = active[active < len(edge) - step]
         active = active[key[active + step] == key[active]]
         compared_count += len(active)
         if not len(active) or compared_count > MAX_EDGE_PAIRS:
             break
-        i, j = edge[active], edge[active + step]
+        i = edge[active]
+        j = edge[active + step]
         sides = []
         for p, q, target in ((i, j, start), (i, j, end), (j, i, start), (j, i, end)):
-            span, to = end[p] - start[p], target[q] - start[p]
+            span = end[p] - start[p]
+            to = target[q] - start[p]
             sides.append((span[:, 0] * to[:, 1] - span[:, 1] * to[:, 0]) / length[p])
         sides = np.array(sides)
         pair = np.minimum(i, j) * len(edges) + np.maximum(i, j)
         crossings.append(
-            pair[(sides[0] * sides[1] < 0.0) & (sides[2] * sides[3] < 0.0) & (np.abs(sides) > touch).all(axis=0)]
+            pair[
+                (sides[0] * sides[1] < 0.0)
+                & (sides[2] * sides[3] < 0.0)
+                & (np.abs(sides) > touch).all(axis=0)
+            ]
         )
         along = (np.abs(sides) <= touch).all(axis=0)
-        i, j, pair = i[along], j[along], pair[along]
+        i = i[along]
+        j = j[along]
+        pair = pair[along]
         unit = (end[i] - start[i]) / length[i, None]
         first, last = (((point[j] - start[i]) * unit).sum(axis=1) for point in (start, end))
-        common = np.minimum(first, length[i]) - np.maximum(last, 0.0)  # For opposite edges first is beyond last.
-        opposed.update(zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist()))
+        common = np.minimum(first, length[i]) - np.maximum(
+            last, 0.0
+        )  # For opposite edges first is beyond last.
+        opposed.update(
+            zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist())
+        )
     crossing_count = len(np.unique(np.concatenate(crossings)))
     return crossing_count, float(sum(opposed.values())), compared_count > MAX_EDGE_PAIRS
 
@@ -331,7 +377,9 @@ def region_moments(
     return Moments(raw, np.append(flat.about, 0.0), Measure.AREA, rounding, moved)
 
 
-def _swept(points: NDArray, edges: NDArray, about: NDArray, step: float, order: int) -> NDArray[np.float64]:
+def _swept(
+    points: NDArray, edges: NDArray, about: NDArray, step: float, order: int
+) -> NDArray[np.float64]:
     """Return (k,) bounds of the changes of moments if every coordinate of every point moves by `step`."""
     total = np.zeros(len(multi_indices(2, order)))
     if not step > 0.0:

@@ -23,7 +23,9 @@ from .section_properties import Plane, Section
 # Relative to a region's size: points farther off their plane are not planar; an area errs by the square of this.
 PLANAR_RTOL = 1e-5
 EDGE_GROWTH = 2.0 * np.sqrt(2.0)  # an edge grows by this if both ends move by 1 along each axis
-MIN_AXIS_SHARE = 0.05  # the least share of an axis that must lie in the plane to name the plane's x axis
+MIN_AXIS_SHARE = (
+    0.05  # the least share of an axis that must lie in the plane to name the plane's x axis
+)
 
 
 def project(plane: Plane, points: ArrayLike) -> NDArray[np.float64]:
@@ -78,7 +80,8 @@ def fit_plane(
     """
     points = float_array("points", points, "n", 3)
     triangles = index_array("triangles", triangles, "m", 3, count=len(points))
-    prefer, origin = float_array("prefer", prefer, 3, 3), float_array("origin", origin, 3)
+    prefer = float_array("prefer", prefer, 3, 3)
+    origin = float_array("origin", origin, 3)
     facing = None if facing is None else float_array("facing", facing, 3)
     vectors = normals(points, triangles)
     sizes = np.sqrt((vectors * vectors).sum(axis=1))
@@ -117,7 +120,9 @@ def region(
     """Return (m, 2) edges around the triangles, and the number of faces that look against the plane and are turned."""
     triangles = first_at_equal_position(points)[triangles]
     a, b, c = (project(plane, points)[triangles[:, i]] for i in range(3))
-    areas = np.bincount(faces, ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2.0)
+    areas = np.bincount(
+        faces, ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2.0
+    )
     longest = np.abs(np.stack([b - a, c - a])).max(axis=(0, 2))
     noise = np.zeros(len(areas))
     np.maximum.at(noise, faces, longest)  # slivers have no side to look to
@@ -129,7 +134,11 @@ def region(
 
 def projection_rounding(plane: Plane, points: NDArray, flat: NDArray) -> float:
     """Return the largest displacement by rounding of a coordinate of (n, 3) points projected to (n, 2) flat ones."""
-    return 16.0 * U * float(np.abs(points).max() + np.abs(plane.origin).max() + np.abs(flat).max(initial=0.0))
+    return (
+        16.0
+        * U
+        * float(np.abs(points).max() + np.abs(plane.origin).max() + np.abs(flat).max(initial=0.0))
+    )
 
 
 def measure_section(
@@ -176,15 +185,22 @@ def measure_section(
     moments = region_moments(flat, edges, 2, rounded=rounded, stored=error)
     if not moments.total > 0.0:
         raise MeasureError(SECTION_ENCLOSES_NOTHING)
-    about, positions = moments.about[:2], plane_positions(2)
+    about = moments.about[:2]
+    positions = plane_positions(2)
     raw = moments.raw[positions]
     length = facet_moments(flat, edges, 0)
-    bounds = [_bounds(raw, about, delta[positions]) for delta in (moments.rounding_error, moments.input_error)]
+    bounds = [
+        _bounds(raw, about, delta[positions])
+        for delta in (moments.rounding_error, moments.input_error)
+    ]
     # For at most 2 len(edges) shared pieces, each taken twice.
     ends = EDGE_GROWTH * len(edges) * (5.0 if shared else 1.0)
-    bounds[0]["perimeter"] = float(length.rounding_error[0]) * (3.0 if shared else 1.0) + ends * rounded
+    bounds[0]["perimeter"] = (
+        float(length.rounding_error[0]) * (3.0 if shared else 1.0) + ends * rounded
+    )
     bounds[1]["perimeter"] = ends * error
-    area, shift = moments.total, raw[1:3] / raw[0]
+    area = moments.total
+    shift = raw[1:3] / raw[0]
     second = raw[[5, 3, 4]] - area * np.array([shift[1] ** 2, shift[0] ** 2, shift[0] * shift[1]])
     second[:2] = np.maximum(second[:2], 0.0)
     sizes = outline_areas(flat, edges)
@@ -201,18 +217,26 @@ def measure_section(
         *bounds,
     )
     x, y = (used - centroid).T
-    sine, cosine = np.sin(section.angle), np.cos(section.angle)
-    reach = np.array([np.abs(row).max() for row in (y, x, y * cosine - x * sine, x * cosine + y * sine)])
+    sine = np.sin(section.angle)
+    cosine = np.cos(section.angle)
+    reach = np.array(
+        [np.abs(row).max() for row in (y, x, y * cosine - x * sine, x * cosine + y * sine)]
+    )
     return replace(section, reach=reach)
 
 
 def _bounds(raw: NDArray, about: NDArray, delta: NDArray) -> dict[str, float]:
     """Return error bounds of area, centroid and second moments from (6,) moments about the centroid, off by `delta`."""
-    area, shift = raw[0], np.abs(raw[1:3]) / raw[0]
+    area = raw[0]
+    shift = np.abs(raw[1:3]) / raw[0]
     if not area > 2.0 * delta[0]:  # then nothing bounds a quotient
         return {"area": float(delta[0]), "centroid": float("inf"), "second": float("inf")}
     drift = (delta[1:3] + shift * delta[0]) / (area - delta[0])
     tolerance = 4.0 * U * (np.abs(about) + shift)
     second = delta[3:].max() + (area + delta[0]) * (drift + shift).max() ** 2
     second += 4.0 * U * np.abs(raw[3:]).max()
-    return {"area": float(delta[0]), "centroid": float(np.hypot(*(drift + tolerance))), "second": float(second)}
+    return {
+        "area": float(delta[0]),
+        "centroid": float(np.hypot(*(drift + tolerance))),
+        "second": float(second),
+    }

@@ -80,14 +80,19 @@ class Section:
     def center(self) -> tuple[float, ...]:
         """The centroid in space, in the same coordinates as the plane's origin."""
         u, v = self.centroid
-        return tuple(float(start + u * x + v * y) for start, (x, y, _) in zip(self.plane.origin, self.plane.axes))
+        return tuple(
+            float(start + u * x + v * y)
+            for start, (x, y, _) in zip(self.plane.origin, self.plane.axes)
+        )
 
     @property
     def principal(self) -> tuple[float, float]:
         """Principal second moments I_1 ≥ I_2."""
         first, second, mixed = map(float, self.second)
         larger = (first + second) / 2.0 + hypot((first - second) / 2.0, mixed)
-        return larger, max(0.0, (first * second - mixed * mixed) / larger)  # no difference of near equals
+        return larger, max(
+            0.0, (first * second - mixed * mixed) / larger
+        )  # no difference of near equals
 
     @property
     def axes_undetermined(self) -> bool:
@@ -108,7 +113,10 @@ class Section:
     @property
     def _noise(self) -> float:
         """The effect of rounding on the axes, limited so that moments with wide bounds still give axes."""
-        return min(self.rounding_error["second"] + self.input_error["second"], MAX_NOISE_SHARE * self.principal[0])
+        return min(
+            self.rounding_error["second"] + self.input_error["second"],
+            MAX_NOISE_SHARE * self.principal[0],
+        )
 
     @property
     def polar(self) -> float:

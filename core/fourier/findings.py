@@ -12,6 +12,10 @@ WAVE_VECTORS_SHAPE = error(
     "wave_vectors_shape",
     "Wave vectors must be rows of {dimension} real numbers; the array has shape {shape:size} and type {type}.",
 )
-WAVE_VECTORS_RANGE = error("wave_vectors_range", "Some wave vectors are not finite, or exceed 1e100 rad/m.")
-FREQUENCY_RANGE = error("frequency_range", "The largest frequency must be positive and at most 1e100 rad/m.")
+WAVE_VECTORS_RANGE = error(
+    "wave_vectors_range", "Some wave vectors are not finite, or exceed 1e100 rad/m."
+)
+FREQUENCY_RANGE = error(
+    "frequency_range", "The largest frequency must be positive and at most 1e100 rad/m."
+)
 FREQUENCY_COUNT = error("frequency_count", "A grid needs at least two frequencies along each axis.")

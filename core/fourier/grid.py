@@ -62,19 +62,25 @@ class GridTransform(Transform):
 
     spreading: Spreading  # Set if any triangle takes points.
 
-    def __init__(self, surface: Surface, grid: FrequencyGrid, of: Measure, tolerance: float, threads: int = 1):
+    def __init__(
+        self, surface: Surface, grid: FrequencyGrid, of: Measure, tolerance: float, threads: int = 1
+    ):
         check_type("grid", grid, FrequencyGrid)
         super().__init__(surface, grid, of, threads)
         self.surface, self.grid, faces = surface, grid, self.faces
         # Allowed error of a mean over the area: half of the tolerance each for the points and for the kernel.
         if of == Measure.VOLUME:
             allowed = tolerance / faces.scale**3 / (2.0 * faces.area)
-            step, largest = grid.step * faces.scale, np.sqrt(3.0) * grid.largest * faces.scale
+            step = grid.step * faces.scale
+            largest = np.sqrt(3.0) * grid.largest * faces.scale
         else:
-            allowed, step, largest = tolerance / faces.scale**2 / (2.0 * faces.area), 1.0, 1.0
+            allowed = tolerance / faces.scale**2 / (2.0 * faces.area)
+            step = 1.0
+            largest = 1.0
         self.width = _kernel_width(grid.half, allowed * step, of == Measure.VOLUME)
         # Allowed errors of a D, and of the transform.
-        self.each, self.joint_count = allowed * largest / 2.0, allowed * faces.area / ERROR_SAFETY_FACTOR
+        self.each = allowed * largest / 2.0
+        self.joint_count = allowed * faces.area / ERROR_SAFETY_FACTOR
         self.fine: list[tuple[int, NDArray[np.intp]]] = []
 
     def _assign_triangles(self) -> Iterator[float]:
@@ -82,14 +88,19 @@ class GridTransform(Transform):
         counts = yield from self._counts()
         most = min(MAX_POINTS_PER_SIDE, int(np.sqrt(DIRECT_COST * len(self.sums) / self.width**3)))
         self.direct = self.faces.select(np.flatnonzero(counts > most))
-        self.fine = [(n, np.flatnonzero(counts == n)) for n in np.unique(counts[counts <= most]).tolist()]
+        self.fine = [
+            (n, np.flatnonzero(counts == n)) for n in np.unique(counts[counts <= most]).tolist()
+        ]
         if self.fine:
-            self.spreading = Spreading(self.grid.half, self.width, 3 if self.measure == Measure.VOLUME else 1)
+            self.spreading = Spreading(
+                self.grid.half, self.width, 3 if self.measure == Measure.VOLUME else 1
+            )
 
     def _counts(self) -> Generator[float, None, NDArray[np.int64]]:
         """Return the (m,) numbers of Gauss points along the sides of the triangles."""
         largest = np.sqrt(3.0) * self.grid.largest * self.faces.scale
-        spans, regular = largest * self.faces.diameters, largest * self.faces.heights >= 2.0 * np.pi
+        spans = largest * self.faces.diameters
+        regular = largest * self.faces.heights >= 2.0 * np.pi
         bound = _points_per_side(spans, self.each)
         q = _trial_vectors(self.grid) * self.faces.scale
         size = np.sqrt((q**2).sum(axis=1)) if self.measure == Measure.VOLUME else 1.0
@@ -109,9 +120,13 @@ class GridTransform(Transform):
                 return fewer
         return bound
 
-    def _sum_over(self, triangle_rows: NDArray[np.intp], q: NDArray) -> Generator[float, None, NDArray[np.complex128]]:
+    def _sum_over(
+        self, triangle_rows: NDArray[np.intp], q: NDArray
+    ) -> Generator[float, None, NDArray[np.complex128]]:
         """Return (k,) Σ (q·N) D / |q|, or Σ |N| D, over some triangles at wave vectors (k, 3), in closed form."""
-        faces, waves, total = self.faces.select(triangle_rows), ListWaves(q), np.zeros(len(q), np.complex128)
+        faces = self.faces.select(triangle_rows)
+        waves = ListWaves(q)
+        total = np.zeros(len(q), np.complex128)
         every = slice(0, len(q))
         for run in faces.blocks(PAIRS_PER_BLOCK // len(q)):
             block = TriangleBlock(faces, run)
@@ -127,9 +142,12 @@ class GridTransform(Transform):
         self, triangle_rows: NDArray[np.intp], n: int, q: NDArray
     ) -> Generator[float, None, NDArray[np.complex128]]:
         """Return the sums of `_sum_over` by quadrature, with n points along a side of each triangle."""
-        total, size = np.zeros(len(q), np.complex128), max(1, PAIRS_PER_BLOCK // (len(q) * n * n))
+        total = np.zeros(len(q), np.complex128)
+        size = max(1, PAIRS_PER_BLOCK // (len(q) * n * n))
         for start in range(0, len(triangle_rows), size):
-            points, vectors, weights = self._nodes(self.faces.triangles[triangle_rows[start : start + size]], n)
+            points, vectors, weights = self._nodes(
+                self.faces.triangles[triangle_rows[start : start + size]], n
+            )
             phases = sum(np.multiply.outer(q[:, axis], points[axis]) for axis in range(3))
             sources = self._weights(vectors, q.T)[..., None] * weights
             total += ((np.cos(phases) - 1j * np.sin(phases)) * sources).sum(axis=(1, 2))
@@ -140,14 +158,19 @@ class GridTransform(Transform):
         """Return (k, m) (q·N) / |q|, or (1, m) |N|, for normals (3, m) and wave vectors (3, k)."""
         if self.measure == Measure.AREA:
             return np.sqrt((vectors**2).sum(axis=0))[None]
-        return sum(np.multiply.outer(a, b) for a, b in zip(q, vectors)) / np.sqrt((q**2).sum(axis=0))[:, None]
+        return (
+            sum(np.multiply.outer(a, b) for a, b in zip(q, vectors))
+            / np.sqrt((q**2).sum(axis=0))[:, None]
+        )
 
     def _nodes(self, triangles: NDArray, n: int) -> tuple[NDArray, NDArray, NDArray]:
         """Return (3, m, k) points in triangles, (3, m) the normals and (k,) weights."""
         corners = [self.faces.points[corner].T for corner in triangles.T]
         shares, weights = triangle_rule(n)
         return (
-            sum((corner[..., None] * share for corner, share in zip(corners, shares)), np.zeros(())),
+            sum(
+                (corner[..., None] * share for corner, share in zip(corners, shares)), np.zeros(())
+            ),
             compensated_normals(*corners),
             weights,
         )
@@ -175,17 +198,25 @@ class GridTransform(Transform):
                 if self.measure == Measure.AREA:
                     strengths = np.sqrt((strengths**2).sum(axis=0))[None]
                 strengths = (strengths[..., None] * weights).reshape(len(strengths), -1)
-                self.spreading.add(points.reshape(3, -1) * (self.grid.step * self.faces.scale), strengths)
+                self.spreading.add(
+                    points.reshape(3, -1) * (self.grid.step * self.faces.scale), strengths
+                )
                 done += len(some) * count * self.width**3
                 yield SHARING_TIME + (1.0 - SHARING_TIME - checked) * done / total
         if self.fine:
-            vectors, middle = self.waves.vectors(slice(0, self.waves.rows)), (self.grid.half, self.grid.half, 0)
+            vectors = self.waves.vectors(slice(0, self.waves.rows))
+            middle = (self.grid.half, self.grid.half, 0)
             for axis, waves in enumerate(self.spreading.sums()):
-                spread = waves.reshape(-1) - waves[middle].real  # less the 1/2 that `Transform` subtracts from each D
+                spread = (
+                    waves.reshape(-1) - waves[middle].real
+                )  # less the 1/2 that `Transform` subtracts from each D
                 self.sums += vectors[axis] * spread if self.measure == Measure.VOLUME else spread
                 yield 1.0 - checked
             self.exact = Transform(
-                self.surface, self.grid.vectors()[_sample_indices(self.grid)], self.measure, self.threads
+                self.surface,
+                self.grid.vectors()[_sample_indices(self.grid)],
+                self.measure,
+                self.threads,
             )
             yield from (1.0 - checked * (1.0 - share) for share in self.exact.steps())
 
@@ -195,7 +226,8 @@ class GridTransform(Transform):
         if not self.fine:
             return spectrum
         error = (
-            ERROR_SAFETY_FACTOR * np.abs(spectrum.values[_sample_indices(self.grid)] - self.exact.result().values).max()
+            ERROR_SAFETY_FACTOR
+            * np.abs(spectrum.values[_sample_indices(self.grid)] - self.exact.result().values).max()
         )
         return replace(spectrum, error=spectrum.error + error, method=APPROXIMATE)
 
@@ -211,7 +243,8 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
 
 def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
     """Return the (m,) numbers of points along a side that keep each D within tolerance; spans: |q| times diameters."""
-    span, limits = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000)), []
+    span = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000))
+    limits = []
     for n in range(1, MAX_POINTS_PER_SIDE + 1):
         ratio = span / 4.0 / (2 * n + 1)
         bound = 2.0 * (span / 4.0) ** (2 * n) / factorial(2 * n) / np.maximum(1.0 - ratio, 0.1)
@@ -231,7 +264,8 @@ def _sample_indices(grid: FrequencyGrid) -> NDArray[np.intp]:
     h, n = grid.half, grid.count
     steps = np.concatenate([np.eye(3, dtype=int), np.ones((1, 3), int), 1 - np.eye(3, dtype=int)])
     positions = np.concatenate(
-        [h + steps * s for s in (-h, -1, 1)] + [np.random.default_rng(0).integers(0, n, (SAMPLE_FREQUENCIES, 3))]
+        [h + steps * s for s in (-h, -1, 1)]
+        + [np.random.default_rng(0).integers(0, n, (SAMPLE_FREQUENCIES, 3))]
     )
     positions = np.unique(np.clip(positions, 0, n - 1), axis=0)
     return (positions[:, 0] * n + positions[:, 1]) * n + positions[:, 2]
@@ -239,9 +273,12 @@ def _sample_indices(grid: FrequencyGrid) -> NDArray[np.intp]:
 
 def aliasing(half: int, width: int) -> NDArray[np.float64]:
     """Return (half + 1,) error bounds of the sums for |k| ≤ half along an axis, as shares of Σ |c|, by aliases of k."""
-    side, k = _grid_side(half, width), np.arange(half + 1)
+    side = _grid_side(half, width)
+    k = np.arange(half + 1)
     aliased = sum(
-        np.abs(_kernel_transform(k / side + m, width)) for m in range(-ALIASED_ORDERS, ALIASED_ORDERS + 1) if m
+        np.abs(_kernel_transform(k / side + m, width))
+        for m in range(-ALIASED_ORDERS, ALIASED_ORDERS + 1)
+        if m
     )
     return aliased / _kernel_transform(k / side, width) + ROUNDING
 
@@ -273,24 +310,33 @@ class Spreading:
             self._add_block(positions[:, some], strengths[:, some])
 
     def _add_block(self, positions: NDArray, strengths: NDArray) -> None:
-        n, w, p = self.side, self.width, positions.shape[1]
+        n = self.side
+        w = self.width
+        p = positions.shape[1]
         steps = np.arange(w)
         first = np.floor(positions - w / 2.0) + 1.0
         kernel = _kernel(((first - positions)[..., None] + steps) * (2.0 / w), w)
         x, y, z = first.astype(np.int64)[..., None] + (steps + w // 2)
-        y, z, low, high = y % n, z % n, int(x.min()), int(x.max()) + 1
+        y = y % n
+        z = z % n
+        low = int(x.min())
+        high = int(x.max()) + 1
         plane = (y[:, :, None] * n + z[:, None, :]).reshape(p, 1, w * w)
         index = ((x - low)[:, :, None] * (n * n) + plane).reshape(-1)
         plane = (kernel[1][:, :, None] * kernel[2][:, None, :]).reshape(p, 1, w * w)
-        weights, run = np.empty((p, w, w * w)), slice(low * n * n, high * n * n)
+        weights = np.empty((p, w, w * w))
+        run = slice(low * n * n, high * n * n)
         for cells, strength in zip(self.cells, strengths):
             np.multiply((kernel[0] * strength[:, None])[:, :, None], plane, out=weights)
             cells[run] += np.bincount(index, weights.reshape(-1), minlength=run.stop - run.start)
 
     def sums(self) -> Iterator[NDArray[np.complex128]]:
         """Yield the (2 half + 1, 2 half + 1, half + 1) sums of each strength, for k_z ≥ 0, and drop its cells."""
-        n, along = self.side, np.arange(-self.half, self.half + 1)
-        factor = np.exp(2j * np.pi / n * (self.width // 2) * along) / _kernel_transform(along / n, self.width)
+        n = self.side
+        along = np.arange(-self.half, self.half + 1)
+        factor = np.exp(2j * np.pi / n * (self.width // 2) * along) / _kernel_transform(
+            along / n, self.width
+        )
         while self.cells:
             cells = self.cells.pop(0).reshape(-1, n, n)
             cells[: self.width] += cells[n:]

@@ -48,24 +48,32 @@ class BodyTransform:
     ):
         self.q = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
         self.measure, self.threads = of, threads
-        self.jobs = [job for surface, matrices in parts for job in _distinct_images(surface, matrices)]
+        self.jobs = [
+            job for surface, matrices in parts for job in _distinct_images(surface, matrices)
+        ]
         if not self.jobs:
             raise MeasureError(NO_FACES)
         self.weights = [len(surface.triangles) for surface, _ in self.jobs]
         instance_count = sum(len(offsets) for _, offsets in self.jobs)
         self.tolerance = None
-        if isinstance(q, FrequencyGrid) and sum(self.weights) * q.count**3 / 2.0 > MAX_CLOSED_FORM_PAIRS:
+        if (
+            isinstance(q, FrequencyGrid)
+            and sum(self.weights) * q.count**3 / 2.0 > MAX_CLOSED_FORM_PAIRS
+        ):
             self.tolerance = FOURIER_RTOL * total / instance_count
         self.spectrum: Spectrum | None = None
 
     def steps(self) -> Iterator[float]:
         """Do the work in parts; yield the fraction done, from 0 to 1, after each."""
-        done, everything = 0, sum(self.weights)
+        done = 0
+        everything = sum(self.weights)
         for weight, (surface, offsets) in zip(self.weights, self.jobs):
             if self.tolerance is None or not isinstance(self.q, FrequencyGrid):
                 transform = Transform(surface, self.q, self.measure, self.threads)
             else:
-                transform = GridTransform(surface, self.q, self.measure, self.tolerance, self.threads)
+                transform = GridTransform(
+                    surface, self.q, self.measure, self.tolerance, self.threads
+                )
             for share in transform.steps():
                 yield (done + share * weight) / everything
             part_spectrum = transform.result()
@@ -75,14 +83,18 @@ class BodyTransform:
                 waves += phase_factors(part_spectrum.q, offset)
                 yield done / everything
             part_spectrum = part_spectrum.multiply_by_phases(waves, len(offsets))
-            self.spectrum = part_spectrum if self.spectrum is None else self.spectrum + part_spectrum
+            self.spectrum = (
+                part_spectrum if self.spectrum is None else self.spectrum + part_spectrum
+            )
 
     def result(self) -> Spectrum:
         """Return the spectrum of all surfaces together, when all steps are done."""
         return cast("Spectrum", self.spectrum)  # there are parts, and each has added to it
 
 
-def _distinct_images(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray[np.float64]]]:
+def _distinct_images(
+    surface: Surface, matrices: NDArray
+) -> Iterator[tuple[Surface, NDArray[np.float64]]]:
     """Yield the surface about its center under each different linear map, and the places of the images, (k, 3)."""
     check_type("parts", surface, Surface)
     matrices = float_array("parts", matrices, "k", 4, 4)

@@ -92,19 +92,24 @@ class RegionTransform:
             raise ValueError("coordinates must be finite")
         self.center = used.min(axis=0) / 2.0 + used.max(axis=0) / 2.0
         reach = np.sqrt(((used - self.center) ** 2).sum(axis=1)).max()
-        self.scale = scale = float(np.ldexp(1.0, int(np.ceil(np.log2(reach))))) if reach > 0.0 else 1.0
+        self.scale = scale = (
+            float(np.ldexp(1.0, int(np.ceil(np.log2(reach))))) if reach > 0.0 else 1.0
+        )
         self.start, self.end = ((points[edges[:, i]] - self.center) / scale for i in (0, 1))
         self.perimeter = float(np.hypot(*(self.end - self.start).T).sum()) * scale
         # an edge that moves sweeps over its length times the way, and a little at its ends
         self.moved, self.input_error = (
-            np.sqrt(2.0) * step * (self.perimeter + 3.0 * step * len(edges)) for step in (rounded, stored)
+            np.sqrt(2.0) * step * (self.perimeter + 3.0 * step * len(edges))
+            for step in (rounded, stored)
         )
         self.values = np.empty(len(self.vectors), np.complex128)
 
     def steps(self) -> Iterator[float]:
         """Do the work in parts; yield the fraction done, from 0 to 1, after each."""
         edge = self.end - self.start
-        middle, half, normal = (self.start + self.end).T / 2.0, edge.T / 2.0, np.stack([edge[:, 1], -edge[:, 0]])
+        middle = (self.start + self.end).T / 2.0
+        half = edge.T / 2.0
+        normal = np.stack([edge[:, 1], -edge[:, 0]])
         size = max(1, PAIRS_PER_BLOCK // max(1, len(edge)))
         for begin in range(0, len(self.vectors), size):
             part = slice(begin, begin + size)
@@ -113,7 +118,9 @@ class RegionTransform:
 
     def result(self) -> Spectrum:
         """Return the spectrum, when all steps are done."""
-        scale, values, q = self.scale, self.values, self.vectors
+        scale = self.scale
+        values = self.values
+        q = self.vectors
         near = np.sqrt((q**2).sum(axis=1)) * scale <= ZERO_WAVE_NUMBER
         if near.any():
             edge = self.end - self.start
@@ -122,7 +129,8 @@ class RegionTransform:
             values[near] = cross.sum() / 2.0 - 1j * (q[near] @ first * scale)
         values = values * scale**2 * phase_factors(q, self.center)
         if self.grid is not None:
-            q, values = self.grid.vectors(), self.grid.expand(values)
+            q = self.grid.vectors()
+            values = self.grid.expand(values)
         error = U * ROUNDING_FACTOR * self.perimeter * scale + self.moved + 8.0 * U * np.abs(values)
         return Spectrum(q, values, error, float(self.input_error))
 
@@ -133,7 +141,9 @@ def half_of_grid(grid: FrequencyGrid) -> NDArray[np.float64]:
     return np.stack(np.meshgrid(steps, steps[grid.half :], indexing="ij"), axis=-1).reshape(-1, 2)
 
 
-def _edge_sum(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> NDArray[np.complex128]:
+def _edge_sum(
+    middle: NDArray, half: NDArray, normal: NDArray, q: NDArray
+) -> NDArray[np.complex128]:
     """Return (M,) the sum over k edges at (M, 2) wave vectors; middles, half edges and normals are (2, k)."""
     block = q.T
     m, t, across = (

@@ -31,13 +31,23 @@ from ..numerics.compensated import phase_factors, two_sum
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
 from .findings import FOURIER_OF_OPEN_SURFACE
-from .triangle_kernel import PAIRS_PER_BLOCK, TRIANGLES_PER_BLOCK, PhaseMeans, SortedTriangles, TriangleBlock
+from .triangle_kernel import (
+    PAIRS_PER_BLOCK,
+    TRIANGLES_PER_BLOCK,
+    PhaseMeans,
+    SortedTriangles,
+    TriangleBlock,
+)
 from .wave_vectors import FrequencyGrid, GridWaves, ListWaves, Spectrum, wave_vectors
 
-PAIRS_PER_TASK = 1 << 20  # pairs of triangles and frequencies that are handed out at a time: about a tenth of a second
+PAIRS_PER_TASK = (
+    1 << 20
+)  # pairs of triangles and frequencies that are handed out at a time: about a tenth of a second
 ZERO_WAVE_NUMBER = 1e-20  # |q| R below which F is V - i q·∫x dV, to all digits
 OPEN_AREA_RTOL = 1e-6  # Relative to the area: above it a surface counts as open.
-GENERIC_WAVE_VECTOR = np.array([[0.72, 0.9, 0.96]])  # a wave vector that is special to no body, of length 1.5
+GENERIC_WAVE_VECTOR = np.array(
+    [[0.72, 0.9, 0.96]]
+)  # a wave vector that is special to no body, of length 1.5
 ROUNDING_FACTOR = 64.0
 
 
@@ -123,33 +133,47 @@ class Transform:
     `q` are (M, 3) wave vectors or a grid; `of` is volume or area. MeasureError and ValueError as `solid_transform`.
     """
 
-    def __init__(self, surface: Surface, q: ArrayLike | FrequencyGrid, of: Measure, threads: int = 1):
+    def __init__(
+        self, surface: Surface, q: ArrayLike | FrequencyGrid, of: Measure, threads: int = 1
+    ):
         self.q = waves = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
         self.measure, self.threads = of, threads
         self.faces = self.direct = SortedTriangles(surface)
-        self.volume, self.area = polyhedron_moments(surface, area_order=0, threads=threads, allow_open=True)
+        self.volume, self.area = polyhedron_moments(
+            surface, area_order=0, threads=threads, allow_open=True
+        )
         self.gap = 0.0
         if of == Measure.VOLUME:
-            self.gap = float(np.linalg.norm(np.cross(GENERIC_WAVE_VECTOR[0], self._vector_sum()))) / 1.5
+            self.gap = (
+                float(np.linalg.norm(np.cross(GENERIC_WAVE_VECTOR[0], self._vector_sum()))) / 1.5
+            )
             if self.gap > OPEN_AREA_RTOL * self.faces.area:
                 raise MeasureError(FOURIER_OF_OPEN_SURFACE)
         scale = self.faces.scale
-        self.waves = GridWaves(waves, scale) if isinstance(waves, FrequencyGrid) else ListWaves(waves * scale)
+        self.waves = (
+            GridWaves(waves, scale)
+            if isinstance(waves, FrequencyGrid)
+            else ListWaves(waves * scale)
+        )
         self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)
 
     def _vector_sum(self) -> NDArray[np.complex128]:
         """Return (3,) ∫ n exp(-i q·x) dA at GENERIC_WAVE_VECTOR, parallel to it for a closed surface."""
-        waves, total = ListWaves(GENERIC_WAVE_VECTOR), np.zeros(3, np.complex128)
+        waves = ListWaves(GENERIC_WAVE_VECTOR)
+        total = np.zeros(3, np.complex128)
         for run in self.faces.blocks(PAIRS_PER_BLOCK):
             block = TriangleBlock(self.faces, run)
             real, imaginary = PhaseMeans(block, waves, slice(0, 1))(slice(0, 1))
-            total += (block.normals * real).sum(axis=1) + 1j * (block.normals * imaginary).sum(axis=1)
+            total += (block.normals * real).sum(axis=1) + 1j * (block.normals * imaginary).sum(
+                axis=1
+            )
         return total
 
     def steps(self) -> Iterator[float]:
         """Do the work in parts; yield the fraction done, from 0 to 1, after each."""
         faces = min(TRIANGLES_PER_BLOCK, max(len(self.direct.triangles), 1))
-        size, rows = max(1, PAIRS_PER_TASK // (faces * self.waves.columns)), self.waves.rows
+        size = max(1, PAIRS_PER_TASK // (faces * self.waves.columns))
+        rows = self.waves.rows
         parts = [slice(i, min(i + size, rows)) for i in range(0, rows, size)]
         shares = [(run, part) for run in self.direct.blocks() for part in parts]
         if self.threads == 1:
@@ -181,7 +205,8 @@ class Transform:
     def _run_task(self, share: tuple[slice, slice]) -> tuple[slice, NDArray[np.complex128]]:
         """Return the slice of a task's results, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there."""
         run, part = share
-        block, columns = TriangleBlock(self.direct, run), self.waves.columns
+        block = TriangleBlock(self.direct, run)
+        columns = self.waves.columns
         means = PhaseMeans(block, self.waves, part)
         across = self.waves.dot(part, block.normals)
         size = max(1, PAIRS_PER_BLOCK // (len(block.lengths) * columns))
@@ -191,30 +216,41 @@ class Transform:
             real, imaginary = means(wave_rows)
             weight = block.lengths
             if self.measure == Measure.VOLUME:
-                weight, spare = np.empty_like(real), np.empty_like(real)
+                weight = np.empty_like(real)
+                spare = np.empty_like(real)
                 across(wave_rows, weight, spare)
-            here = slice((wave_rows.start - part.start) * columns, (wave_rows.stop - part.start) * columns)
+            here = slice(
+                (wave_rows.start - part.start) * columns, (wave_rows.stop - part.start) * columns
+            )
             sums.real[here] = np.add.reduce(np.multiply(real, weight, out=real), axis=1)
             sums.imag[here] = np.add.reduce(np.multiply(imaginary, weight, out=imaginary), axis=1)
         return slice(part.start * columns, part.stop * columns), sums
 
     def result(self) -> Spectrum:
         """Return the spectrum, when all steps are done."""
-        faces, values = self.faces, self.sums + self.rest
+        faces = self.faces
+        values = self.sums + self.rest
         if self.measure == Measure.AREA:
-            values, unit, moments = values + faces.area, 2, self.area
+            values = values + faces.area
+            unit = 2
+            moments = self.area
         else:
-            values, unit, moments = self._to_transform(values), 3, self.volume
+            values = self._to_transform(values)
+            unit = 3
+            moments = self.volume
         q = self.q
         if isinstance(self.waves, ListWaves):
-            ordered, values = values, np.empty_like(values)
+            ordered = values
+            values = np.empty_like(values)
             values[self.waves.order] = ordered
         if isinstance(q, FrequencyGrid):
             q, values = q.vectors(), q.expand(values)
         values *= faces.scale**unit
         turn = phase_factors(q, faces.center)
         error = faces.scale**unit * (U * ROUNDING_FACTOR * faces.area + self.gap)
-        return Spectrum(q, values * turn, error + 8.0 * U * np.abs(values), float(moments.input_error[0]))
+        return Spectrum(
+            q, values * turn, error + 8.0 * U * np.abs(values), float(moments.input_error[0])
+        )
 
     def _to_transform(self, sums: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Return F in units of the scale: i/q² times the sums, or by the moments if q is zero."""

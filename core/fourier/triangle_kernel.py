@@ -33,7 +33,9 @@ from ..verdict.tolerances import MAX_COORDINATE, check_size
 from .wave_vectors import GridWaves, ListWaves
 
 TRIANGLES_PER_BLOCK = 128  # triangles
-PAIRS_PER_BLOCK = 16384  # Pairs of triangles and frequencies at a time: their arrays stay in the cache.
+PAIRS_PER_BLOCK = (
+    16384  # Pairs of triangles and frequencies at a time: their arrays stay in the cache.
+)
 TRIANGLES_PER_BATCH = 1 << 16  # triangles that are prepared at a time
 MAX_SERIES_DIAMETER = 3.0  # largest |q| times diameter up to which a whole block takes the series
 MAX_SERIES_SQUARE = 1.0  # Σ d² below which a single pair takes the series
@@ -51,7 +53,9 @@ class SortedTriangles:
     def __init__(self, surface: Surface):
         check_type("surface", surface, Surface)
         points = surface.points
-        if not all(indices_in_range(faces, len(points)) for faces in (surface.triangles, surface.quads)):
+        if not all(
+            indices_in_range(faces, len(points)) for faces in (surface.triangles, surface.quads)
+        ):
             raise ValueError("no such vertex")
         triangles = surface.all_triangles()[0]
         if not len(triangles):
@@ -59,7 +63,8 @@ class SortedTriangles:
         used = np.zeros(len(points), bool)
         used[triangles] = True
         corners = points[used].astype(np.float64)
-        low, high = corners.min(axis=0), corners.max(axis=0)
+        low = corners.min(axis=0)
+        high = corners.max(axis=0)
         if not (np.isfinite(low).all() and np.isfinite(high).all()):
             raise ValueError("coordinates must be finite")
         center = low / 2.0 + high / 2.0
@@ -77,34 +82,46 @@ class SortedTriangles:
 
     def _sort(self, triangles: NDArray) -> None:
         """Sort by diameter to a factor of two, then along a space-filling curve: a block's triangles share edges."""
-        keys, diameters, heights, self.area = [], [], [], 0.0
+        keys = []
+        diameters = []
+        heights = []
+        self.area = 0.0
         for start in range(0, len(triangles), TRIANGLES_PER_BATCH):
-            a, b, c = (self.points[corner].T for corner in triangles[start : start + TRIANGLES_PER_BATCH].T)
-            sides = np.sqrt([((a - b) ** 2).sum(axis=0), ((b - c) ** 2).sum(axis=0), ((c - a) ** 2).sum(axis=0)])
-            diameter, shortest = sides.max(axis=0), sides.min(axis=0)
+            a, b, c = (
+                self.points[corner].T for corner in triangles[start : start + TRIANGLES_PER_BATCH].T
+            )
+            sides = np.sqrt(
+                [((a - b) ** 2).sum(axis=0), ((b - c) ** 2).sum(axis=0), ((c - a) ** 2).sum(axis=0)]
+            )
+            diameter = sides.max(axis=0)
+            shortest = sides.min(axis=0)
             double = np.sqrt((compensated_normals(a, b, c) ** 2).sum(axis=0))
             self.area += float(double.sum()) / 2.0
             heights.append(double / np.maximum(shortest, TINY))
-            cell = np.clip(((a + b + c) / 3.0 + 1.0) * (MORTON_CELLS / 2.0), 0, MORTON_CELLS).astype(np.int64)
+            cell = np.clip(
+                ((a + b + c) / 3.0 + 1.0) * (MORTON_CELLS / 2.0), 0, MORTON_CELLS
+            ).astype(np.int64)
             octave = np.clip(np.frexp(diameter)[1] + 1100, 0, 2000).astype(np.int64)
             keys.append(octave << 30 | _morton_code(cell))
             diameters.append(diameter)
         order = np.argsort(np.concatenate(keys), kind="stable")
         self.triangles = triangles[order]
-        self.diameters, self.heights = np.concatenate(diameters)[order], np.concatenate(heights)[order]
+        self.diameters = np.concatenate(diameters)[order]
+        self.heights = np.concatenate(heights)[order]
 
     def blocks(self, size: int = TRIANGLES_PER_BLOCK) -> list[slice]:
         """Return slices of at most `size` consecutive triangles."""
-        return [slice(i, min(i + size, len(self.triangles))) for i in range(0, len(self.triangles), size)]
+        return [
+            slice(i, min(i + size, len(self.triangles)))
+            for i in range(0, len(self.triangles), size)
+        ]
 
     def select(self, selection: NDArray[np.intp]) -> SortedTriangles:
         """Return selected triangles, at the same scale."""
         some = copy(self)
-        some.triangles, some.diameters, some.heights = (
-            self.triangles[selection],
-            self.diameters[selection],
-            self.heights[selection],
-        )
+        some.triangles = self.triangles[selection]
+        some.diameters = self.diameters[selection]
+        some.heights = self.heights[selection]
         return some
 
 
@@ -123,16 +140,23 @@ class TriangleBlock:
     """
 
     def __init__(self, faces: SortedTriangles, run: slice):
-        points, triangles = faces.points, faces.triangles[run]
+        points = faces.points
+        triangles = faces.triangles[run]
         a, b, c = (points[corner].T for corner in triangles.T)
         self.diameter = float(faces.diameters[run].max())
-        self.normals, self.centers = compensated_normals(a, b, c), (a + b + c) / 3.0
+        self.normals = compensated_normals(a, b, c)
+        self.centers = (a + b + c) / 3.0
         self.from_center = ((a - b) + (a - c)) / 3.0, ((b - a) + (b - c)) / 3.0
-        ends = np.sort(np.stack([triangles[:, [1, 2]], triangles[:, [2, 0]], triangles[:, [0, 1]]]).astype(np.int64))
+        ends = np.sort(
+            np.stack([triangles[:, [1, 2]], triangles[:, [2, 0]], triangles[:, [0, 1]]]).astype(
+                np.int64
+            )
+        )
         unique, edges = np.unique(ends[..., 0] * len(points) + ends[..., 1], return_inverse=True)
         self.edges = edges.reshape(3, -1)
         first, second = (points[end].T for end in np.divmod(unique, len(points)))
-        self.middles, self.halves = (first + second) / 2.0, (first - second) / 2.0
+        self.middles = (first + second) / 2.0
+        self.halves = (first - second) / 2.0
         self.lengths = np.sqrt((self.normals**2).sum(axis=0))
 
 
@@ -146,7 +170,8 @@ class PhaseMeans:
         self.largest = np.sqrt((waves.vectors(part) ** 2).sum(axis=0).max()) * block.diameter
         self.terms = _series_terms(min(self.largest, MAX_SERIES_DIAMETER) * 2.0 / 3.0)
         if self.largest > MAX_SERIES_DIAMETER:
-            self.middle, self.along = waves.phase_factors(part, block.middles), waves.dot(part, block.halves)
+            self.middle = waves.phase_factors(part, block.middles)
+            self.along = waves.dot(part, block.halves)
 
     def __call__(self, wave_rows: slice) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return (m, k) real and imaginary parts of D - 1/2 for some rows of the part."""
@@ -164,7 +189,8 @@ class PhaseMeans:
     def _by_edges(
         self, wave_rows: slice, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray
     ) -> tuple[NDArray, NDArray]:
-        block, square = self.block, a * a + b * b + c * c
+        block = self.block
+        square = a * a + b * b + c * c
         cosine, sine, phase, spare = (np.empty((len(a), block.middles.shape[1])) for _ in range(4))
         self.middle(wave_rows, cosine, sine, spare)
         self.along(wave_rows, phase, spare)
@@ -175,7 +201,11 @@ class PhaseMeans:
         x, y, z = block.edges
         negative = -np.maximum(square, MAX_SERIES_SQUARE / 2.0, out=square)
         real, imaginary = (
-            (wave.take(x, 1, mode="clip") * a + wave.take(y, 1, mode="clip") * b + wave.take(z, 1, mode="clip") * c)
+            (
+                wave.take(x, 1, mode="clip") * a
+                + wave.take(y, 1, mode="clip") * b
+                + wave.take(z, 1, mode="clip") * c
+            )
             / negative
             for wave in (sine * phase, cosine * phase)
         )
@@ -194,15 +224,23 @@ class PhaseMeans:
         return _apply_phase(np.cos(phase), np.sin(phase), real, imaginary)
 
 
-def _apply_phase(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArray) -> tuple[NDArray, NDArray]:
+def _apply_phase(
+    cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArray
+) -> tuple[NDArray, NDArray]:
     """Return D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g."""
-    turn, fall, whole = -2.0 * sine * cosine, -2.0 * sine * sine, real + 0.5  # exp(-i s0) - 1 = fall + i turn
+    # exp(-i s0) - 1 = fall + i turn
+    turn = -2.0 * sine * cosine
+    fall = -2.0 * sine * sine
+    whole = real + 0.5
     return real - turn * imaginary + fall * whole, imaginary + fall * imaginary + turn * whole
 
 
 def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArray]:
     """Return real and imaginary part of the sum over n ≥ 2 of (-i)^n h_n / (n+2)!, from -e2 and e3."""
-    even, odd, before = -square, cube, np.zeros_like(square)  # n = 2, 3 and 1
+    # n = 2, 3 and 1
+    even = -square
+    odd = cube
+    before = np.zeros_like(square)
     real, imaginary = even / 24.0, odd / 120.0
     for n in range(4, terms, 2):
         even, odd, before = -(square * even + cube * before), cube * even - square * odd, odd
@@ -219,4 +257,6 @@ def _series_terms(radius: float) -> int:
     return n
 
 
-SPLIT_SERIES_TERMS = _series_terms(np.sqrt(MAX_SERIES_SQUARE * 2.0 / 3.0))  # For Σ d² below MAX_SERIES_SQUARE.
+SPLIT_SERIES_TERMS = _series_terms(
+    np.sqrt(MAX_SERIES_SQUARE * 2.0 / 3.0)
+)  # For Σ d² below MAX_SERIES_SQUARE.

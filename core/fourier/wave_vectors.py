@@ -84,11 +84,15 @@ class FrequencyGrid:
 
     def expand(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Return all (count³,) or (count²,) values from those with last coordinate ≥ 0, both ends included."""
-        n, h, others = self.count, self.half, (slice(None, self.count),) * (self.dimension - 1)
+        n = self.count
+        h = self.half
+        others = (slice(None, self.count),) * (self.dimension - 1)
         values = np.asarray(values).reshape(*[2 * h + 1] * (self.dimension - 1), h + 1)
         full = np.empty((n,) * self.dimension, np.complex128)
         full[..., h:] = values[others + (slice(None, n - h),)]
-        full[..., :h] = np.flip(values, axis=(*range(self.dimension - 1), -1))[..., :h][others].conj()
+        full[..., :h] = np.flip(values, axis=(*range(self.dimension - 1), -1))[..., :h][
+            others
+        ].conj()
         return full.reshape(-1)
 
 
@@ -96,7 +100,9 @@ def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
     """Return a user's (M, dimension) wave vectors as float64; MeasureError if shape, type or range is wrong."""
     q = np.asarray(q)
     if q.dtype.kind not in "fiu" or q.ndim != 2 or q.shape[1] != dimension:
-        raise MeasureError(WAVE_VECTORS_SHAPE, dimension=dimension, shape=list(q.shape), type=str(q.dtype))
+        raise MeasureError(
+            WAVE_VECTORS_SHAPE, dimension=dimension, shape=list(q.shape), type=str(q.dtype)
+        )
     q = q.astype(np.float64)
     if not (np.abs(q) <= MAX_FREQUENCY).all():
         raise MeasureError(WAVE_VECTORS_RANGE)
@@ -155,7 +161,9 @@ class GridWaves:
 
     def vectors(self, wave_rows: slice) -> NDArray[np.float64]:
         """Return the (3, m) wave vectors of some rows."""
-        x, y = self.side[np.stack(np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side)))]
+        x, y = self.side[
+            np.stack(np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side)))
+        ]
         n = self.columns
         return np.stack([np.repeat(x, n), np.repeat(y, n), np.tile(self.depth, len(x))])
 
@@ -179,8 +187,12 @@ class GridWaves:
         def fill(wave_rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
             i, j = np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side))
             c, s, scratch = (a.reshape(len(i), *z[0].shape) for a in (cosine, sine, spare))
-            a, b, p, q = x[0][i - first], x[1][i - first], y[0][j], y[1][j]
-            real, imaginary = (a * p - b * q)[:, None], (a * q + b * p)[:, None]
+            a = x[0][i - first]
+            b = x[1][i - first]
+            p = y[0][j]
+            q = y[1][j]
+            real = (a * p - b * q)[:, None]
+            imaginary = (a * q + b * p)[:, None]
             np.subtract(real * z[0], imaginary * z[1], out=c)
             np.add(real * z[1], imaginary * z[0], out=s)
 
@@ -190,7 +202,11 @@ class GridWaves:
         """Return the first index along x that a part needs, the products with x from there on, and those with y."""
         n = len(self.side)
         first = part.start // n
-        return first, self.side[first : (part.stop - 1) // n + 1, None] * vectors[0], self.side[:, None] * vectors[1]
+        return (
+            first,
+            self.side[first : (part.stop - 1) // n + 1, None] * vectors[0],
+            self.side[:, None] * vectors[1],
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -213,18 +229,28 @@ class Spectrum:
         """Add the spectrum of another body, at the same wave vectors."""
         method = EXACT if self.method == other.method == EXACT else APPROXIMATE
         return Spectrum(
-            self.q, self.values + other.values, self.error + other.error, self.input_error + other.input_error, method
+            self.q,
+            self.values + other.values,
+            self.error + other.error,
+            self.input_error + other.input_error,
+            method,
         )
 
     def scale(self, factor: float) -> Spectrum:
         """Multiply by a positive factor, such as the thickness of a sheet."""
         return replace(
-            self, values=self.values * factor, error=self.error * factor, input_error=self.input_error * factor
+            self,
+            values=self.values * factor,
+            error=self.error * factor,
+            input_error=self.input_error * factor,
         )
 
     def multiply_by_phases(self, waves: NDArray[np.complex128], count: int) -> Spectrum:
         """Return the spectrum of `count` copies together, from the (M,) sums of exp(-i q·t) over their places."""
         rounding = (8.0 + count) * count * U * np.abs(self.values)
         return replace(
-            self, values=self.values * waves, error=count * self.error + rounding, input_error=count * self.input_error
+            self,
+            values=self.values * waves,
+            error=count * self.error + rounding,
+            input_error=count * self.input_error,
         )

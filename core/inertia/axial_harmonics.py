@@ -28,7 +28,9 @@ from .canonical_frame import NOISE_LEVEL, EquivalentFrames, lexicographic_maximu
 
 MAX_AXIAL_ORDER = 30
 MAX_TILT = 1e-2  # rad; harmonics about an axis with a larger tilt say nothing about the body
-LEAST_HEIGHT = 1e-2  # relative to the radius: least unit of height, as float32 makes flat bodies uneven
+LEAST_HEIGHT = (
+    1e-2  # relative to the radius: least unit of height, as float32 makes flat bodies uneven
+)
 TRIANGLES_PER_BLOCK = 1 << 13
 
 
@@ -65,22 +67,35 @@ class AxialHarmonics:
 
 
 def axial_harmonics(
-    surfaces: Iterable[Surface], center: NDArray, frame: NDArray, *, area: bool, order: int = MAX_AXIAL_ORDER
+    surfaces: Iterable[Surface],
+    center: NDArray,
+    frame: NDArray,
+    *,
+    area: bool,
+    order: int = MAX_AXIAL_ORDER,
 ) -> AxialHarmonics:
     """Find harmonics, to m = order, about the axis frame[:, 2] of the body in surfaces, or of these if `area`."""
-    pieces = [((piece.points.astype(np.float64) - center) @ frame, piece.all_triangles()[0]) for piece in surfaces]
+    pieces = [
+        ((piece.points.astype(np.float64) - center) @ frame, piece.all_triangles()[0])
+        for piece in surfaces
+    ]
     reach = max(float(np.hypot(points[:, 0], points[:, 1]).max()) for points, _ in pieces)
     height = max(float(np.abs(points[:, 2]).max()) for points, _ in pieces)
     scale = np.array([reach, reach, max(height, LEAST_HEIGHT * reach)])
-    sums, total = np.zeros((2, order + 1), np.complex128), 0.0
+    sums = np.zeros((2, order + 1), np.complex128)
+    total = 0.0
     for points, triangles in pieces:
         for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
-            corners = points[triangles[start : start + TRIANGLES_PER_BLOCK]].transpose(1, 2, 0)  # (3, 3, k)
+            corners = points[triangles[start : start + TRIANGLES_PER_BLOCK]].transpose(
+                1, 2, 0
+            )  # (3, 3, k)
             normal = np.array(cross(corners[1] - corners[0], corners[2] - corners[0]))
             weight = np.sqrt(dot(normal, normal)) if area else dot(corners[0], normal)
             total += float(weight.sum())
             sums += _means(corners / scale[:, None], order) @ weight
-    if not area:  # a cone over a triangle, of a function of degree n, is its mean over the triangle by 2n + 6
+    if (
+        not area
+    ):  # a cone over a triangle, of a function of degree n, is its mean over the triangle by 2n + 6
         degree = np.arange(order + 1) + np.array([[0], [1]])
         sums *= 3.0 / (degree + 3.0)
     return AxialHarmonics(np.asarray(frame, np.float64), sums / total)
@@ -88,8 +103,10 @@ def axial_harmonics(
 
 def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
     """Return the (2, order + 1, k) means of w^m and w^m z over triangles with corners (3, 3, k): x, y, z of each."""
-    w, z = corners[:, 0] + 1j * corners[:, 1], corners[:, 2]
-    power, slope = [np.ones(w.shape[1], np.complex128)] * 3, [np.zeros(w.shape[1], np.complex128)] * 3
+    w = corners[:, 0] + 1j * corners[:, 1]
+    z = corners[:, 2]
+    power = [np.ones(w.shape[1], np.complex128)] * 3
+    slope = [np.zeros(w.shape[1], np.complex128)] * 3
     means = np.empty((2, order + 1, w.shape[1]), np.complex128)
     means[0, 0] = 1.0
     for m in range(1, order + 2):
@@ -130,12 +147,18 @@ def turn_by_harmonics(
         angles = (np.angle(base.values[k, m]) + 2.0 * np.pi * np.arange(m)) / m
         for angle in angles:
             cos, sin = np.cos(angle), np.sin(angle)
-            turned = base.in_frame(base.frame @ np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]))
+            turned = base.in_frame(
+                base.frame @ np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+            )
             frames.append(turned.frame[:, np.argsort(order)])
             values.append(np.concatenate([turned.values.real.ravel(), turned.values.imag.ravel()]))
     least = np.full(len(values[0]), 2.0 * noise)
     frames, known = lexicographic_maximum(np.array(frames), np.array(values), least)
     tilt = noise / (float(m) * float(np.abs(harmonics.values[k, m])))
     return EquivalentFrames(
-        frames, np.concatenate([alike.values, known]), np.concatenate([alike.noise, least]), (), alike.tilt + tilt
+        frames,
+        np.concatenate([alike.values, known]),
+        np.concatenate([alike.noise, least]),
+        (),
+        alike.tilt + tilt,
     )

@@ -36,12 +36,16 @@ NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times t
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
 CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones are used only without a better one
 FLAT_EXTENT_RTOL = 1e-6  # relative to the largest extent: with less along an axis, a body is a lamina without skewness
-MAX_EQUAL_SHARE = 0.25  # share of the range over all directions: larger differences never count as equal
+MAX_EQUAL_SHARE = (
+    0.25  # share of the range over all directions: larger differences never count as equal
+)
 START_DIRECTIONS = 240  # directions at which the search for extreme ones starts
 MAX_START_GAP = 0.18  # largest angle between any direction and the nearest start
 ASCENT_STEPS = 16  # steps from a start to a maximum; flat maxima need most of them
 STEPS_BEFORE_MERGE = 3
-MERGED_DIRECTIONS = 1e-4  # directions closer than this after these steps go to one maximum and are merged
+MERGED_DIRECTIONS = (
+    1e-4  # directions closer than this after these steps go to one maximum and are merged
+)
 ARRIVED = 1e-15  # shorter steps end the search
 DISTINCT_DIRECTIONS = 1e-2  # extreme directions closer than this are one
 
@@ -98,17 +102,24 @@ class EquivalentFrames:
     rule: FrameRule | None = None
 
 
-def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray) -> EquivalentFrames:
+def canonical_frames(
+    moments: Moments, spread: SecondMomentAxes, starts: NDArray
+) -> EquivalentFrames:
     """Return the frames that moments of order 3 to MAX_ORDER choose; starts: (k, 3, 3) frames by third moments."""
     central = moments.about_center()
     total = central.raw[0]
     check_range(central.at(None), spread.size[None])
     central = replace(
-        central, raw=central.raw / total, rounding_error=central.rounding_error / total, measure=Measure.MASS
+        central,
+        raw=central.raw / total,
+        rounding_error=central.rounding_error / total,
+        measure=Measure.MASS,
     )
     frames, revolution_axes, tilt, rule = _candidates(central, spread, starts)
     values, noise = _normalized_moments(central, spread, frames)
-    return EquivalentFrames(*lexicographic_maximum(frames, values, noise), noise, revolution_axes, tilt, rule)
+    return EquivalentFrames(
+        *lexicographic_maximum(frames, values, noise), noise, revolution_axes, tilt, rule
+    )
 
 
 def check_range(moments: Moments, size: NDArray[np.float64]) -> None:
@@ -127,19 +138,27 @@ def _candidates(
         return starts, (), spread.tilt, None
     if len(spread.undetermined_axes) == 2:
         axis = 3 - sum(spread.undetermined_axes)
-        starts = starts[np.unique(starts[:, :, axis] @ spread.axes[:, axis] > 0.0, return_index=True)[1]]
+        starts = starts[
+            np.unique(starts[:, :, axis] @ spread.axes[:, axis] > 0.0, return_index=True)[1]
+        ]
         frames, harmonic, turn = _fix_rotation_about_axis(central, spread, starts, axis)
         rule = FrameRule(0, axis, harmonic, _sign(harmonic, -1.0))
         return frames, () if harmonic else (axis,), spread.tilt + turn, rule
     for clear in (CLEAR_HARMONIC, 0.0):
         for degree in range(3, central.order + 1):
-            directions, sign, tilt, are_isolated = _extreme_directions(central, spread, degree, clear)
+            directions, sign, tilt, are_isolated = _extreme_directions(
+                central, spread, degree, clear
+            )
             if not len(directions):
                 continue
-            bases = np.array([frame_about(direction) for direction in directions.tolist()]).transpose(0, 2, 1)
+            bases = np.array(
+                [frame_about(direction) for direction in directions.tolist()]
+            ).transpose(0, 2, 1)
             fourfold = sign if degree == 4 else -1.0
             frames, harmonic, turn = _fix_rotation_about_axis(central, spread, bases, 2, fourfold)
-            rule = FrameRule(degree, 2, harmonic, _sign(harmonic, fourfold)) if are_isolated else None
+            rule = (
+                FrameRule(degree, 2, harmonic, _sign(harmonic, fourfold)) if are_isolated else None
+            )
             return frames, () if harmonic else (2,), tilt + turn, rule
     return spread.axes[None], (0, 1, 2), 0.0, FrameRule(0, 2, None, 1.0)
 
@@ -162,13 +181,17 @@ def _fix_rotation_about_axis(
     degree, m, k, c, least = harmonic
     c = _sign((degree, m, k), fourfold) * c
     angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
-    cos, sin = np.cos(angles)[..., None], np.sin(angles)[..., None]
+    cos = np.cos(angles)[..., None]
+    sin = np.sin(angles)[..., None]
     first, second = (axis + 1) % 3, (axis + 2) % 3
-    a, b = bases[:, None, :, first], bases[:, None, :, second]
+    a = bases[:, None, :, first]
+    b = bases[:, None, :, second]
     frames = np.repeat(bases[:, None], m, axis=1)
-    frames[..., first], frames[..., second] = cos * a + sin * b, cos * b - sin * a
+    frames[..., first] = cos * a + sin * b
+    frames[..., second] = cos * b - sin * a
     # Among several directions keep the ones with the same harmonic.
-    noise, largest = spread.noise / NOISE_LEVEL * least, np.abs(c).max()
+    noise = spread.noise / NOISE_LEVEL * least
+    largest = np.abs(c).max()
     alike = np.abs(c) > largest - min(2.0 * noise, MAX_EQUAL_SHARE * largest)
     return frames[alike].reshape(-1, 3, 3), (degree, m, k), noise / (m * largest)
 
@@ -178,16 +201,23 @@ def _clear_harmonic(
 ) -> tuple[int, int, int, NDArray[np.complex128], float] | None:
     """Return degree, m, k, (n,) values and noise of the first clear harmonic about an axis, else of the first one."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
-    order, size, weaker = [first, second, axis], extents_of(spread.size), None
+    order = [first, second, axis]
+    size = extents_of(spread.size)
+    weaker = None
     for degree in range(3, central.order + 1):
         tensor = _rotate_tensor(central.raw[tensor_index(degree)], bases[:, :, order])
         noise = _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1]
         for m in range(1, degree + 1):
             for k in range((degree - m) % 2, degree - m + 1, 2):
-                c = _harmonic(tensor, degree, m, k) / (size[first] ** (degree - k) * size[axis] ** k)
-                weight = 2.0 ** (degree - k)  # a harmonic is a sum of moments with this total weight
+                c = _harmonic(tensor, degree, m, k) / (
+                    size[first] ** (degree - k) * size[axis] ** k
+                )
+                weight = 2.0 ** (
+                    degree - k
+                )  # a harmonic is a sum of moments with this total weight
                 powers = [0, 0, 0]
-                powers[first], powers[axis] = degree - k, k
+                powers[first] = degree - k
+                powers[axis] = k
                 least = weight * noise[monomial_index(*powers) - monomial_index(degree, 0, 0)]
                 largest = np.abs(c).max()
                 if largest > max(least, CLEAR_HARMONIC):
@@ -200,7 +230,11 @@ def _clear_harmonic(
 def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.complex128]:
     """Return (n,) E[(x+iy)^m (x²+y²)^j z^k] of n bodies' (n, 3, ..., 3) moments of this degree, k = degree - m - 2j."""
     j = (degree - m - k) // 2
-    forms = [np.array([1.0, 1.0j, 0.0])] * (m + j) + [np.array([1.0, -1.0j, 0.0])] * j + [np.array([0, 0, 1.0])] * k
+    forms = (
+        [np.array([1.0, 1.0j, 0.0])] * (m + j)
+        + [np.array([1.0, -1.0j, 0.0])] * j
+        + [np.array([0, 0, 1.0])] * k
+    )
     for form in forms:
         tensor = tensor @ form
     return tensor
@@ -217,7 +251,9 @@ def _extreme_directions(
     """
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _normalization(central, spread, degree)[1].max()
-    least = max(2.0 * _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1].max(), clear)
+    least = max(
+        2.0 * _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1].max(), clear
+    )
     everywhere = spread_directions(START_DIRECTIONS)
     span = np.ptp(_contract(tensor, degree, everywhere))
     if span <= least / 2.0:
@@ -242,7 +278,9 @@ def _extreme_directions(
     return directions, sign, tilt, True
 
 
-def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:
+def _maximize_on_sphere(
+    tensor: NDArray, degree: int, span: float, within: float
+) -> NDArray[np.float64]:
     """Return maxima on the sphere, some repeated, the best approached first, at most `within` below the largest.
 
     The search starts from the highest points of a grid over the sphere: along the sphere the function is a
@@ -250,7 +288,8 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
     span / 4 on the way from a maximum to the nearest of them. Steps are Newton's in curved directions, and always
     uphill.
     """
-    points, scale = spread_directions(START_DIRECTIONS), degree**2 * span
+    points = spread_directions(START_DIRECTIONS)
+    scale = degree**2 * span
     height = _contract(tensor, degree, points)
     points = points[height >= height.max() - within - (degree * MAX_START_GAP) ** 2 / 4.0 * span]
     uphill = np.zeros_like(points)
@@ -276,7 +315,9 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
     return points[order[steep[order] <= max(1e-4 * scale, steep.min())]]
 
 
-def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDArray) -> tuple[NDArray, NDArray]:
+def _normalized_moments(
+    central: Moments, spread: SecondMomentAxes, frames: NDArray
+) -> tuple[NDArray, NDArray]:
     """Return the (k, n) normalized moments in the frames, and (n,) their noise."""
     values, noises = [], []
     for degree in range(3, central.order + 1):
@@ -287,13 +328,17 @@ def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDAr
     return np.concatenate(values, axis=1), np.concatenate(noises)
 
 
-def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> tuple[NDArray, NDArray]:
+def _normalization(
+    central: Moments, spread: SecondMomentAxes, degree: int
+) -> tuple[NDArray, NDArray]:
     """Return the scales of a degree's monomials, products of extents, and the noise of their normalized moments."""
     powers = monomials(degree)[monomial_index(degree, 0, 0) :]
     size = extents_of(spread.size)
     unit = np.prod(size**powers, axis=1)
     thin = np.min(np.where(powers > 0, size, np.inf), axis=1)
-    error = np.abs(_rotate_tensor(central.rounding_error[tensor_index(degree)], np.abs(spread.axes)[None]))
+    error = np.abs(
+        _rotate_tensor(central.rounding_error[tensor_index(degree)], np.abs(spread.axes)[None])
+    )
     if len(spread.undetermined_axes) == 3:  # the frames do not lie along the spread's axes
         error = np.full_like(error, 3.0 ** (degree / 2.0) * error.max())
     noise = spread.noise + 4.0 * spread.step / thin + degree * spread.tilt
@@ -305,7 +350,9 @@ def extents_of(size: NDArray) -> NDArray[np.float64]:
     return np.where(size > FLAT_EXTENT_RTOL * size.max(axis=-1, keepdims=True), size, np.inf)
 
 
-def lexicographic_maximum(frames: NDArray, values: NDArray, noise: NDArray) -> tuple[NDArray, NDArray]:
+def lexicographic_maximum(
+    frames: NDArray, values: NDArray, noise: NDArray
+) -> tuple[NDArray, NDArray]:
     """Return the frames with the largest values, compared entry by entry up to noise; and these values."""
     best = np.arange(len(frames))
     for column, least in zip(values.T, noise):

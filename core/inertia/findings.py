@@ -19,16 +19,21 @@ NEGATIVE_INERTIA = error(
     "Union, repair the mesh, or set Kind to Shell.",
 )
 AXES_FREE = note(
-    "axes_free", "Principal moments {axes} are equal; the directions nearest to the object's axes are used."
+    "axes_free",
+    "Principal moments {axes} are equal; the directions nearest to the object's axes are used.",
 )
 AXES_FREE_BY_SHAPE = note(
     "axes_free_by_shape",
     "Principal moments {axes} are equal; the shape's own directions nearest to the object's axes are used.",
 )
 AXES_AMBIGUOUS = note(
-    "axes_ambiguous", "The body is symmetric under half a turn; the directions nearest to the object's axes are used."
+    "axes_ambiguous",
+    "The body is symmetric under half a turn; the directions nearest to the object's axes are used.",
 )
-STRICT_RULE_UNDEFINED = error("strict_rule_undefined", "Zhang and Chen's rule is undefined {where:word}. Turn it off.")
+STRICT_RULE_UNDEFINED = error(
+    "strict_rule_undefined", "Zhang and Chen's rule is undefined {where:word}. Turn it off."
+)
 AXIS_POINTS_COINCIDE = error(
-    "axis_points_coincide", "The two points of the axis are too near to each other. Move one of them."
+    "axis_points_coincide",
+    "The two points of the axis are too near to each other. Move one of them.",
 )

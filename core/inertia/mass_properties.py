@@ -82,7 +82,9 @@ class MassProperties:
             raise ValueError("impossible density: {!r}".format(density))
         if not has_certain_total(moments):
             raise MeasureError(NO_CERTAIN_VOLUME)
-        return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine, higher))
+        return cls._with_frame(
+            moments, density, principal_frame(moments, preferred_axes, refine, higher)
+        )
 
     @classmethod
     def of_stack(
@@ -100,11 +102,16 @@ class MassProperties:
         return cls._with_frame(moments, density, principal_frames(fixed, preferred_axes, higher))
 
     @classmethod
-    def _with_frame(cls, moments: Moments, density: float | NDArray, frame: PrincipalFrame) -> MassProperties:
-        total, weight = moments.raw[..., 0], np.asarray(density)
+    def _with_frame(
+        cls, moments: Moments, density: float | NDArray, frame: PrincipalFrame
+    ) -> MassProperties:
+        total = moments.raw[..., 0]
+        weight = np.asarray(density)
         shift = moments.raw[..., 1:4] / total[..., None]
         products = shift[..., :, None] * shift[..., None, :]
-        second = weight[..., None, None] * (moments.raw[..., SECOND_MOMENT_INDEX] - total[..., None, None] * products)
+        second = weight[..., None, None] * (
+            moments.raw[..., SECOND_MOMENT_INDEX] - total[..., None, None] * products
+        )
         inertia = second.trace(axis1=-2, axis2=-1)[..., None, None] * IDENTITY_3 - second
         principal = weight[..., None] * frame.moments
         # rounding may violate this for a flat body
@@ -131,7 +138,9 @@ class MassProperties:
             for bounds in (self.rounding_error, self.input_error)
         )
         principal = self.principal.at(which)
-        return MassProperties(pick(self.mass), self.center[which], self.inertia[which], principal, rounding, inputs)
+        return MassProperties(
+            pick(self.mass), self.center[which], self.inertia[which], principal, rounding, inputs
+        )
 
     def inertia_about(self, point: ArrayLike) -> NDArray[np.float64]:
         """Return the (3, 3) tensor about another point, by the parallel-axis theorem."""
@@ -149,7 +158,9 @@ class MassProperties:
         They turn with the errors of inertia, and with a `strain` of the body.
         """
         moments = self.principal.moments
-        off = self.rounding_error["inertia"] + self.input_error["inertia"] + 2.0 * strain * moments[2]
+        off = (
+            self.rounding_error["inertia"] + self.input_error["inertia"] + 2.0 * strain * moments[2]
+        )
         gap = float(np.diff(moments).min()) - off
         return math.asin(off / gap) if off < gap else math.pi
 
@@ -175,7 +186,9 @@ def has_certain_total(moments: Moments) -> PerBody:
     return moments.raw[..., 0] > least
 
 
-def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike | None = None) -> MassProperties:
+def combine(
+    bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike | None = None
+) -> MassProperties:
     """Combine several bodies into one.
 
     Parameters
@@ -210,14 +223,20 @@ def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike |
 
 
 def affine_image(
-    properties: MassProperties, linear: ArrayLike, center: ArrayLike, mass: float, preferred_axes: ArrayLike
+    properties: MassProperties,
+    linear: ArrayLike,
+    center: ArrayLike,
+    mass: float,
+    preferred_axes: ArrayLike,
 ) -> MassProperties:
     """Return the properties of an image under a (3, 3) map; axes point the way of `preferred_axes`."""
-    linear, preferred = np.asarray(linear, np.float64), np.asarray(preferred_axes, np.float64)
+    linear = np.asarray(linear, np.float64)
+    preferred = np.asarray(preferred_axes, np.float64)
     second = np.trace(properties.inertia) / 2.0 * IDENTITY_3 - properties.inertia
     second = linear @ second @ linear.T * (mass / properties.mass)
     spread, axes = np.linalg.eigh(second)
-    spread, axes = np.maximum(spread[::-1], 0.0), axes[:, ::-1]
+    spread = np.maximum(spread[::-1], 0.0)
+    axes = axes[:, ::-1]
     axes = axes * np.where((axes * preferred).sum(axis=0) < 0.0, -1.0, 1.0)
     if np.linalg.det(axes) < 0.0:
         axes[:, np.abs((axes * preferred).sum(axis=0)).argmin()] *= -1.0
@@ -231,41 +250,66 @@ def affine_image(
     )
 
 
-def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
+def are_physical(
+    volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]
+) -> NDArray[np.bool_]:
     """Return an (n,) mask of the bodies with a possible center and second moments for their mass and (n, 3) boxes."""
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]
-    second = volume.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None] - mean[:, :, None] * mean[:, None, :]
+    second = (
+        volume.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
+        - mean[:, :, None] * mean[:, None, :]
+    )
     most = np.abs(second).max(axis=(1, 2))
-    rounding = 8.0 * (volume.rounding_error[:, 4:10].max(axis=1) / total + np.finfo(float).eps * most)
+    rounding = 8.0 * (
+        volume.rounding_error[:, 4:10].max(axis=1) / total + np.finfo(float).eps * most
+    )
     tolerance = (1e-6 * size + volume.rounding_error[:, 1:4].max(axis=1) / total)[:, None]
     center = volume.about + mean
     inside = ((low - tolerance <= center) & (center <= high + tolerance)).all(axis=1)
     return inside & (np.linalg.eigvalsh(second)[:, 0] >= -rounding)
 
 
-def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
+def _propagate_errors(
+    moments: Moments, density: NDArray
+) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
     """Return bounds of mass, center, inertia by rounding and by `input_error`; infinite if nothing bounds them."""
-    delta, raw = np.array([moments.rounding_error, moments.input_error]), moments.raw
+    delta = np.array([moments.rounding_error, moments.input_error])
+    raw = moments.raw
     total, off = raw[..., 0], delta[..., 0]
     is_bounded = total > 2.0 * off
     total = np.where(is_bounded, total, 1.0)[..., None]
     least = np.where(is_bounded, total[..., 0] - off, 1.0)[..., None]
-    first, off_first = np.abs(raw[..., 1:4]), delta[..., 1:4]
+    first = np.abs(raw[..., 1:4])
+    off_first = delta[..., 1:4]
     shift = first / total
     center = _lengths((off_first + shift * off[..., None]) / least)
     cross = off_first[..., :, None] * shift[..., None, :]
-    cross = cross + cross.swapaxes(-1, -2) + shift[..., :, None] * shift[..., None, :] * off[..., None, None]
+    cross = (
+        cross
+        + cross.swapaxes(-1, -2)
+        + shift[..., :, None] * shift[..., None, :] * off[..., None, None]
+    )
     second = delta[..., SECOND_MOMENT_INDEX] + cross * (total / least)[..., None]
     second = second + off_first[..., :, None] * (off_first / least)[..., None, :]
     center[0] += 2.0 * U * _lengths(np.abs(moments.about) + 2.0 * shift[0])
-    second[0] += 6.0 * U * (np.abs(raw[..., SECOND_MOMENT_INDEX]) + first[..., :, None] * shift[0][..., None, :])
+    second[0] += (
+        6.0
+        * U
+        * (np.abs(raw[..., SECOND_MOMENT_INDEX]) + first[..., :, None] * shift[0][..., None, :])
+    )
     tensor = second.trace(axis1=-2, axis2=-1)[..., None, None] * IDENTITY_3 + second
     inertia = np.abs(density) * _lengths(tensor.reshape(*tensor.shape[:-2], 9))
     off[0] += U * raw[..., 0]
-    bounds = np.abs(density) * off, np.where(is_bounded, center, np.inf), np.where(is_bounded, inertia, np.inf)
+    bounds = (
+        np.abs(density) * off,
+        np.where(is_bounded, center, np.inf),
+        np.where(is_bounded, inertia, np.inf),
+    )
     columns = bounds if raw.ndim > 1 else [bound.tolist() for bound in bounds]
-    rounding, moved = (dict[str, PerBody](zip(("mass", "center", "inertia"), each)) for each in zip(*columns))
+    rounding, moved = (
+        dict[str, PerBody](zip(("mass", "center", "inertia"), each)) for each in zip(*columns)
+    )
     return rounding, moved
 
 

@@ -36,7 +36,9 @@ EQUAL_MOMENTS_RTOL = 1e-6  # moments closer than this, relatively, are equal
 SWEEPS = 6  # of Jacobi's rotations, which converge quadratically
 EQUAL_TRACE_ATOL = 1e-6  # frames whose traces are closer than this are equally near
 MIN_ACROSS = 1e-6  # a shorter part of a vector has no direction
-MIN_AXIS_RATIO = 1e-6  # relative to the coordinates: float32 points nearer to each other give no direction
+MIN_AXIS_RATIO = (
+    1e-6  # relative to the coordinates: float32 points nearer to each other give no direction
+)
 U = float_info.epsilon / 2.0
 
 
@@ -59,19 +61,37 @@ class PlainBody(NamedTuple):
 
     @classmethod
     def of_body(
-        cls, body: MassProperties, density: float, volume: float, area: float, error_bound: dict[str, Any]
+        cls,
+        body: MassProperties,
+        density: float,
+        volume: float,
+        area: float,
+        error_bound: dict[str, Any],
     ) -> PlainBody:
         """Return mass properties as plain numbers, with density, volume, area and error bound."""
-        center, entries, moments = body.center.tolist(), body.inertia[ROWS, COLUMNS].tolist(), body.principal.moments
+        center = body.center.tolist()
+        entries = body.inertia[ROWS, COLUMNS].tolist()
+        moments = body.principal.moments
         axes = tuple(map(tuple, body.principal.axes.T.tolist()))
         return cls(
-            body.mass, density, volume, area, tuple(center), tuple(entries), tuple(moments.tolist()), axes, error_bound
+            body.mass,
+            density,
+            volume,
+            area,
+            tuple(center),
+            tuple(entries),
+            tuple(moments.tolist()),
+            axes,
+            error_bound,
         )
 
     @property
     def gyration(self) -> Vector:
         """(3,) radii of gyration about the principal axes."""
-        return tuple(sqrt(max(moment, 0.0) / self.mass) if self.mass > 0.0 else 0.0 for moment in self.moments)
+        return tuple(
+            sqrt(max(moment, 0.0) / self.mass) if self.mass > 0.0 else 0.0
+            for moment in self.moments
+        )
 
     def turned(self, axes: Axes) -> PlainBody:
         """Return the results in a frame with other axes and the same origin."""
@@ -85,7 +105,9 @@ class PlainBody(NamedTuple):
         """Return the results in the world frame; matrix_world: of the object; unit: meters per Blender unit."""
         location, turn, _ = matrix_world.decompose()
         body = self.turned(tuple(zip(*rotation_axes(turn))))
-        return body._replace(center=tuple(value + unit * along for value, along in zip(body.center, location)))
+        return body._replace(
+            center=tuple(value + unit * along for value, along in zip(body.center, location))
+        )
 
     def in_object(self, matrix_world: Any, unit: float) -> PlainBody:
         """Return the results of the world frame in the object frame, as `in_world` takes them."""
@@ -96,10 +118,14 @@ class PlainBody(NamedTuple):
 
 def add_bodies(parts: Sequence[PlainBody]) -> PlainBody | None:
     """Return bodies as one, in their common frame, by the parallel-axis theorem; None if they have no mass."""
-    mass, volume, area = (sum([getattr(part, name) for part in parts]) for name in ("mass", "volume", "area"))
+    mass, volume, area = (
+        sum([getattr(part, name) for part in parts]) for name in ("mass", "volume", "area")
+    )
     if not mass > 0.0:  # the stored values were changed
         return None
-    center = tuple(sum([part.mass * part.center[axis] for part in parts]) / mass for axis in range(3))
+    center = tuple(
+        sum([part.mass * part.center[axis] for part in parts]) / mass for axis in range(3)
+    )
     arms = [subtract(part.center, center) for part in parts]
     tensors = [move_tensor(part.inertia, part.mass, arm) for part, arm in zip(parts, arms)]
     tensor = tuple(map(sum, zip(*tensors)))
@@ -117,19 +143,30 @@ def _bound_of_sum(
     """Return the bound of a sum of bodies, from the bound of each, and its distance from the center."""
     # a shell without thickness has its mass by area
     shares = [
-        bound["volume"] / part.volume if part.volume > 0.0 else bound["area"] / max(part.area, float_info.min)
+        bound["volume"] / part.volume
+        if part.volume > 0.0
+        else bound["area"] / max(part.area, float_info.min)
         for part, bound in zip(parts, bounds)
     ]
     bodies = [
-        (part.mass, share, arm, bound["center_of_mass"]) for part, share, arm, bound in zip(parts, shares, arms, bounds)
+        (part.mass, share, arm, bound["center_of_mass"])
+        for part, share, arm, bound in zip(parts, shares, arms, bounds)
     ]
     mass = sum([part.mass for part in parts])
-    center = sum([own * ((1.0 + share) * error + share * arm) for own, share, arm, error in bodies]) / mass
+    center = (
+        sum([own * ((1.0 + share) * error + share * arm) for own, share, arm, error in bodies])
+        / mass
+    )
     inertia = sum([bound["inertia"] for bound in bounds])
     for own, share, arm, error in bodies:
         reach = arm + error + center
         inertia += own * ((1.0 + share) * (reach * reach - arm * arm) + share * arm * arm)
-    values = sum([bound["volume"] for bound in bounds]), sum([bound["area"] for bound in bounds]), center, inertia
+    values = (
+        sum([bound["volume"] for bound in bounds]),
+        sum([bound["area"] for bound in bounds]),
+        center,
+        inertia,
+    )
     return dict(zip(BOUND_KEYS, values))
 
 
@@ -191,18 +228,25 @@ def principal_axes(tensor: Sequence[float]) -> tuple[Vector, Axes, str]:
     axes = IDENTITY
     for i, j, entry in SWEEPS * ((0, 1, 3), (0, 2, 4), (1, 2, 5)):
         turned = turn_tensor(tensor, axes)
-        gap, twice = turned[i] - turned[j], 2.0 * turned[entry]
-        angle = 0.5 * atan2(twice if gap >= 0.0 else -twice, abs(gap))  # at most an eighth of a turn
+        gap = turned[i] - turned[j]
+        twice = 2.0 * turned[entry]
+        angle = 0.5 * atan2(
+            twice if gap >= 0.0 else -twice, abs(gap)
+        )  # at most an eighth of a turn
         c, s = cos(angle), sin(angle)
         pairs = tuple(zip(axes[i], axes[j]))
-        moved = {i: tuple(c * a + s * b for a, b in pairs), j: tuple(c * b - s * a for a, b in pairs)}
+        moved = {
+            i: tuple(c * a + s * b for a, b in pairs),
+            j: tuple(c * b - s * a for a, b in pairs),
+        }
         axes = tuple(moved.get(k, axis) for k, axis in enumerate(axes))
     (low, first), (middle, second), (high, _) = sorted(zip(turn_tensor(tensor, axes), axes))
     high = min(high, low + middle)  # rounding may violate this for a flat body
     spreads = (middle + high - low) / 2.0, (high + low - middle) / 2.0
     rounding = 4.0 * float_info.epsilon * (low + middle + high)
     is_oblate, is_prolate = (
-        gap <= EQUAL_MOMENTS_RTOL * spread + rounding for gap, spread in zip((middle - low, high - middle), spreads)
+        gap <= EQUAL_MOMENTS_RTOL * spread + rounding
+        for gap, spread in zip((middle - low, high - middle), spreads)
     )
     symmetry = SYMMETRIES[2 * is_oblate + is_prolate]
     return (low, middle, high), _nearest_frame(first, second, EQUAL_AXES[symmetry]), symmetry
@@ -258,7 +302,8 @@ class Reference:
         size = hypot(*body.inertia, *body.inertia[3:]) + sqrt(2.0) * body.mass * distance * distance
         bounds = []
         for bound, own in ((body.error_bound, rounded), (body.error_bound["input"], 0.0)):
-            mass, center = bound["volume"] * body.density, bound["center_of_mass"] + own
+            mass = bound["volume"] * body.density
+            center = bound["center_of_mass"] + own
             inertia = bound["inertia"] + sqrt(2.0) * distance * distance * mass
             inertia += body.mass * (6.0 * distance * center + 2.0 * center * center)
             bounds.append({"mass": mass, "center": center, "inertia": inertia})

@@ -32,7 +32,13 @@ from ..numerics.rotations import quaternion, rotation_array
 from ..verdict.finding import MeasureError, finding
 from ..verdict.findings import OBJECT_TOO_SMALL
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
-from .findings import AXES_AMBIGUOUS, AXES_FREE, AXES_FREE_BY_SHAPE, NEGATIVE_INERTIA, STRICT_RULE_UNDEFINED
+from .findings import (
+    AXES_AMBIGUOUS,
+    AXES_FREE,
+    AXES_FREE_BY_SHAPE,
+    NEGATIVE_INERTIA,
+    STRICT_RULE_UNDEFINED,
+)
 from .plain_body import EQUAL_AXES, SYMMETRIES
 from .shared_search import choose_about_axis, choose_half_turns, shared_frames
 from .third_moment_frames import (
@@ -49,7 +55,11 @@ SIGN_BITS = np.array([1, 2, 4, 8])  # a bit for each of the HALF_TURN_SIGNS, set
 
 # Findings if the body leaves a choice: of directions, by the preferred axes, or of several equivalent frames.
 FREE, FREE_BY_SHAPE = (
-    {name: finding(code, axes=[axis + 1 for axis in axes]) for name, axes in EQUAL_AXES.items() if axes}
+    {
+        name: finding(code, axes=[axis + 1 for axis in axes])
+        for name, axes in EQUAL_AXES.items()
+        if axes
+    }
     | {"asymmetric": finding(AXES_AMBIGUOUS)}
     for code in (AXES_FREE, AXES_FREE_BY_SHAPE)
 )
@@ -150,15 +160,23 @@ def principal_frame(
     ('asymmetric', True, [0.1589, 0.3886, 0.5025])
     """
     check_type("moments", moments, Moments)
-    preferred_axes = np.eye(3) if preferred_axes is None else rotation_array("preferred_axes", preferred_axes)
+    preferred_axes = (
+        np.eye(3) if preferred_axes is None else rotation_array("preferred_axes", preferred_axes)
+    )
 
     def higher_of_all(_which: NDArray[np.intp]) -> OwnMoments:
         assert higher is not None
         found = higher()
-        return found if isinstance(found, OwnMoments) else OwnMoments(found.at(None), np.zeros(1, np.intp))
+        return (
+            found
+            if isinstance(found, OwnMoments)
+            else OwnMoments(found.at(None), np.zeros(1, np.intp))
+        )
 
     fixed = _frames_of_body(moments, refine=refine)
-    return principal_frames(fixed, preferred_axes[None], None if higher is None else higher_of_all).at(0)
+    return principal_frames(
+        fixed, preferred_axes[None], None if higher is None else higher_of_all
+    ).at(0)
 
 
 def principal_frames(
@@ -173,7 +191,8 @@ def principal_frames(
     """
     count = len(fixed.moments)
     symmetry = np.array(SYMMETRIES, object)[fixed.symmetry]
-    chosen, undetermined = np.full(count, None), np.empty(count, object)
+    chosen = np.full(count, None)
+    undetermined = np.empty(count, object)
     undetermined[:] = [()] * count
     axes = fixed.axes * HALF_TURN_SIGNS[fixed.allowed.argmax(axis=1)][:, None]
     left = np.flatnonzero((fixed.symmetry > 0) | (fixed.allowed.sum(axis=1) != 1))
@@ -181,9 +200,11 @@ def principal_frames(
         kind = fixed.allowed[left] @ SIGN_BITS + 16 * fixed.symmetry[left]
         for number in sorted(set(kind.tolist())):
             bodies = left[kind == number]
-            name, allowed = SYMMETRIES[number // 16], fixed.allowed[bodies[0]]
+            name = SYMMETRIES[number // 16]
+            allowed = fixed.allowed[bodies[0]]
             free = EQUAL_AXES[name]
-            undetermined[bodies], chosen[bodies] = [free] * len(bodies), FREE[name]
+            undetermined[bodies] = [free] * len(bodies)
+            chosen[bodies] = FREE[name]
             frames = fixed.axes[bodies, None] * HALF_TURN_SIGNS[allowed, None]
             preferred = preferred_axes[bodies]
             frames = complete_free_axes(frames, free, preferred[:, None])
@@ -193,9 +214,12 @@ def principal_frames(
         alike = _frames_of_shapes(fixed, left, known)
         together: dict[tuple[int, tuple[int, ...]], list[int]] = {}
         for i, shape in enumerate(known.shape.tolist()):
-            together.setdefault((len(alike[shape].frames), alike[shape].revolution_axes), []).append(i)
+            together.setdefault(
+                (len(alike[shape].frames), alike[shape].revolution_axes), []
+            ).append(i)
         for (ways, revolution_axes), members in together.items():
-            bodies, free = left[members], undetermined_axes(revolution_axes)
+            bodies = left[members]
+            free = undetermined_axes(revolution_axes)
             if revolution_axes or ways > 1:
                 choice = FREE if revolution_axes else FREE_BY_SHAPE
                 chosen[bodies] = [choice[name] for name in symmetry[bodies]]
@@ -209,34 +233,49 @@ def principal_frames(
             frames = complete_free_axes(frames, free, preferred[:, None])
             axes[bodies] = nearest_frames(frames, preferred, [shape.tilt for shape in shapes])
     return PrincipalFrame(
-        fixed.moments, axes, symmetry, np.array([found is None for found in chosen]), chosen, undetermined
+        fixed.moments,
+        axes,
+        symmetry,
+        np.array([found is None for found in chosen]),
+        chosen,
+        undetermined,
     )
 
 
-def _frames_of_shapes(fixed: ThirdMomentFrames, left: NDArray[np.intp], known: OwnMoments) -> list[EquivalentFrames]:
+def _frames_of_shapes(
+    fixed: ThirdMomentFrames, left: NDArray[np.intp], known: OwnMoments
+) -> list[EquivalentFrames]:
     """Return for each shape the frames in which it is the same, in the shape's coordinates."""
     which = left
     if known.rotation is not None:
-        fixed, which = third_moment_frames(known.moments), np.arange(len(known.moments.raw))
+        fixed = third_moment_frames(known.moments)
+        which = np.arange(len(known.moments.raw))
     results: list[Any] = [None] * len(which)  # each is found below
 
     def keep(shapes: NDArray[np.intp], allowed: NDArray[np.bool_]) -> None:
         for shape, signs in zip(shapes.tolist(), allowed):
             body = int(which[shape])
-            frames, free = fixed.axes[body] * HALF_TURN_SIGNS[signs, None], fixed.free(body)
+            frames = fixed.axes[body] * HALF_TURN_SIGNS[signs, None]
+            free = fixed.free(body)
             revolution = (3 - sum(free),) if free else ()
-            results[shape] = EquivalentFrames(frames, NO_VALUES, NO_VALUES, revolution, float(fixed.tilt[body]))
+            results[shape] = EquivalentFrames(
+                frames, NO_VALUES, NO_VALUES, revolution, float(fixed.tilt[body])
+            )
 
     by_signs = np.flatnonzero(fixed.symmetry[which] == 0)
     if len(by_signs):
         keep(by_signs, choose_half_turns(known.moments.at(by_signs), fixed, which[by_signs]))
     about_axis = np.flatnonzero((fixed.symmetry[which] == 1) | (fixed.symmetry[which] == 2))
     if len(about_axis):
-        is_round, allowed = choose_about_axis(known.moments.at(about_axis), fixed, which[about_axis])
+        is_round, allowed = choose_about_axis(
+            known.moments.at(about_axis), fixed, which[about_axis]
+        )
         keep(about_axis[is_round], allowed[is_round])
     others = np.array([shape for shape, found in enumerate(results) if found is None], np.intp)
     if len(others):
-        for shape, found in zip(others.tolist(), shared_frames(known.moments.at(others), fixed, which[others])):
+        for shape, found in zip(
+            others.tolist(), shared_frames(known.moments.at(others), fixed, which[others])
+        ):
             results[shape] = found
     return results
 
@@ -254,7 +293,9 @@ def _frames_of_body(
     refined = None if refine is None else (lambda _which: refine().at(None))
     fixed = third_moment_frames(moments.at(None), refined, noise_factor)
     if not fixed.is_body[0]:
-        is_lost = np.abs(moments.raw[4:10]).max() < np.finfo(float).tiny  # in the smallest of numbers
+        is_lost = (
+            np.abs(moments.raw[4:10]).max() < np.finfo(float).tiny
+        )  # in the smallest of numbers
         raise MeasureError(OBJECT_TOO_SMALL if is_lost else NEGATIVE_INERTIA)
     return fixed
 
@@ -273,7 +314,9 @@ def undetermined_axes(revolution_axes: tuple[int, ...]) -> tuple[int, ...]:
     return tuple(i for i in range(3) if i not in revolution_axes) or (0, 1, 2)
 
 
-def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = None) -> PrincipalFrame:
+def zhang_chen_frame(
+    moments: Moments, refine: Callable[[], Moments] | None = None
+) -> PrincipalFrame:
     """Return the frame by Zhang and Chen's rule (ICIP 2001, eq. 11): axes 1 and 2 point along positive M_300 and M_030.
 
     Axis 3 completes a right-handed frame. moments, to order 3 at least, and refine are as for `principal_frame`.
@@ -281,7 +324,10 @@ def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = No
     """
     check_type("moments", moments, Moments)
     fixed = _frames_of_body(moments)
-    if refine is not None and not (np.abs(fixed.skewness[0, :2]) > 2.0 * fixed.skewness_error[0, :2]).all():
+    if (
+        refine is not None
+        and not (np.abs(fixed.skewness[0, :2]) > 2.0 * fixed.skewness_error[0, :2]).all()
+    ):
         fixed = _frames_of_body(refine())
     if fixed.symmetry[0]:
         raise MeasureError(STRICT_RULE_UNDEFINED, where="for equal principal moments")
@@ -314,4 +360,6 @@ def pose_matrix(center: ArrayLike, axes: ArrayLike) -> NDArray[np.float64]:
     [-1.0, -2.0, -3.0]
     """
     axes = rotation_array("axes", axes)
-    return affine_matrices(axes.T, -axes.T @ float_array("center", center, 3)) + 0.0  # no negative zeros
+    return (
+        affine_matrices(axes.T, -axes.T @ float_array("center", center, 3)) + 0.0
+    )  # no negative zeros

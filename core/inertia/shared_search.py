@@ -49,7 +49,9 @@ from .plain_body import EQUAL_AXES, SYMMETRIES
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 GRID = 1e-6  # step of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
-LEAST_BOUND = 2.0**-30  # least bound; larger ones are rounded up to three binary digits, so that copies agree
+LEAST_BOUND = (
+    2.0**-30
+)  # least bound; larger ones are rounded up to three binary digits, so that copies agree
 MAX_KNOWN = 1024  # problems that are remembered
 MAX_TAIL = 4.0  # times NOISE_GROWTH: for larger moments, as of spikes, rounding turns axes by more than noise
 MAX_CORRECTION = 1e-4  # a body whose frames a refinement turns by more is searched alone
@@ -61,14 +63,20 @@ THIRD = monomial_count(2)  # index of the first moment of third order
 POWERS = monomials(MAX_ORDER)
 DEGREE = POWERS.sum(axis=1)
 STEP = GRID * np.array(NOISE_GROWTH)[DEGREE[THIRD:]]
-BELOW_THIRD = np.where((POWERS[:THIRD] % 2 == 0).all(axis=1), 1.0, 0.0)  # for a body with extents of one
+BELOW_THIRD = np.where(
+    (POWERS[:THIRD] % 2 == 0).all(axis=1), 1.0, 0.0
+)  # for a body with extents of one
 # By the parity of p, q and r: 0 if half turns change no sign, else 1 to 3 for the exponent of other parity.
 ODD_KIND = np.array([[[0, 3], [2, 1]], [[1, 2], [3, 0]]])
 # Signs of the moments of each such kind after no half turn, and after half turns about axes 1, 2 and 3.
-HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]])
+HALF_TURN_PARITY = np.array(
+    [[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]]
+)
 
 
-def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> list[EquivalentFrames]:
+def shared_frames(
+    moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
+) -> list[EquivalentFrames]:
     """Find `canonical_frames`, without values, of the bodies (indices) with two or three equal second moments."""
     check_range(moments, fixed.size[bodies])
     found: list[EquivalentFrames | None] = [None] * len(bodies)
@@ -79,7 +87,9 @@ def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np
         for row, frames in zip(rows.tolist(), alike):
             found[row] = frames
     return [
-        canonical_frames(moments.at(i), fixed.spread(int(body)), fixed.frames(int(body))) if frames is None else frames
+        canonical_frames(moments.at(i), fixed.spread(int(body)), fixed.frames(int(body)))
+        if frames is None
+        else frames
         for i, (body, frames) in enumerate(zip(bodies, found))
     ]
 
@@ -89,7 +99,11 @@ def _frames_alike(
 ) -> list[EquivalentFrames | None]:
     """Return the frames of bodies of one symmetry; None for bodies that have to be searched one by one."""
     axis = FIXED_AXIS.get(name)
-    basis = _bases(fixed.axes[bodies, :, axis], axis) if axis is not None else IDENTITY.repeat(len(bodies), 0)
+    basis = (
+        _bases(fixed.axes[bodies, :, axis], axis)
+        if axis is not None
+        else IDENTITY.repeat(len(bodies), 0)
+    )
     raw, bound, extent = _whitened(moments, fixed, bodies, basis, name)
     usable = np.isfinite(raw).all(axis=1) & np.isfinite(bound).all(axis=1)
     usable &= extent.min(axis=1) > FLAT_EXTENT_RTOL * extent.max(axis=1)
@@ -102,7 +116,15 @@ def _frames_alike(
     together: dict[tuple, list[int]] = {}
     for row, (way, own_cells, own_bound, own_step, own_tilt) in enumerate(keys):
         if usable[row]:
-            key = name, fixed.noise, way, own_cells.tobytes(), own_bound.tobytes(), own_step, own_tilt
+            key = (
+                name,
+                fixed.noise,
+                way,
+                own_cells.tobytes(),
+                own_bound.tobytes(),
+                own_step,
+                own_tilt,
+            )
             together.setdefault(key, []).append(row)
     results: list[EquivalentFrames | None] = [None] * len(bodies)
     for key, rows in together.items():
@@ -137,18 +159,22 @@ def _search(
 
 def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
     """Return (n, 3, 3) right-handed frames with these vectors as axis number `axis`."""
-    helper = np.eye(3)[np.round(np.abs(fixed), 3).argmin(axis=1)]  # equal for axes that differ by rounding
+    helper = np.eye(3)[
+        np.round(np.abs(fixed), 3).argmin(axis=1)
+    ]  # equal for axes that differ by rounding
     first = helper - fixed * np.add.reduce(fixed * helper, axis=1, keepdims=True)
     first /= lengths(first)
     basis = np.empty((len(fixed), 3, 3))
-    basis[:, :, axis], basis[:, :, (axis + 1) % 3] = fixed, first
+    basis[:, :, axis] = fixed
+    basis[:, :, (axis + 1) % 3] = first
     basis[:, :, (axis + 2) % 3] = cross_rows(fixed, first)
     return basis
 
 
 def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
     """Return (n,) codes of the directions in which the bodies' fixed axes may point: 1 ahead, 2 back, 3 both."""
-    allowed, ahead = fixed.allowed[bodies], HALF_TURN_SIGNS[:, axis] > 0.0
+    allowed = fixed.allowed[bodies]
+    ahead = HALF_TURN_SIGNS[:, axis] > 0.0
     return np.asarray(allowed[:, ahead].any(axis=1) + 2 * allowed[:, ~ahead].any(axis=1), np.intp)
 
 
@@ -161,10 +187,12 @@ def _whitened(
     extent = fixed.size[bodies].copy()
     extent[:, free] = np.sqrt((extent[:, free] ** 2).mean(axis=1, keepdims=True))
     total = central.raw[:, :1]
-    raw, error = central.raw / total, central.rounding_error / total
+    raw = central.raw / total
+    error = central.rounding_error / total
     if len(free) == 2:
         turned = basis.transpose(0, 2, 1)
-        raw, error = rotate_moments(raw, MAX_ORDER, turned), rotate_moments(error, MAX_ORDER, np.abs(turned))
+        raw = rotate_moments(raw, MAX_ORDER, turned)
+        error = rotate_moments(error, MAX_ORDER, np.abs(turned))
     with np.errstate(all="ignore"):
         unit = monomial_values(extent, MAX_ORDER)
         raw, error = raw / unit, error / unit
@@ -183,22 +211,30 @@ def _refined(
     frames: NDArray[np.float64], rule: FrameRule, raw: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Return (n, k, 3, 3) frames turned by the rule for moments (n, K), and (n,) whether they hardly turned."""
-    start, frames = frames, frames[None].repeat(len(raw), 0)
-    third, first, second = rule.axis, (rule.axis + 1) % 3, (rule.axis + 2) % 3
+    start = frames
+    frames = frames[None].repeat(len(raw), 0)
+    third = rule.axis
+    first = (rule.axis + 1) % 3
+    second = (rule.axis + 2) % 3
     if rule.extreme:
         pole = _extreme(frames[..., third], rule.extreme, raw)
         side = frames[..., first]
         side = side - pole * np.add.reduce(pole * side, axis=-1, keepdims=True)
         side /= lengths(side)
-        frames[..., first], frames[..., second], frames[..., third] = side, cross_rows(pole, side), pole
+        frames[..., first] = side
+        frames[..., second] = cross_rows(pole, side)
+        frames[..., third] = pole
     if rule.harmonic:
         degree, m, k = rule.harmonic
-        turning, j = frames[..., first] + 1j * frames[..., second], (degree - m - k) // 2
+        turning = frames[..., first] + 1j * frames[..., second]
+        j = (degree - m - k) // 2
         c = _contracted(raw, [turning] * (m + j) + [turning.conj()] * j + [frames[..., third]] * k)
         angle = (np.angle(rule.sign * c) / m)[..., None]
         cos, sin = np.cos(angle), np.sin(angle)
-        a, b = frames[..., first].copy(), frames[..., second].copy()
-        frames[..., first], frames[..., second] = cos * a + sin * b, cos * b - sin * a
+        a = frames[..., first].copy()
+        b = frames[..., second].copy()
+        frames[..., first] = cos * a + sin * b
+        frames[..., second] = cos * b - sin * a
     return frames, np.abs(frames - start).max(axis=(1, 2, 3)) < MAX_CORRECTION
 
 
@@ -228,7 +264,9 @@ def _contracted(raw: NDArray, forms: list[NDArray], degree: int | None = None) -
     return out
 
 
-def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.bool_]:
+def choose_half_turns(
+    moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
+) -> NDArray[np.bool_]:
     """Return the (n, 4) HALF_TURN_SIGNS that `canonical_frames` chooses for bodies without axes of equal moments."""
     values, least, _ = _along_axes(moments, fixed, bodies)
     return _choose(values, least, fixed.allowed[bodies])
@@ -244,7 +282,8 @@ def choose_about_axis(
     other bodies have to be searched one by one.
     """
     values, least, raw = _along_axes(moments, fixed, bodies)
-    is_round, allowed = np.ones(len(bodies), bool), fixed.allowed[bodies]
+    is_round = np.ones(len(bodies), bool)
+    allowed = fixed.allowed[bodies]
     for name, axis in FIXED_AXIS.items():
         rows = np.flatnonzero(fixed.symmetry[bodies] == SYMMETRIES.index(name))
         weights, columns, forms = _harmonics(axis, moments.order)
@@ -264,9 +303,12 @@ def choose_about_axis(
 def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return an (n, 4) mask of the allowed half turns with the largest (n, columns) moments, equal within `least`."""
     kind = ODD_KIND[tuple(monomials(order_from_count(THIRD + values.shape[1]))[THIRD:].T % 2)]
-    clear = (2.0 * np.abs(values) > least)[:, None] & (kind == np.arange(1, 4)[:, None])  # (n, 3, columns)
+    clear = (2.0 * np.abs(values) > least)[:, None] & (
+        kind == np.arange(1, 4)[:, None]
+    )  # (n, 3, columns)
     count = values.shape[1]
-    bodies, first = np.arange(len(values)), np.where(clear.any(axis=2), clear.argmax(axis=2), count)
+    bodies = np.arange(len(values))
+    first = np.where(clear.any(axis=2), clear.argmax(axis=2), count)
     for deciding in first.argsort(axis=1).T:
         column = first[bodies, deciding]
         value = values[bodies, np.minimum(column, count - 1)]
@@ -281,13 +323,16 @@ def _along_axes(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Return (n, columns) normalized moments of order ≥ 3 along the axes, their noise, and (n, K) central moments."""
     central = moments.about_center()
-    order, total, size = central.order, central.raw[:, :1], fixed.size[bodies]
+    order = central.order
+    total = central.raw[:, :1]
+    size = fixed.size[bodies]
     check_range(central, size)
     turned = fixed.axes[bodies].transpose(0, 2, 1)
     raw = rotate_moments(central.raw / total, order, turned)
     error = rotate_moments(central.rounding_error / total, order, np.abs(turned))[:, THIRD:]
     powers = monomials(order)[THIRD:]
-    degree, extents = powers.sum(axis=1), extents_of(size)
+    degree = powers.sum(axis=1)
+    extents = extents_of(size)
     unit = monomial_values(extents, order)[:, THIRD:]
     thin = np.minimum.reduce(np.where(powers > 0, extents[:, None], np.inf), axis=2)
     noise = fixed.noise + 4.0 * fixed.step[bodies, None] / thin + degree * fixed.tilt[bodies, None]
@@ -295,14 +340,18 @@ def _along_axes(
 
 
 @lru_cache
-def _harmonics(axis: int, order: int) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
+def _harmonics(
+    axis: int, order: int
+) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
     """Return the harmonics E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0.
 
     z is along this axis, x and y along the next. Return three arrays. The noise of each harmonic is a factor, (h,),
     times the noise of a moment, whose column from third order on is in the second array, (h,). The third has (h,
     columns) coefficients.
     """
-    weights, columns, forms = [], [], []
+    weights = []
+    columns = []
+    forms = []
     for degree in range(3, order + 1):
         for m in range(1, degree + 1):
             for k in range((degree - m) % 2, degree - m + 1, 2):

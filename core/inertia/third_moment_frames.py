@@ -27,11 +27,15 @@ PARTNER_AXES = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
 AXES = np.arange(3)
 OWN_AXIS = AXES[:, None]
 # Signs of the axes that keep a frame right-handed.
-HALF_TURN_SIGNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])
+HALF_TURN_SIGNS = np.array(
+    [signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0]
+)
 
 FIXED_AXIS = {"prolate": 0, "oblate": 2}  # the axis with the moment that differs
 IS_FIXED = np.array([[axis not in EQUAL_AXES[name] for axis in range(3)] for name in SYMMETRIES])
-MAX_TRACE_AMBIGUITY = 0.1  # traces farther apart never count as equal; closer than EQUAL_TRACE_ATOL, always
+MAX_TRACE_AMBIGUITY = (
+    0.1  # traces farther apart never count as equal; closer than EQUAL_TRACE_ATOL, always
+)
 AXIS_RANK = np.array([4, 2, 1])  # axes that point along the preferred ones count in this order
 MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by second moments and the same axis of a copy
 
@@ -68,7 +72,8 @@ class ThirdMomentFrames:
 
     def spread(self, i: int) -> SecondMomentAxes:
         """Return the axes that second moments give one body."""
-        step, tilt = float(self.step[i]), float(self.tilt[i])
+        step = float(self.step[i])
+        tilt = float(self.tilt[i])
         return SecondMomentAxes(self.axes[i], self.size[i], self.free(i), step, tilt, self.noise)
 
     def frames(self, i: int) -> NDArray[np.float64]:
@@ -78,7 +83,9 @@ class ThirdMomentFrames:
 
 @np.errstate(all="ignore")  # callers check for overflow
 def third_moment_frames(
-    moments: Moments, refine: Callable[[NDArray[np.intp]], Moments] | None = None, noise_factor: float = 1.0
+    moments: Moments,
+    refine: Callable[[NDArray[np.intp]], Moments] | None = None,
+    noise_factor: float = 1.0,
 ) -> ThirdMomentFrames:
     """Find the frames, as far as second and third moments fix them, of n bodies with positive totals.
 
@@ -87,23 +94,34 @@ def third_moment_frames(
     """
     total = moments.raw[:, 0]
     shift = moments.raw[:, 1:4] / total[:, None]
-    second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None] - shift[:, :, None] * shift[:, None, :]
+    second = (
+        moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
+        - shift[:, :, None] * shift[:, None, :]
+    )
     scale = np.abs(second.trace(axis1=1, axis2=2))
     scale[scale == 0.0] = 1.0  # keeps eigh clear of overflow and denormals
     spread, axes = np.linalg.eigh(second / scale[:, None, None])
-    spread, axes = spread[:, ::-1], axes[:, :, ::-1].copy()
+    spread = spread[:, ::-1]
+    axes = axes[:, :, ::-1].copy()
     axes[:, :, 2] *= np.sign(np.linalg.det(axes))[:, None]
-    rounding = 4.0 * moments.rounding_error[:, 4:10].max(axis=1) / (total * scale) + 8.0 * np.finfo(float).eps
+    rounding = (
+        4.0 * moments.rounding_error[:, 4:10].max(axis=1) / (total * scale)
+        + 8.0 * np.finfo(float).eps
+    )
     is_body = spread[:, 2] >= -rounding
     spread = np.maximum(spread, 0.0)
 
-    size = np.sqrt(np.maximum(spread, 1e-30 * spread[:, :1]))  # a lamina has no extent along an axis, and no skewness
+    size = np.sqrt(
+        np.maximum(spread, 1e-30 * spread[:, :1])
+    )  # a lamina has no extent along an axis, and no skewness
     # Shift of the points by float32: the share of the volume that this moves, times the thinnest extent.
     step = moments.input_error[:, 0] / total * size[:, 2]
     gaps = spread[:, :2] - spread[:, 1:]
     doubtful = (2.0 * step)[:, None] * size[:, :2] + rounding[:, None]
     equal = gaps <= noise_factor * EQUAL_MOMENTS_RTOL * spread[:, :2] + doubtful
-    tilts = np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))  # between axes 1 and 2, and 2 and 3
+    tilts = np.where(
+        equal, 0.0, doubtful / np.where(equal, 1.0, gaps)
+    )  # between axes 1 and 2, and 2 and 3
     symmetry = 2 * equal[:, 0] + equal[:, 1]
 
     noise = noise_factor * NOISE_LEVEL + (4.0 * step)[:, None, None] / np.minimum(
@@ -127,13 +145,19 @@ def third_moment_frames(
         if len(undecided):
             third, error = third.copy(), error.copy()
             third[undecided], error[undecided] = _third_scores(
-                refine(undecided), shift[undecided], real[undecided], axes[undecided], symmetry[undecided]
+                refine(undecided),
+                shift[undecided],
+                real[undecided],
+                axes[undecided],
+                symmetry[undecided],
             )
     is_clear = np.abs(third) > noise + error
     first = is_clear.argmax(axis=2)  # zero if none is more than noise
     is_scored = fixed & is_clear.any(axis=2)
     body = np.arange(len(third))[:, None]
-    scores, unsure = [np.where(is_scored, values[body, AXES, first], 0.0) for values in (third, noise + error)]
+    scores, unsure = [
+        np.where(is_scored, values[body, AXES, first], 0.0) for values in (third, noise + error)
+    ]
     inertia = (spread[:, [1, 0, 0]] + spread[:, [2, 2, 1]]) * (scale * total)[:, None]
     return ThirdMomentFrames(
         is_body,
@@ -150,15 +174,23 @@ def third_moment_frames(
     )
 
 
-def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _are_decided(
+    size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
     """Return an (n,) mask of bodies with frames that more exact third moments could not change."""
     clear = size - error > noise
     below = size + error <= noise
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
-    body, first = np.arange(len(size))[:, None], clear.argmax(axis=2)
-    size, error, noise = size[body, AXES, first], error[body, AXES, first], noise[body, AXES, first]
-    last = size.argmin(axis=1)[:, None]  # the least of three scores: both others have to be clear of it
-    least, unsure = size[body, last], (noise + error).max(axis=1, keepdims=True)
+    body = np.arange(len(size))[:, None]
+    first = clear.argmax(axis=2)
+    size = size[body, AXES, first]
+    error = error[body, AXES, first]
+    noise = noise[body, AXES, first]
+    last = size.argmin(axis=1)[
+        :, None
+    ]  # the least of three scores: both others have to be clear of it
+    least = size[body, last]
+    unsure = (noise + error).max(axis=1, keepdims=True)
     apart = (size - least > EQUAL_SCORES_RTOL * least + 2.0 * (error + unsure)).sum(axis=1) == 2
     return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
 
@@ -167,23 +199,31 @@ def _third_scores(
     moments: Moments, shift: NDArray, size: NDArray, axes: NDArray, symmetry: NDArray[np.intp]
 ) -> tuple[NDArray, NDArray]:
     """Return (n, 3, 3) normalized M_iii, M_ijj, M_ikk of axes i (means if j and k are free), and error bounds."""
-    count, total = len(shift), moments.raw[:, 0]
+    count = len(shift)
+    total = moments.raw[:, 0]
     second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
     third = moments.raw[:, THIRD_MOMENT_INDEX] / total[:, None, None, None]
     outer = shift[:, :, None] * shift[:, None, :]
     across = shift[:, :, None, None]
     cross = across * second[:, None]
-    third = third - cross - cross.transpose(0, 2, 1, 3) - cross.transpose(0, 2, 3, 1) + 2.0 * across * outer[:, None]
+    third = (
+        third
+        - cross
+        - cross.transpose(0, 2, 1, 3)
+        - cross.transpose(0, 2, 3, 1)
+        + 2.0 * across * outer[:, None]
+    )
     of_second = 3.0 * np.abs(shift).max(axis=1) * moments.rounding_error[:, 4:10].max(axis=1)
-    error = (moments.rounding_error[:, THIRD_MOMENT_INDEX] + of_second[:, None, None, None]) / total[
-        :, None, None, None
-    ]
+    error = (
+        moments.rounding_error[:, THIRD_MOMENT_INDEX] + of_second[:, None, None, None]
+    ) / total[:, None, None, None]
     squares = (axes[:, :, None] * axes[:, None]).reshape(count, 9, 3)
     unit = size[:, :, None] * size[:, PARTNER_AXES] ** 2
     turned = axes.transpose(0, 2, 1)
     scores = turned @ third.reshape(count, 3, 9) @ squares
     score_error = np.abs(turned) @ error.reshape(count, 3, 9) @ np.abs(squares)
-    scores, score_error = scores[:, OWN_AXIS, PARTNER_AXES] / unit, score_error[:, OWN_AXIS, PARTNER_AXES] / unit
+    scores = scores[:, OWN_AXIS, PARTNER_AXES] / unit
+    score_error = score_error[:, OWN_AXIS, PARTNER_AXES] / unit
     for name, axis in FIXED_AXIS.items():
         bodies = np.flatnonzero(symmetry == SYMMETRIES.index(name))
         if len(bodies):
@@ -194,7 +234,8 @@ def _third_scores(
 
 def _allowed_signs(scores: NDArray, unsure: NDArray) -> NDArray[np.bool_]:
     """Return an (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores; (n,) `unsure` is their noise."""
-    size, counts = np.abs(scores), scores != 0.0
+    size = np.abs(scores)
+    counts = scores != 0.0
     # The weakest of three is dropped; the last of equal ones.
     weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL) + unsure[:, None]
     last = 2 - weak[:, ::-1].argmax(axis=1)
@@ -202,7 +243,9 @@ def _allowed_signs(scores: NDArray, unsure: NDArray) -> NDArray[np.bool_]:
     return ((HALF_TURN_SIGNS * scores[:, None] > 0.0) | ~counts[:, None]).all(axis=2)
 
 
-def align_frames(frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:
+def align_frames(
+    frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
+) -> NDArray[np.float64]:
     """Return (m, k, 3, 3) frames, turned so that their axes fixed by second moments lie along the bodies' axes."""
     is_fixed = IS_FIXED[fixed.symmetry[bodies]]
     if not is_fixed.any():
@@ -221,11 +264,14 @@ def align_frames(frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.i
             side = frames[alone, :, :, first]
             side = side - pole * np.einsum("mka,mka->mk", pole, side)[..., None]
             side /= lengths(side)
-            frames[alone, :, :, first], frames[alone, :, :, second] = side, cross_rows(pole, side)
+            frames[alone, :, :, first] = side
+            frames[alone, :, :, second] = cross_rows(pole, side)
     return frames
 
 
-def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: NDArray) -> NDArray[np.float64]:
+def complete_free_axes(
+    frames: NDArray, free: tuple[int, ...], preferred_axes: NDArray
+) -> NDArray[np.float64]:
     """Return the (..., 3, 3) frames with their free axes, if any, turned nearest to the preferred ones."""
     if not free:
         return frames
@@ -237,12 +283,16 @@ def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: N
     completed = np.array(np.broadcast_to(frames, shape))
     fixed = completed[..., 3 - first - second]
     # (first, second, fixed) is right-handed for both pairs: maximize first·p1 + (fixed x first)·p2 over the plane.
-    wish = _across(preferred_axes[..., first] + cross_rows(preferred_axes[..., second], fixed), fixed)
+    wish = _across(
+        preferred_axes[..., first] + cross_rows(preferred_axes[..., second], fixed), fixed
+    )
     # half a turn away any direction is as near: the one along a preferred axis is taken
     opposite = np.linalg.norm(wish, axis=-1) < 1e-6
     if opposite.any():
         cosines = np.abs(np.einsum("...a,...ai->...i", fixed, preferred_axes))
-        nearest = np.take_along_axis(preferred_axes, cosines.argmin(axis=-1)[..., None, None], -1)[..., 0]
+        nearest = np.take_along_axis(preferred_axes, cosines.argmin(axis=-1)[..., None, None], -1)[
+            ..., 0
+        ]
         wish = np.where(opposite[..., None], _across(nearest, fixed), wish)
     completed[..., first] = wish / lengths(wish)
     completed[..., second] = cross_rows(fixed, completed[..., first])
@@ -254,7 +304,9 @@ def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
     return vectors - axis * np.einsum("...a,...a->...", axis, vectors)[..., None]
 
 
-def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike) -> NDArray[np.float64]:
+def nearest_frames(
+    candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
+) -> NDArray[np.float64]:
     """Return (m, 3, 3) frames, one of each row of (m, k, 3, 3) candidates, nearest to the (m, 3, 3) preferred axes.
 
     Among equally near frames the choice is the frame whose axes, in order, point along the preferred axes rather than
@@ -264,16 +316,21 @@ def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
     if candidates.shape[1] == 1:
         return candidates[:, 0] + 0.0
     local = preferred_axes.transpose(0, 2, 1)[:, None] @ candidates
-    equal = EQUAL_TRACE_ATOL + np.minimum(4.0 * np.asarray(tilt).reshape(-1, 1), MAX_TRACE_AMBIGUITY)
+    equal = EQUAL_TRACE_ATOL + np.minimum(
+        4.0 * np.asarray(tilt).reshape(-1, 1), MAX_TRACE_AMBIGUITY
+    )
     turns = local.trace(axis1=2, axis2=3)
     near = turns > turns.max(axis=1, keepdims=True) - equal
     size = np.abs(local)
     row = (size > size.max(axis=2, keepdims=True) - equal[..., None, None]).argmax(axis=2)
-    body, candidate = np.arange(len(local))[:, None, None], np.arange(local.shape[1])[:, None]
+    body = np.arange(len(local))[:, None, None]
+    candidate = np.arange(local.shape[1])[:, None]
     is_along = local[body, candidate, row, AXES] > 0.0
     rank = np.where(near, is_along @ AXIS_RANK, -1)
     near = rank == rank.max(axis=1, keepdims=True)
-    for entry in local.reshape(*local.shape[:2], 9).transpose(2, 0, 1):  # several frames may still be left
+    for entry in local.reshape(*local.shape[:2], 9).transpose(
+        2, 0, 1
+    ):  # several frames may still be left
         entry = np.where(near, entry, -np.inf)
         near = entry > entry.max(axis=1, keepdims=True) - equal
     return candidates[body[:, 0, 0], near.argmax(axis=1)] + 0.0  # no negative zeros

@@ -38,10 +38,19 @@ from .settings import Settings
 # Up to so many faces, higher moments for a principal frame take negligible time.
 MAX_FACES_HIGH_ORDER = 20_000
 NO_AXES_FIXED = "isotropic"
-MAX_CENTER_BOUND = 1e-3  # relative to the largest radius of gyration: the center is uncertain above it
+MAX_CENTER_BOUND = (
+    1e-3  # relative to the largest radius of gyration: the center is uncertain above it
+)
 # Error bounds are compared with these sizes, and shown as shares of them.
-BOUNDED = ("volume", "value"), ("area", "value"), ("smallest principal moment", "value"), ("center of mass", "size")
-Extent = tuple[float, float, float]  # a volume or area, and the bounds of rounding and of float32 coordinates
+BOUNDED = (
+    ("volume", "value"),
+    ("area", "value"),
+    ("smallest principal moment", "value"),
+    ("center of mass", "size"),
+)
+Extent = tuple[
+    float, float, float
+]  # a volume or area, and the bounds of rounding and of float32 coordinates
 
 
 def build_measurement(
@@ -53,7 +62,8 @@ def build_measurement(
     **fields: Any,
 ) -> Measurement:
     """Return a measurement with volume, area and bounds from the moments and properties; other fields as given."""
-    rounding, moved = mass_properties.rounding_error, mass_properties.input_error
+    rounding = mass_properties.rounding_error
+    moved = mass_properties.input_error
     known: dict[str, Any] = {"volume_moments": volume, "area_moments": area}
     return Measurement(
         volume=float(volume.raw[0]),
@@ -68,9 +78,13 @@ def build_measurement(
     )
 
 
-def measure_body(body: Body, settings: Settings, *, findings: tuple[Finding, ...] = (), **fields: Any) -> Measurement:
+def measure_body(
+    body: Body, settings: Settings, *, findings: tuple[Finding, ...] = (), **fields: Any
+) -> Measurement:
     """Return the measurement of a body, with moments to an order; fields: name, type, frame, fingerprint."""
-    shell, wire, thin = settings.kind == "shell", settings.kind == "wire", _is_thin(body, settings)
+    shell = settings.kind == "shell"
+    wire = settings.kind == "wire"
+    thin = _is_thin(body, settings)
     solid = body.wall or body.volume
     measured = find_extent(body, settings)
     moments, factor, density = _weigh(body, measured, settings)
@@ -83,10 +97,19 @@ def measure_body(body: Body, settings: Settings, *, findings: tuple[Finding, ...
         refine=None if shell or body.mass is not None else body.third_order,
         higher=higher if uses_high_order else None,
     )
-    left_open = settings.axes and not uses_high_order and higher is not None and not properties.principal.is_unique
-    volume_moments, area_moments = None if thin else solid, body.area
+    left_open = (
+        settings.axes
+        and not uses_high_order
+        and higher is not None
+        and not properties.principal.is_unique
+    )
+    volume_moments = None if thin else solid
+    area_moments = body.area
     if settings.order is not None:
-        volume_moments, area_moments = _to_order(body, settings, settings.order) or (volume_moments, area_moments)
+        volume_moments, area_moments = _to_order(body, settings, settings.order) or (
+            volume_moments,
+            area_moments,
+        )
     given = DENSITY_FROM_VALUE if settings.mass is None else DENSITY_FROM_MASS
     return build_measurement(
         kind=settings.kind,
@@ -139,16 +162,27 @@ def measure_total(
         mass_moments=(mass, 1.0),
         health=health or MeshHealth(closed=False, components=0),
         rotation=rotation,
-        **({"method": Method(Procedure.ASSEMBLY), "density_from": finding(DENSITY_FROM_MEMBERS)} | fields),
+        **(
+            {"method": Method(Procedure.ASSEMBLY), "density_from": finding(DENSITY_FROM_MEMBERS)}
+            | fields
+        ),
     )
 
 
-def find_large_bounds(volume: Moments, area: Moments, properties: MassProperties) -> list[tuple[Finding, ...]]:
+def find_large_bounds(
+    volume: Moments, area: Moments, properties: MassProperties
+) -> list[tuple[Finding, ...]]:
     """Return for each of n stacked bodies the findings about error bounds that are large for its values."""
-    errors, principal = (properties.rounding_error, properties.input_error), properties.principal.moments.reshape(-1, 3)
-    inertia, center = (sum([np.atleast_1d(bounds[name]) for bounds in errors]) for name in ("inertia", "center"))
+    errors = (properties.rounding_error, properties.input_error)
+    principal = properties.principal.moments.reshape(-1, 3)
+    inertia, center = (
+        sum([np.atleast_1d(bounds[name]) for bounds in errors]) for name in ("inertia", "center")
+    )
     with np.errstate(divide="ignore", invalid="ignore"):
-        shares = [(each.rounding_error + each.input_error)[:, 0] / each.raw[:, 0] for each in (volume, area)]
+        shares = [
+            (each.rounding_error + each.input_error)[:, 0] / each.raw[:, 0]
+            for each in (volume, area)
+        ]
         shares += [inertia / principal[:, 0], center / np.sqrt(principal[:, 2] / properties.mass)]
     # A sheet's volume is as uncertain as its area; a straight wire has no moment about its axis.
     limits = [1.0 if volume.measure == Measure.VOLUME else np.inf, 1.0]
@@ -156,7 +190,9 @@ def find_large_bounds(volume: Moments, area: Moments, properties: MassProperties
     found: list[tuple[Finding, ...]] = [()] * len(volume.raw)
     for body, i in np.argwhere(np.greater(np.transpose(shares), limits)).tolist():
         quantity, whole = BOUNDED[i]
-        found[body] += (finding(LARGE_BOUND, quantity=quantity, whole=whole, share=float(shares[i][body])),)
+        found[body] += (
+            finding(LARGE_BOUND, quantity=quantity, whole=whole, share=float(shares[i][body])),
+        )
     return found
 
 
@@ -184,7 +220,9 @@ def find_extent(body: Body, settings: Settings) -> Moments:
     """Return the moments of volume, sheet, wall or length that density multiplies; ReadError if they are zero."""
     if body.length is not None:
         return body.length
-    volume = body.area * settings.thickness if _is_thin(body, settings) else body.wall or body.volume
+    volume = (
+        body.area * settings.thickness if _is_thin(body, settings) else body.wall or body.volume
+    )
     if not volume.raw[0] > 0.0:
         if body.face_count and not body.area.total > 0.0:
             raise ReadError(NO_FACE_AREA)
@@ -203,10 +241,13 @@ def _is_thin(body: Body, settings: Settings) -> bool:
 def _weigh(body: Body, measured: Moments, settings: Settings) -> tuple[Moments, float, float]:
     """Return the moments that carry the mass, the mass in kg per unit of them, and the density."""
     if body.mass is not None:
-        moments, factor = body.mass, 1.0 if settings.mass is None else settings.mass / body.mass.total
+        moments = body.mass
+        factor = 1.0 if settings.mass is None else settings.mass / body.mass.total
         density = body.mass.total * factor / measured.total
     else:
-        density = settings.density or 0.0 if settings.mass is None else settings.mass / measured.total
+        density = (
+            settings.density or 0.0 if settings.mass is None else settings.mass / measured.total
+        )
         thin = _is_thin(body, settings)
         moments, factor = (body.area, density * settings.thickness) if thin else (measured, density)
     if not density > 0.0:
@@ -216,7 +257,12 @@ def _weigh(body: Body, measured: Moments, settings: Settings) -> tuple[Moments, 
 
 def _higher(body: Body, shell: bool) -> Callable[[], Moments | OwnMoments] | None:
     """Return a function that computes higher moments for the principal frame, None if they are unknown."""
-    if not body.any_order or body.mass is not None or body.length is not None or body.wall is not None:
+    if (
+        not body.any_order
+        or body.mass is not None
+        or body.length is not None
+        or body.wall is not None
+    ):
         return None  # walls have none either, because their axes follow a slider
 
     def frame_moments() -> Moments | OwnMoments:
@@ -242,7 +288,10 @@ def _to_order(body: Body, settings: Settings, order: int) -> tuple[Moments | Non
     with np.errstate(over="ignore", invalid="ignore"):
         volume, area = body.moments(order, shell or settings.surface)
     for moments in (volume, area):
-        if moments is not None and not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
+        if (
+            moments is not None
+            and not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all()
+        ):
             raise ReadError(MOMENTS_OVERFLOW, order=order)
     return None if _is_thin(body, settings) else volume, area or body.area
 
@@ -263,7 +312,10 @@ def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
     central = mass.truncate(2).about_center()
     if np.abs(central.raw[4:]).max() > 4.0 * central.rounding_error[4:].max():
         return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
-    bounds = {"mass": float(mass.rounding_error[0]), "center": 4.0 * U * float(np.abs(central.about).sum())}
+    bounds = {
+        "mass": float(mass.rounding_error[0]),
+        "center": 4.0 * U * float(np.abs(central.about).sum()),
+    }
     return MassProperties(
         mass=mass.total,
         center=central.about,
@@ -339,5 +391,11 @@ def mass_properties(points: ArrayLike, triangles: ArrayLike, *, density: float) 
         face_count=len(solid.repaired_surface.triangles),
         solid=solid,
     )
-    place = {"name": "", "type": "MESH", "fingerprint": "", "rotation": np.eye(3), "location": np.zeros(3)}
+    place = {
+        "name": "",
+        "type": "MESH",
+        "fingerprint": "",
+        "rotation": np.eye(3),
+        "location": np.zeros(3),
+    }
     return measure_body(body, Settings(density=float(density)), **place)

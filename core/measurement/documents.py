@@ -27,7 +27,10 @@ STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version"
 
 # Content of the file of a Fourier transform.
 SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
-FLAT_SPECTRUM_ARRAYS = ("axes", "origin")  # Additional arrays of a flat shape: its plane in the world.
+FLAT_SPECTRUM_ARRAYS = (
+    "axes",
+    "origin",
+)  # Additional arrays of a flat shape: its plane in the world.
 
 # An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break, so none matches.
 # Patterns are compiled at their first use: registration reads the constants of this module alone.
@@ -88,7 +91,9 @@ def document(
 def failed_document(file: str, reason: str, status: str, **values: Any) -> dict[str, Any]:
     """Return the document of a file that was not measured; values: of `document`, such as `blender` and `frame`."""
     total: dict[str, Any] = {"mass": 0.0, "volume": 0.0, "area": 0.0}
-    total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry"))
+    total |= dict.fromkeys(
+        ("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry")
+    )
     total |= {"findings": [], "warnings": [], "notes": []}
     errors = [{"name": None, "reason": reason}]
     return document([], total, errors, file=file, status=status, **values)
@@ -96,7 +101,8 @@ def failed_document(file: str, reason: str, status: str, **values: Any) -> dict[
 
 def radius_of_gyration(record: dict[str, Any]) -> float | None:
     """Return the radius of gyration of a body's record in m, or None without a positive mass and known moments."""
-    mass, moments = record["mass"], record["principal_moments"]
+    mass = record["mass"]
+    moments = record["principal_moments"]
     if not mass or not moments or None in moments:
         return None
     square = sum(moments) / (2.0 * mass)
@@ -106,14 +112,20 @@ def radius_of_gyration(record: dict[str, Any]) -> float | None:
 def bound_of(record: dict[str, Any], name: str) -> float | None:
     """Return the error bound of a record's number, rounding plus input, or None if neither is known."""
     bounds = record["error_bound"] or {}
-    known = [one for one in (bounds.get(name), (bounds.get("input") or {}).get(name)) if one is not None]
+    known = [
+        one for one in (bounds.get(name), (bounds.get("input") or {}).get(name)) if one is not None
+    ]
     return sum(known) if known else None
 
 
 def count_findings(document: dict[str, Any]) -> Counter[tuple[str, str]]:
     """Return the counts of the records with a finding, and of the total, by severity and code."""
     records = [*document["objects"], *document.get("flat", ()), document.get("total", {})]
-    return Counter(pair for one in records for pair in {(f["severity"], f["code"]) for f in one.get("findings", ())})
+    return Counter(
+        pair
+        for one in records
+        for pair in {(f["severity"], f["code"]) for f in one.get("findings", ())}
+    )
 
 
 def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
@@ -173,7 +185,10 @@ def _csv_rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
                 yield {**place, **_columns(entry)}
         for entry in file_document.get("flat", ()):
             yield {**place, **_flat_columns(entry)}
-        for column, entries in (("left_out", file_document["left_out"]), ("error", file_document["errors"])):
+        for column, entries in (
+            ("left_out", file_document["left_out"]),
+            ("error", file_document["errors"]),
+        ):
             for entry in entries:
                 yield {**place, "name": entry["name"], column: entry["reason"]}
 
@@ -186,8 +201,18 @@ _COLUMNS = (
     *(f"principal_axis_{number}_{axis}" for number in (1, 2, 3) for axis in "xyz"),
     "symmetry",
 )  # fmt: skip
-_OPTIONAL_COLUMNS = ("armature", "density_from", "thickness", "length", "linear_density", "principal_axes_unique")
-_LAST_COLUMNS = ("warnings", "error")  # All other columns, such as notes and findings, come before these.
+_OPTIONAL_COLUMNS = (
+    "armature",
+    "density_from",
+    "thickness",
+    "length",
+    "linear_density",
+    "principal_axes_unique",
+)
+_LAST_COLUMNS = (
+    "warnings",
+    "error",
+)  # All other columns, such as notes and findings, come before these.
 
 
 def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
@@ -208,7 +233,8 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
     for number in range(3):
         row[f"principal_moment_{number + 1}"] = entry["principal_moments"][number]
         row |= {
-            f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number] for i, axis in enumerate("xyz")
+            f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number]
+            for i, axis in enumerate("xyz")
         }
     row |= _nested("display_mesh", entry.get("display_mesh", {}))
     row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"] or {})
@@ -216,7 +242,10 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
         powers = entry.get("moments", {}).get(name, {})
         row |= {f"{name}_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
     if entry.get("pose"):
-        row |= {f"pose_{name}": entry["pose"].get(name) for name in ("unique", "symmetry", "symmetry_order")}
+        row |= {
+            f"pose_{name}": entry["pose"].get(name)
+            for name in ("unique", "symmetry", "symmetry_order")
+        }
         row |= {
             f"pose_matrix_{i + 1}{j + 1}": value
             for i, line in enumerate(entry["pose"]["matrix"])
@@ -227,7 +256,11 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
 
 def _shared_columns(entry: dict[str, Any]) -> dict[str, Any]:
     codes = {"findings": [one["code"] for one in entry["findings"]]}
-    return _nested("signature", entry.get("signature") or {}) | codes | {k: entry[k] for k in ("notes", "warnings")}
+    return (
+        _nested("signature", entry.get("signature") or {})
+        | codes
+        | {k: entry[k] for k in ("notes", "warnings")}
+    )
 
 
 def _nested(prefix: str, values: dict[Any, Any]) -> dict[str, Any]:
@@ -235,7 +268,11 @@ def _nested(prefix: str, values: dict[Any, Any]) -> dict[str, Any]:
     for name, value in values.items():
         if isinstance(value, list):
             value = dict(enumerate(value, 1))
-        row |= _nested(f"{prefix}_{name}", value) if isinstance(value, dict) else {f"{prefix}_{name}": value}
+        row |= (
+            _nested(f"{prefix}_{name}", value)
+            if isinstance(value, dict)
+            else {f"{prefix}_{name}": value}
+        )
     return row
 
 

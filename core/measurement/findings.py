@@ -12,7 +12,8 @@ NO_VOLUME = error(
 )
 ZERO_QUANTITY = error("zero_quantity", "The {quantity:word} is zero. Set it.")
 WALL_UNSUPPORTED = error(
-    "wall_unsupported", "{quantity:word} is not available for walls of real thickness. Set Wall to Thin."
+    "wall_unsupported",
+    "{quantity:word} is not available for walls of real thickness. Set Wall to Thin.",
 )
 LARGE_BOUND = warning(
     "large_bound",

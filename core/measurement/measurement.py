@@ -21,7 +21,10 @@ from ..verdict.method import Method
 from .findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, WALL_UNSUPPORTED
 
 # Sources of a density that is the same everywhere.
-UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = finding(DENSITY_FROM_VALUE), finding(DENSITY_FROM_MASS)
+UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = (
+    finding(DENSITY_FROM_VALUE),
+    finding(DENSITY_FROM_MASS),
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +131,11 @@ class Measurement:
         if self.higher_mass is not None:
             return self.higher_mass.truncate(order)
         extent = self.area_moments if self.volume_moments is None else self.volume_moments
-        if self.density_from not in UNIFORM_DENSITIES or self.length is not None or extent.order < order:
+        if (
+            self.density_from not in UNIFORM_DENSITIES
+            or self.length is not None
+            or extent.order < order
+        ):
             return None
         return replace(extent.truncate(order), measure=Measure.MASS) * factor
 

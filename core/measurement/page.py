@@ -26,7 +26,12 @@ _PICTURE = re.compile(r"data:image/png;base64,[A-Za-z0-9+/=]+")
 _COLUMNS = (
     *(("picture", ""), ("file", "File"), ("name", "Name"), ("status", "Status")),
     *(("verdict", "Verdict"), ("method", "Method")),
-    *(("mass", "Mass, kg"), ("volume", "Volume, m³"), ("area", "Area, m²"), ("size", "Gyration, m")),
+    *(
+        ("mass", "Mass, kg"),
+        ("volume", "Volume, m³"),
+        ("area", "Area, m²"),
+        ("size", "Gyration, m"),
+    ),
     *(("bound", "Bound, of volume"), ("remarks", "Remarks")),
 )
 _NUMERIC = {"mass", "volume", "area", "size", "bound"}
@@ -95,7 +100,9 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
         origins[_origin(document)] += 1
         codes += count_findings(document)
     digest = base64.b64encode(hashlib.sha256(_SCRIPT.encode()).digest()).decode()
-    policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{}'".format(digest)
+    policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{}'".format(
+        digest
+    )
     yield '<!doctype html><!-- Body Moments: report -->\n<html lang="en"><head><meta charset="utf-8">\n'
     yield '<meta http-equiv="Content-Security-Policy" content="{}">\n'.format(policy)
     yield "<title>Body Moments</title><style>{}</style></head><body>\n".format(_STYLE)
@@ -104,10 +111,15 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
         counted(statuses.total(), "file"), counts or "-"
     )
     yield "<p>{:%Y-%m-%d %H:%M} UTC</p>\n".format(datetime.now(UTC))
-    yield from ("<p>{}: {}</p>\n".format(counted(n, "file"), html.escape(visible(one))) for one, n in origins.items())
+    yield from (
+        "<p>{}: {}</p>\n".format(counted(n, "file"), html.escape(visible(one)))
+        for one, n in origins.items()
+    )
     yield "<details><summary>{}</summary><ul>\n".format(counted(len(codes), "finding"))
     yield from (
-        '<li class="{0}">{2} × {1} ({0})</li>\n'.format(html.escape(level), html.escape(visible(code)), number)
+        '<li class="{0}">{2} × {1} ({0})</li>\n'.format(
+            html.escape(level), html.escape(visible(code)), number
+        )
         for (level, code), number in codes.most_common()
     )
     yield "</ul></details>\n"
@@ -127,27 +139,45 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 def _origin(document: dict[str, Any]) -> str:
     """Return the versions and the options with which a document was made."""
     run = document.get("run", {})
-    words = [name if value is True else "{} {}".format(name, value) for name, value in run.get("options", {}).items()]
-    versions = "Blender {}, Body Moments {}".format(document["blender"] or "-", run.get("addon", "-"))
+    words = [
+        name if value is True else "{} {}".format(name, value)
+        for name, value in run.get("options", {}).items()
+    ]
+    versions = "Blender {}, Body Moments {}".format(
+        document["blender"] or "-", run.get("addon", "-")
+    )
     return "; ".join([versions, " ".join(words) or "no options"])
 
 
 def _table_rows(document: dict[str, Any]) -> Iterator[str]:
-    file, status = document["file"] or "", document["status"]
+    file = document["file"] or ""
+    status = document["status"]
     for entry in document["objects"]:
-        bound, volume = bound_of(entry, "volume"), entry["volume"]
-        values = {"mass": entry["mass"], "volume": volume, "area": entry["area"], "size": radius_of_gyration(entry)}
+        bound = bound_of(entry, "volume")
+        volume = entry["volume"]
+        values = {
+            "mass": entry["mass"],
+            "volume": volume,
+            "area": entry["area"],
+            "size": radius_of_gyration(entry),
+        }
         values["bound"] = bound / abs(volume) if bound is not None and volume else None
         methods = entry.get("verdict", ""), entry["method"]
         yield _row(_picture(entry), file, entry["name"], status, methods, values, _remarks(entry))
     for entry in document.get("flat", ()):
-        yield _row("", file, entry["name"], status, ("", "flat"), {"area": entry["area"]}, _remarks(entry))
+        yield _row(
+            "", file, entry["name"], status, ("", "flat"), {"area": entry["area"]}, _remarks(entry)
+        )
     for error in document["errors"]:
-        yield _row("", file, error["name"] or "", status, ("", ""), {}, [("error", error["reason"])])
+        yield _row(
+            "", file, error["name"] or "", status, ("", ""), {}, [("error", error["reason"])]
+        )
 
 
 def _remarks(entry: dict[str, Any]) -> list[tuple[str, str]]:
-    return [("warning", text) for text in entry["warnings"]] + [("", text) for text in entry["notes"]]
+    return [("warning", text) for text in entry["warnings"]] + [
+        ("", text) for text in entry["notes"]
+    ]
 
 
 def _row(
@@ -168,9 +198,13 @@ def _row(
         value = values.get(column)
         key, shown = ("", "") if value is None else (repr(value), "{:.6g}".format(value))
         cells.append('<td class="number" data-key="{}">{}</td>'.format(key, shown))
-    said = "".join('<p class="{}">{}</p>'.format(kind, html.escape(visible(text))) for kind, text in remarks)
+    said = "".join(
+        '<p class="{}">{}</p>'.format(kind, html.escape(visible(text))) for kind, text in remarks
+    )
     cells.append('<td data-key="{}">{}</td>'.format(len(remarks), said))
-    head = '<tr data-status="{}" data-text="{}">'.format(html.escape(status), html.escape(visible(words)))
+    head = '<tr data-status="{}" data-text="{}">'.format(
+        html.escape(status), html.escape(visible(words))
+    )
     return head + "".join(cells) + "</tr>\n"
 
 
@@ -179,11 +213,15 @@ def _picture(entry: dict[str, Any]) -> str:
     thumbnail = entry.get("thumbnail")
     if isinstance(thumbnail, str) and _PICTURE.fullmatch(thumbnail):
         return '<img alt="" src="{}">'.format(thumbnail)
-    mass, moments, axes = entry["mass"], entry["principal_moments"], entry["principal_axes"]
+    mass = entry["mass"]
+    moments = entry["principal_moments"]
+    axes = entry["principal_axes"]
     if radius_of_gyration(entry) is None or not axes or None in sum(axes, []):
         return ""
     half = sum(moments) / 2.0
-    sides = [math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments]  # Half sides of a box.
+    sides = [
+        math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments
+    ]  # Half sides of a box.
     scale = 40.0 / (max(sides) * 1.8 or 1.0)
     columns = [[row[number] for row in axes] for number in range(3)]
 
@@ -192,7 +230,10 @@ def _picture(entry: dict[str, Any]) -> str:
         return "{:.2f},{:.2f}".format(0.8 * x - 0.6 * y, -(0.36 * x + 0.48 * y + 0.8 * z))
 
     def along(*factors: float) -> list[float]:
-        return [sum(f * s * column[i] for f, s, column in zip(factors, sides, columns)) * scale for i in range(3)]
+        return [
+            sum(f * s * column[i] for f, s, column in zip(factors, sides, columns)) * scale
+            for i in range(3)
+        ]
 
     corners = {(a, b, c): flat(along(a, b, c)) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)}
     edges = [pair for pair in combinations(corners, 2) if sum(a != b for a, b in zip(*pair)) == 1]
@@ -200,5 +241,7 @@ def _picture(entry: dict[str, Any]) -> str:
     shown = '<path d="{}" fill="none" stroke="#888"/>'.format("".join(lines))
     for column, color in zip(columns, ("#d64040", "#48a048", "#4860d6")):
         end = [42.0 * value for value in column]
-        shown += '<path d="M{}L{}" stroke="{}" stroke-width="2"/>'.format(flat([-v for v in end]), flat(end), color)
+        shown += '<path d="M{}L{}" stroke="{}" stroke-width="2"/>'.format(
+            flat([-v for v in end]), flat(end), color
+        )
     return '<svg viewBox="-50 -50 100 100">{}</svg>'.format(shown)

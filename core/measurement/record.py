@@ -33,7 +33,8 @@ from .documents import plain
 from .measurement import UNIFORM_DENSITIES, Measurement
 
 MAX_ELEMENTS = 1000  # Limit for one finding.
-_FIRST, _SECOND = ((1, 0, 0), (0, 1, 0)), ((2, 0, 0), (0, 2, 0), (1, 1, 0))
+_FIRST = ((1, 0, 0), (0, 1, 0))
+_SECOND = ((2, 0, 0), (0, 2, 0), (1, 1, 0))
 SHIFT_ROUNDINGS = 16.0  # Rounding of the shift from plane to frame, in u of the distance.
 
 
@@ -60,7 +61,11 @@ def record(
         "verdict": str(find_verdict(measurement.method, measurement.findings)),
         "method": str(measurement.method),
         "density": measurement.density,
-        **({} if measurement.density_from in UNIFORM_DENSITIES else {"density_from": str(measurement.density_from)}),
+        **(
+            {}
+            if measurement.density_from in UNIFORM_DENSITIES
+            else {"density_from": str(measurement.density_from)}
+        ),
         "mass": properties.mass,
         "volume": measurement.volume,
         "area": measurement.area,
@@ -90,7 +95,8 @@ def record(
         if mass is not None:
             domains["mass"] = mass
         if frame == "object":
-            axes, origin = measurement.rotation, measurement.location + measurement.rotation @ point
+            axes = measurement.rotation
+            origin = measurement.location + measurement.rotation @ point
             placed = {name: moments.in_frame(axes, origin) for name, moments in domains.items()}
         else:
             placed = {name: moments.about_point(point) for name, moments in domains.items()}
@@ -116,13 +122,19 @@ def described(findings: Iterable[Finding]) -> dict[str, list]:
 def add_findings(entry: dict[str, Any], findings: Iterable[Finding]) -> None:
     """Add findings to a record, unless it has them already."""
     for finding in findings:
-        record = {"code": finding.code, "severity": str(severity(finding)), "message": sentence(finding)}
+        record = {
+            "code": finding.code,
+            "severity": str(severity(finding)),
+            "message": sentence(finding),
+        }
         record["values"] = plain(finding.values)
         if len(finding.elements):
             record["elements"] = plain(finding.elements[:MAX_ELEMENTS])
         if record not in entry["findings"]:
             entry["findings"].append(record)
-            entry["notes" if record["severity"] == Severity.NOTE else "warnings"].append(record["message"])
+            entry["notes" if record["severity"] == Severity.NOTE else "warnings"].append(
+                record["message"]
+            )
 
 
 def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ()) -> dict[str, Any]:
@@ -131,11 +143,15 @@ def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ())
         "mass": math.fsum(measurement.mass_properties.mass for measurement in measurements),
         "volume": math.fsum(measurement.volume for measurement in measurements),
         "area": math.fsum(measurement.area for measurement in measurements),
-        **dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry")),
+        **dict.fromkeys(
+            ("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry")
+        ),
     }
     if measurements:
         with suppress(MeasureError):  # together they have no mass, and so no center
-            entry.update(_inertial(combine([measurement.mass_moments for measurement in measurements])))
+            entry.update(
+                _inertial(combine([measurement.mass_moments for measurement in measurements]))
+            )
     return plain(entry) | described(findings)
 
 
@@ -152,7 +168,10 @@ def _inertial(properties: MassProperties) -> dict[str, Any]:
 
 
 def _point(
-    about: str | Sequence[float] | None, measurement: Measurement, properties: MassProperties, frame: str
+    about: str | Sequence[float] | None,
+    measurement: Measurement,
+    properties: MassProperties,
+    frame: str,
 ) -> NDArray[np.float64]:
     """Return the (3,) coordinates of the point `about` in the frame, by default the frame's origin."""
     if about == "center":
@@ -165,13 +184,20 @@ def _point(
 
 
 def _moments_record(
-    order: int, about: NDArray, domains: dict[str, Moments], powers: NDArray, rows: slice | NDArray = slice(None)
+    order: int,
+    about: NDArray,
+    domains: dict[str, Moments],
+    powers: NDArray,
+    rows: slice | NDArray = slice(None),
 ) -> dict[str, Any]:
     """Return a record's `moments` by powers "p,q,r", (K, d); rows: their places among the moments."""
     keys = [",".join(map(str, exponents)) for exponents in powers.tolist()]
 
     def tables(name: str) -> dict[str, dict[str, float]]:
-        return {domain: dict(zip(keys, getattr(each, name)[rows].tolist())) for domain, each in domains.items()}
+        return {
+            domain: dict(zip(keys, getattr(each, name)[rows].tolist()))
+            for domain, each in domains.items()
+        }
 
     bounds = {"error": tables("rounding_error"), "input": tables("input_error")}
     return {"order": order, "about": about, **tables("raw"), **bounds}
@@ -218,7 +244,9 @@ def flat_record(
         point = _plane_point(about, centroid, axes, location, frame[2])
         placed = moments.truncate(order).about_point(foot(plane, point))
         powers = multi_indices(2, order)
-        entry["moments"] = _moments_record(order, placed.about[:2], {"area": placed}, powers, plane_positions(order))
+        entry["moments"] = _moments_record(
+            order, placed.about[:2], {"area": placed}, powers, plane_positions(order)
+        )
     if invariants:
         entry["invariants"] = [
             {
@@ -239,7 +267,8 @@ def flat_record(
 def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict[str, float]:
     """Return bounds of area, centroid coordinates and second moments. bounds: of the central moments."""
     first, second = (
-        float(np.linalg.norm([bounds[monomial_index(*row)] for row in rows])) for rows in (_FIRST, _SECOND)
+        float(np.linalg.norm([bounds[monomial_index(*row)] for row in rows]))
+        for rows in (_FIRST, _SECOND)
     )
     return {
         "area": float(bounds[0]),
@@ -249,7 +278,11 @@ def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict
 
 
 def _plane_point(
-    about: str | Sequence[float] | None, centroid: NDArray, axes: NDArray, location: NDArray, own: NDArray
+    about: str | Sequence[float] | None,
+    centroid: NDArray,
+    axes: NDArray,
+    location: NDArray,
+    own: NDArray,
 ) -> NDArray[np.float64]:
     """Return the (3,) world position of the point `about`, not yet on the plane. own: the object's origin."""
     if about == "center":

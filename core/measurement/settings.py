@@ -57,7 +57,9 @@ class Settings(RequestedResults):
         is_shell = self.kind == "shell"
         density = None if self.varying else self.density
         # Blender's properties hold values with the shortest decimals.
-        density, mass = [None if value is None else shortest_decimal(value) for value in (density, self.mass)]
+        density, mass = [
+            None if value is None else shortest_decimal(value) for value in (density, self.mass)
+        ]
         used = [
             self.kind.upper(),
             density,

@@ -44,31 +44,44 @@ class SortedComponents:
 
 
 def sort_components(
-    points: NDArray[np.floating], triangles: NDArray[np.integer], component: NDArray[np.intp], number: int
+    points: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    component: NDArray[np.intp],
+    number: int,
 ) -> SortedComponents:
     """Sort triangles by component, and measure each component about one of its own vertices."""
     if np.any(component[1:] < component[:-1]):
         order = radix_argsort(component)
-        triangles, component = triangles[order], component[order]
+        triangles = triangles[order]
+        component = component[order]
     start = np.searchsorted(component, np.arange(number + 1))
     columns = np.ascontiguousarray(points.T, np.float64)
     origin = columns[:, triangles[start[:-1], 0]]
-    low, high = np.full((3, number), np.inf), np.full((3, number), -np.inf)
+    low = np.full((3, number), np.inf)
+    high = np.full((3, number), -np.inf)
     volume, area = np.zeros((2, number))
     for begin in range(0, len(triangles), TRIANGLES_PER_BLOCK):
         block_component = component[begin : begin + TRIANGLES_PER_BLOCK]
-        first = np.flatnonzero(np.concatenate([[True], block_component[1:] != block_component[:-1]]))
+        first = np.flatnonzero(
+            np.concatenate([[True], block_component[1:] != block_component[:-1]])
+        )
         at = block_component[first]
         index = triangles[begin : begin + TRIANGLES_PER_BLOCK].T.astype(np.intp, order="C")
         corner = [column.take(index) for column in columns]
         for k, (a, b, c) in enumerate(corner):
-            low[k, at] = np.minimum(low[k, at], np.minimum.reduceat(np.minimum(np.minimum(a, b), c), first))
-            high[k, at] = np.maximum(high[k, at], np.maximum.reduceat(np.maximum(np.maximum(a, b), c), first))
+            low[k, at] = np.minimum(
+                low[k, at], np.minimum.reduceat(np.minimum(np.minimum(a, b), c), first)
+            )
+            high[k, at] = np.maximum(
+                high[k, at], np.maximum.reduceat(np.maximum(np.maximum(a, b), c), first)
+            )
         b, c = ([x[k] - x[0] for x in corner] for k in (1, 2))
         normal = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]]
         height = sum(n * (x[0] - h[block_component]) for n, x, h in zip(normal, corner, origin))
         volume[at] += np.add.reduceat(height, first)
-        area[at] += np.add.reduceat(np.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2), first)
+        area[at] += np.add.reduceat(
+            np.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2), first
+        )
     return SortedComponents(triangles, component, start, low.T, high.T, volume / 6.0, area / 2.0)
 
 
@@ -89,21 +102,32 @@ class Bvh:
     follows. A leaf holds triangles `first` to `last`. low, high: (n, 3) boxes of nodes; inverted if a node is empty.
     """
 
-    def __init__(self, points: NDArray[np.floating], components: SortedComponents, selected: NDArray[np.bool_]) -> None:
-        self.origin = (components.low[selected].min(axis=0) + components.high[selected].max(axis=0)) / 2.0
+    def __init__(
+        self,
+        points: NDArray[np.floating],
+        components: SortedComponents,
+        selected: NDArray[np.bool_],
+    ) -> None:
+        self.origin = (
+            components.low[selected].min(axis=0) + components.high[selected].max(axis=0)
+        ) / 2.0
         self.vertex_columns = np.ascontiguousarray(points.T, np.float64) - self.origin[:, None]
         self._build_nodes(self._sort(components, selected), selected)
 
     def _sort(self, components: SortedComponents, selected: NDArray[np.bool_]) -> NDArray[np.intp]:
         """Sort the triangles by selected component and Morton order, set their boxes, and return (m,) components."""
-        ids, component = components.triangles, components.component
+        ids = components.triangles
+        component = components.component
         if not selected.all():
             triangle_rows = np.flatnonzero(selected[component])
-            ids, component = ids[triangle_rows], component[triangle_rows]
+            ids = ids[triangle_rows]
+            component = component[triangle_rows]
         low, high = np.empty((2, 3, len(ids)))
         code = np.zeros(len(ids), np.int64)
         corner = (components.low - self.origin).T
-        scale = 1023.0 / np.maximum((components.high - components.low).max(axis=1), 1023.0 * np.finfo(float).tiny)
+        scale = 1023.0 / np.maximum(
+            (components.high - components.low).max(axis=1), 1023.0 * np.finfo(float).tiny
+        )
         for begin in range(0, len(ids), TRIANGLES_PER_BLOCK):
             triangle_rows = slice(begin, begin + TRIANGLES_PER_BLOCK)
             index = ids[triangle_rows].T.astype(np.intp, order="C")
@@ -112,13 +136,16 @@ class Bvh:
                 np.minimum(np.minimum(a, b), c, out=low[k, triangle_rows])
                 np.maximum(np.maximum(a, b), c, out=high[k, triangle_rows])
                 cell = (
-                    0.5 * (low[k, triangle_rows] + high[k, triangle_rows]) - corner[k, component[triangle_rows]]
+                    0.5 * (low[k, triangle_rows] + high[k, triangle_rows])
+                    - corner[k, component[triangle_rows]]
                 ) * scale[component[triangle_rows]]
                 code[triangle_rows] |= spread_bits(cell.astype(np.int64)) << k
         order = radix_argsort(code)
         order = order[radix_argsort(component[order])]
-        self.ids, component = ids[order].T.astype(np.intp, order="C"), component[order]
-        self.bottom, self.top = low[:, order], high[:, order]
+        self.ids = ids[order].T.astype(np.intp, order="C")
+        component = component[order]
+        self.bottom = low[:, order]
+        self.top = high[:, order]
         return component
 
     def _build_nodes(self, component: NDArray[np.intp], selected: NDArray[np.bool_]) -> None:
@@ -133,7 +160,8 @@ class Bvh:
         count = int(offset[-1])
         self.root = np.full(len(selected), -1)
         self.root[present] = offset[:-1]
-        self.low, self.high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+        self.low = np.full((count, 3), np.inf)
+        self.high = np.full((count, 3), -np.inf)
         self.first, self.last = np.zeros((2, count), np.intp)
         tree = np.repeat(np.arange(len(present)), 2 * width - 1)
         self.child = 2 * np.arange(count) - offset[tree] + 1
@@ -161,8 +189,12 @@ class Bvh:
     @cached_property
     def _shadows(self) -> NDArray[np.float64]:
         """The (5, n) top heights of the nodes' boxes, and the least and largest `_across` coordinates in them."""
-        (*low, bottom), (*high, top) = self.low.T, self.high.T
-        sides = [(below - slope * top, above - slope * bottom) for below, above, slope in zip(low, high, RAY_SLOPES)]
+        (*low, bottom) = self.low.T
+        (*high, top) = self.high.T
+        sides = [
+            (below - slope * top, above - slope * bottom)
+            for below, above, slope in zip(low, high, RAY_SLOPES)
+        ]
         return np.stack([top, *sides[0], *sides[1]])
 
     def winding_numbers(
@@ -172,7 +204,8 @@ class Bvh:
         winding = np.zeros(len(query_points), np.intp)
         sure = np.ones(len(query_points), bool)
         query = np.ascontiguousarray(query_points.T)
-        height, (u, v) = query[2] - tolerance, _across(query)
+        height = query[2] - tolerance
+        (u, v) = _across(query)
         pieces = _batches(np.arange(len(query_points)), self.root[component])
         work = 0
         while pieces:
@@ -184,29 +217,45 @@ class Bvh:
                 break
             top, left, right, front, back = self._shadows.take(node, axis=1)
             x, y = u.take(place), v.take(place)
-            hit = (top >= height.take(place)) & (left <= x) & (right >= x) & (front <= y) & (back >= y)
+            hit = (
+                (top >= height.take(place))
+                & (left <= x)
+                & (right >= x)
+                & (front <= y)
+                & (back >= y)
+            )
             place, node = place[hit], node[hit]
             child = self.child.take(node)
             leaf = child == -1
             if leaf.any():
-                for at, leaves in _batches(place[leaf], node[leaf], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF):
+                for at, leaves in _batches(
+                    place[leaf], node[leaf], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF
+                ):
                     self._count_crossings(query, at, leaves, tolerance, winding, sure)
             place, child = place[~leaf], child[~leaf]
             pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
         return winding, sure
 
     def _count_crossings(
-        self, query: NDArray, place: NDArray, leaf: NDArray, tolerance: float, winding: NDArray, sure: NDArray
+        self,
+        query: NDArray,
+        place: NDArray,
+        leaf: NDArray,
+        tolerance: float,
+        winding: NDArray,
+        sure: NDArray,
     ) -> None:
         """Add the rays' crossings with triangles of leaves to `winding`; update `sure`. query: (3, k) ray starts."""
         first = self.first.take(leaf)
         size = self.last.take(leaf) - first
-        triangle, place = np.repeat(first, size) + segment_ranges(size), np.repeat(place, size)
+        triangle = np.repeat(first, size) + segment_ranges(size)
+        place = np.repeat(place, size)
         corner = self.corners(triangle)
         corner -= query.take(place, axis=1)[:, None]
         u, v = _across(corner)
         ids = self.ids.take(triangle, axis=1)
-        edge, positive = np.empty(ids.shape), np.empty(ids.shape, bool)
+        edge = np.empty(ids.shape)
+        positive = np.empty(ids.shape, bool)
         for k in range(3):
             i, j = (k + 1) % 3, (k + 2) % 3
             # Judged from the edge's lower vertex, so that both its triangles see one number; zero counts as positive.
@@ -215,7 +264,10 @@ class Bvh:
             edge[k] = np.where(back, -area, area)
             positive[k] = (area >= 0.0) ^ back
         struck = np.flatnonzero((positive[0] == positive[1]) & (positive[1] == positive[2]))
-        place, edge, positive, heights = place[struck], edge[:, struck], positive[0, struck], corner[2][:, struck]
+        place = place[struck]
+        edge = edge[:, struck]
+        positive = positive[0, struck]
+        heights = corner[2][:, struck]
         total = edge.sum(axis=0)
         flat = total == 0.0
         height = np.einsum("kj,kj->j", edge, heights) / np.where(flat, 1.0, total)
@@ -231,7 +283,9 @@ class Bvh:
         pieces = _batches(np.arange(len(query_points)), self.root[component])
         while pieces:
             place, node = pieces.pop()
-            point, low, high = query_points[place], self.low[node], self.high[node]
+            point = query_points[place]
+            low = self.low[node]
+            high = self.high[node]
             occupied = high[:, 0] >= low[:, 0]
             least = np.linalg.norm(np.maximum(np.maximum(low - point, point - high), 0.0), axis=1)
             most = np.linalg.norm(np.maximum(np.abs(point - low), np.abs(high - point)), axis=1)
@@ -261,14 +315,21 @@ def intersecting_pairs(
     while pieces:
         pair, a, b = pieces.pop()
         going = ~intersects[pair]
-        pair, a, b = pair[going], a[going], b[going]
+        pair = pair[going]
+        a = a[going]
+        b = b[going]
         work += len(pair)
         if work > MAX_BOX_PAIRS:
             for rest, *_ in [*pieces, (pair,)]:
                 unfinished[rest] = True
             break
-        meet = np.all(np.minimum(tree.high[a], tree.high[b]) - np.maximum(tree.low[a], tree.low[b]) >= 0.0, axis=1)
-        pair, a, b = pair[meet], a[meet], b[meet]
+        meet = np.all(
+            np.minimum(tree.high[a], tree.high[b]) - np.maximum(tree.low[a], tree.low[b]) >= 0.0,
+            axis=1,
+        )
+        pair = pair[meet]
+        a = a[meet]
+        b = b[meet]
         child_a, child_b = tree.child[a], tree.child[b]
         both = (child_a == -1) & (child_b == -1)
         if both.any():
@@ -278,7 +339,9 @@ def intersecting_pairs(
                 _intersect_leaves(tree, of, left, right, tolerance, intersects, vertex)
             pair, a, b, child_a, child_b = (x[~both] for x in (pair, a, b, child_a, child_b))
         # The larger box is opened; a leaf never is.
-        extent = (tree.high[a] - tree.low[a]).max(axis=1) >= (tree.high[b] - tree.low[b]).max(axis=1)
+        extent = (tree.high[a] - tree.low[a]).max(axis=1) >= (tree.high[b] - tree.low[b]).max(
+            axis=1
+        )
         left = (child_b == -1) | (extent & (child_a != -1))
         pieces += _batches(
             np.concatenate([pair[left], pair[left], pair[~left], pair[~left]]),
@@ -289,21 +352,35 @@ def intersecting_pairs(
 
 
 def _intersect_leaves(
-    tree: Bvh, pair: NDArray, a: NDArray, b: NDArray, tolerance: float, intersects: NDArray, vertex: NDArray | None
+    tree: Bvh,
+    pair: NDArray,
+    a: NDArray,
+    b: NDArray,
+    tolerance: float,
+    intersects: NDArray,
+    vertex: NDArray | None,
 ) -> None:
     """Mark, in `intersects`, the pairs with a triangle in one leaf that is pierced by an edge in the other."""
-    size_a, size_b = tree.last[a] - tree.first[a], tree.last[b] - tree.first[b]
+    size_a = tree.last[a] - tree.first[a]
+    size_b = tree.last[b] - tree.first[b]
     k = segment_ranges(size_a * size_b)
     row = np.repeat(np.arange(len(a)), size_a * size_b)
-    first, second, pair = tree.first[a][row] + k // size_b[row], tree.first[b][row] + k % size_b[row], pair[row]
+    first = tree.first[a][row] + k // size_b[row]
+    second = tree.first[b][row] + k % size_b[row]
+    pair = pair[row]
     meet = np.ones(len(pair), bool)
     for low, high in zip(tree.bottom, tree.top):
         meet &= (low[first] <= high[second]) & (low[second] <= high[first])
-    first, second, pair = first[meet], second[meet], pair[meet]
+    first = first[meet]
+    second = second[meet]
+    pair = pair[meet]
     if vertex is not None:
-        mine, theirs = vertex[tree.ids[:, first]], vertex[tree.ids[:, second]]
+        mine = vertex[tree.ids[:, first]]
+        theirs = vertex[tree.ids[:, second]]
         apart = np.logical_and.reduce([x != y for x in mine for y in theirs])
-        first, second, pair = first[apart], second[apart], pair[apart]
+        first = first[apart]
+        second = second[apart]
+        pair = pair[apart]
     corner, plane = (tree.corners(triangle).transpose(1, 2, 0) for triangle in (first, second))
     for _ in range(2):
         intersects[pair[_edges_cross_triangles(corner, plane, tolerance)]] = True
@@ -319,13 +396,21 @@ def _edges_cross_triangles(
     normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)
     height = np.einsum("kij,ij->ki", corner - plane[0], normal)
     at = np.flatnonzero((height.max(axis=0) > tolerance) & (height.min(axis=0) < -tolerance))
-    corner, plane, normal, height = corner[:, at], plane[:, at], normal[at], height[:, at]
+    corner = corner[:, at]
+    plane = plane[:, at]
+    normal = normal[at]
+    height = height[:, at]
     depth = np.full(len(at), -np.inf)
     for i in range(3):
-        p, q, rise, fall = corner[i], corner[i - 1], height[i], height[i - 1]
+        p = corner[i]
+        q = corner[i - 1]
+        rise = height[i]
+        fall = height[i - 1]
         crosses = (np.minimum(rise, fall) < -tolerance) & (np.maximum(rise, fall) > tolerance)
         share = rise / np.where(crosses, rise - fall, 1.0)
-        within, first, last = np.where(crosses, np.inf, -np.inf), np.zeros(len(at)), np.ones(len(at))
+        within = np.where(crosses, np.inf, -np.inf)
+        first = np.zeros(len(at))
+        last = np.ones(len(at))
         for k in range(3):
             edge = plane[k] - plane[k - 1]
             inward = np.cross(normal, edge) / np.linalg.norm(edge, axis=1)[:, None]
@@ -334,7 +419,9 @@ def _edges_cross_triangles(
             leaves = begin / np.where(begin != end, begin - end, 1.0)
             first = np.where(begin < 0.0, np.maximum(first, leaves), first)
             last = np.where(end < 0.0, np.minimum(last, leaves), last)
-        over = [np.abs(rise + part * (fall - rise)) for part in (first, last)]  # both ends of the part over the partner
+        over = [
+            np.abs(rise + part * (fall - rise)) for part in (first, last)
+        ]  # both ends of the part over the partner
         depth = np.maximum(depth, np.minimum.reduce([within, *over]))
     return at[depth > tolerance]
 
@@ -359,10 +446,15 @@ def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp]
     return min(sweeps, key=lambda sweep: sweep[1].sum())
 
 
-def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
+def overlapping_box_pairs(
+    low: NDArray, high: NDArray, margin: float, most: int
+) -> tuple[NDArray, NDArray, int]:
     """Return about `most` pairs (k,), (k,) of boxes that overlap by over `margin`, and the count of untested pairs."""
     order, count = _sweep(low, high, margin)
-    left, right, pair_count, tested_count = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0
+    left = [np.empty(0, np.intp)]
+    right = [np.empty(0, np.intp)]
+    pair_count = 0
+    tested_count = 0
     for i, j in following_pairs(order, count, PAIRS_PER_BATCH):
         if pair_count >= most or tested_count >= 100 * most:
             break
@@ -377,6 +469,9 @@ def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int)
 def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
     """Return whether any two of k boxes, (k, 3) centers and half sides, overlap by more than rounding."""
     extents = extents * (1.0 - ROUNDING)
-    low, high = centers - extents, centers + extents
-    pairs = following_pairs(*_sweep(low, high, 0.0), PAIRS_PER_BATCH)  # a flat box overlaps another one by nothing
+    low = centers - extents
+    high = centers + extents
+    pairs = following_pairs(
+        *_sweep(low, high, 0.0), PAIRS_PER_BATCH
+    )  # a flat box overlaps another one by nothing
     return any(bool(((low[i] < high[j]) & (low[j] < high[i])).all(axis=1).any()) for i, j in pairs)

@@ -15,7 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-DIRECTION = np.array([0.7071, 0.5477, 0.4472])  # hardly any mesh has points that coincide along this direction
+DIRECTION = np.array(
+    [0.7071, 0.5477, 0.4472]
+)  # hardly any mesh has points that coincide along this direction
 MAX_CANDIDATES = 500  # similarities that are compared in full
 PROBES = 6  # vertices that are compared first
 RESEMBLANCE = 20.0  # the scores of equal vertices differ by at most so many tolerances
@@ -28,13 +30,20 @@ class Elements:
     unit_points: the points about their middle, in units of the radius. scores: (n,) numbers that no similarity changes.
     """
 
-    def __init__(self, points: NDArray[np.float64], edges: Indices, corners: Indices, starts: Indices):
-        self.points, self.edges, self.corners, self.starts = points, edges, corners, starts
+    def __init__(
+        self, points: NDArray[np.float64], edges: Indices, corners: Indices, starts: Indices
+    ):
+        self.points = points
+        self.edges = edges
+        self.corners = corners
+        self.starts = starts
         self.sizes = np.diff(starts)
         self.middle = points.mean(axis=0) if len(points) else np.zeros(3)
         self.radius = float(np.linalg.norm(points - self.middle, axis=1).max(initial=0.0))
         self.unit_points = (points - self.middle) / (self.radius or 1.0)
-        lengths = np.linalg.norm(self.unit_points[edges[:, 0]] - self.unit_points[edges[:, 1]], axis=1)
+        lengths = np.linalg.norm(
+            self.unit_points[edges[:, 0]] - self.unit_points[edges[:, 1]], axis=1
+        )
         valence = np.bincount(edges.ravel(), minlength=len(points))
         mean = np.bincount(edges.ravel(), lengths.repeat(2), len(points)) / np.maximum(valence, 1)
         self.scores = np.linalg.norm(self.unit_points, axis=1) + 0.618 * mean + 4.0 * valence
@@ -62,18 +71,24 @@ class Correspondence:
     @property
     def is_ordered(self) -> bool:
         """True if vertices and corners have the same numbers in both meshes."""
-        return all((indices == np.arange(len(indices))).all() for indices in (self.vertices, self.corners))
+        return all(
+            (indices == np.arange(len(indices))).all() for indices in (self.vertices, self.corners)
+        )
 
 
 def correspondences(
-    first: Elements, second: Elements, tolerance: float, labels: tuple[NDArray, NDArray] | None = None
+    first: Elements,
+    second: Elements,
+    tolerance: float,
+    labels: tuple[NDArray, NDArray] | None = None,
 ) -> Iterator[Correspondence]:
     """Yield the correspondences of two meshes with equal counts; tolerance: relative to the second mesh's radius.
 
     labels: (n,) numbers, the same for equal vertices. The correspondence that keeps the numbers of all vertices comes
     first, if there is one; then come those that turn least.
     """
-    count, loose = len(first.points), 4.0 * tolerance
+    count = len(first.points)
+    loose = 4.0 * tolerance
     if not count or not first.radius or not second.radius:
         return
     if not np.array_equal(np.sort(first.sizes), np.sort(second.sizes)):
@@ -89,13 +104,17 @@ def correspondences(
     others = _first_near(targets, targets, loose)
     for turn in _candidate_turns(first.unit_points, targets, scores, loose):
         places = _first_near(first.unit_points @ turn.T, targets, loose)
-        if found := _prove(first, second, places, others, bool(np.linalg.det(turn) < 0.0), tolerance):
+        if found := _prove(
+            first, second, places, others, bool(np.linalg.det(turn) < 0.0), tolerance
+        ):
             yield found
 
 
 def _first_near(points: NDArray, targets: NDArray, tolerance: float) -> Indices:
     """Return for each of (n, 3) points the first of the (m, 3) targets within the tolerance, or m."""
-    along, places, reach = targets @ DIRECTION, points @ DIRECTION, 2.0 * tolerance
+    along = targets @ DIRECTION
+    places = points @ DIRECTION
+    reach = 2.0 * tolerance
     order = np.argsort(along, kind="stable")
     low = np.searchsorted(along[order], places - reach)
     high = np.searchsorted(along[order], places + reach, side="right")
@@ -118,7 +137,8 @@ def _candidate_turns(
         return
     a, b = points[list(pair)]
     alike = [np.abs(scores[1] - scores[0][anchor]) <= near for anchor in pair]
-    frame, turns = _frames(a[None], b[None])[0], [np.empty((0, 3, 3))]
+    frame = _frames(a[None], b[None])[0]
+    turns = [np.empty((0, 3, 3))]
     for image in targets[alike[0]]:
         others = targets[alike[1] & (np.abs(targets @ image - a @ b) <= near)]
         frames = _frames(np.broadcast_to(image, others.shape), others)
@@ -126,7 +146,10 @@ def _candidate_turns(
     maps = np.concatenate(turns)
     for probe in np.argsort(scores[0])[:: -(-len(targets) // PROBES)]:
         ends = targets[np.abs(scores[1] - scores[0][probe]) <= near]
-        hits = [len(ends) and np.abs(ends - image).max(axis=1).min() <= near for image in maps @ points[probe]]
+        hits = [
+            len(ends) and np.abs(ends - image).max(axis=1).min() <= near
+            for image in maps @ points[probe]
+        ]
         maps = maps[np.array(hits, bool)]
     order = np.lexsort((-np.trace(maps, axis1=1, axis2=2), np.linalg.det(maps) < 0.0))
     yield from maps[order[:MAX_CANDIDATES]]
@@ -137,9 +160,15 @@ def _anchors(points: NDArray, scores: NDArray, near: float) -> tuple[int, int] |
 
     def count_alike(scores: NDArray) -> Indices:
         ordered = np.sort(scores)
-        return np.searchsorted(ordered, scores + near, side="right") - np.searchsorted(ordered, scores - near)
+        return np.searchsorted(ordered, scores + near, side="right") - np.searchsorted(
+            ordered, scores - near
+        )
 
-    a = int(np.where(np.linalg.norm(points, axis=1) >= 0.3, count_alike(scores), len(points) + 1).argmin())
+    a = int(
+        np.where(
+            np.linalg.norm(points, axis=1) >= 0.3, count_alike(scores), len(points) + 1
+        ).argmin()
+    )
     across = np.linalg.norm(np.cross(points, points[a]), axis=1)
     if across.max() <= near:
         return None
@@ -156,7 +185,12 @@ def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
 
 
 def _prove(
-    first: Elements, second: Elements, places: Indices, others: Indices, mirrored: bool, tolerance: float
+    first: Elements,
+    second: Elements,
+    places: Indices,
+    others: Indices,
+    mirrored: bool,
+    tolerance: float,
 ) -> Correspondence | None:
     """Return the correspondence of two meshes; None if points, edges or faces do not meet.
 
@@ -170,16 +204,21 @@ def _prove(
     vertices[first.corners] = second.corners[corners]
     if not np.array_equal(vertices[first.corners], second.corners[corners]):
         return None
-    loose, is_free = np.flatnonzero(vertices < 0), np.ones(len(vertices), bool)
+    loose = np.flatnonzero(vertices < 0)
+    is_free = np.ones(len(vertices), bool)
     is_free[vertices[vertices >= 0]] = False
     free = np.flatnonzero(is_free)
     if len(loose) != len(free):
         return None
-    vertices[loose[np.argsort(places[loose], kind="stable")]] = free[np.argsort(others[free], kind="stable")]
+    vertices[loose[np.argsort(places[loose], kind="stable")]] = free[
+        np.argsort(others[free], kind="stable")
+    ]
     edges = _match_rows(np.sort(vertices[first.edges], axis=1), np.sort(second.edges, axis=1))
     if edges is None:
         return None
-    points, met, limit = first.points, second.points[vertices], tolerance * second.radius
+    points = first.points
+    met = second.points[vertices]
+    limit = tolerance * second.radius
     linear, offset = _similarity(points, met, mirrored)
     error = np.linalg.norm(points @ linear.T + offset - met, axis=1).max()
     if error > limit:
@@ -187,8 +226,11 @@ def _prove(
     # Of maps that are equally good up to rounding, take the one that changes least.
     rounding = 4.0 * np.finfo(np.float32).eps * max(np.abs(points).max(), np.abs(met).max())
     for simple in [] if mirrored else [np.zeros(3), met.mean(axis=0) - first.middle]:
-        if np.linalg.norm(points + simple - met, axis=1).max() <= min(2.0 * error + rounding, limit):
-            linear, offset = np.eye(3), simple
+        if np.linalg.norm(points + simple - met, axis=1).max() <= min(
+            2.0 * error + rounding, limit
+        ):
+            linear = np.eye(3)
+            offset = simple
             break
     found = Correspondence(linear, offset, vertices, edges, faces, corners)
     return found if _triangulates_alike(first, second, found, limit) else None
@@ -196,7 +238,8 @@ def _prove(
 
 def _similarity(source: NDArray, target: NDArray, mirrored: bool) -> tuple[NDArray, NDArray]:
     """Return map and offset of the similarity, of this handedness, that moves (n, 3) points nearest to others."""
-    middle, other = source.mean(axis=0), target.mean(axis=0)
+    middle = source.mean(axis=0)
+    other = target.mean(axis=0)
     a, b = source - middle, target - other
     u, _, vt = np.linalg.svd(b.T @ a)
     hand = (-1.0 if mirrored else 1.0) * np.sign(np.linalg.det(u @ vt))
@@ -208,7 +251,8 @@ def _match_faces(
     first: Elements, second: Elements, places: Indices, others: Indices, mirrored: bool
 ) -> tuple[Indices, Indices] | None:
     """Return the second mesh's face and corner for each of the first's; of a mirror image, corners run backward."""
-    faces, corners = np.empty(len(first.sizes), np.intp), np.empty(len(first.corners), np.intp)
+    faces = np.empty(len(first.sizes), np.intp)
+    corners = np.empty(len(first.corners), np.intp)
     for size in np.unique(first.sizes):
         here, there = (np.flatnonzero(mesh.sizes == size) for mesh in (first, second))
         steps = np.arange(size)
@@ -219,7 +263,8 @@ def _match_faces(
         order = _match_rows(keys, other_keys)
         if order is None:
             return None
-        faces[here], corners[own] = there[order], met[order]
+        faces[here] = there[order]
+        corners[own] = met[order]
     return faces, corners
 
 
@@ -231,7 +276,8 @@ def _from_least(keys: Indices, corners: Indices) -> tuple[Indices, Indices]:
 
 def _match_rows(rows: Indices, others: Indices) -> Indices | None:
     """Return the index in `others` of each row, or None if the rows are not the same."""
-    order, other_order = np.lexsort(rows.T[::-1]), np.lexsort(others.T[::-1])
+    order = np.lexsort(rows.T[::-1])
+    other_order = np.lexsort(others.T[::-1])
     if not np.array_equal(rows[order], others[other_order]):
         return None
     found = np.empty(len(rows), np.intp)
@@ -239,7 +285,9 @@ def _match_rows(rows: Indices, others: Indices) -> Indices | None:
     return found
 
 
-def _triangulates_alike(first: Elements, second: Elements, found: Correspondence, limit: float) -> bool:
+def _triangulates_alike(
+    first: Elements, second: Elements, found: Correspondence, limit: float
+) -> bool:
     """Return whether faces that begin at another corner, and so may have other triangles, are flat."""
     begins = second.starts[found.faces]
     turned = (first.sizes > 3) & (found.corners[first.starts[:-1]] != begins)

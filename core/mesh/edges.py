@@ -30,7 +30,13 @@ from .surface import Surface, face_of_each
 HASH_FACTOR = np.uint32(0x9E3779B1)  # a prime of xxHash, by Yann Collet
 FACES_PER_BLOCK = 1 << 14  # in the cache with all that is made of them
 MAX_SORTED_SIDES = 3 << 10  # a table is made for more
-HASH_FACTORS = 0x9E3779B1, 0x85EBCA77, 0xC2B2AE3D, 0x27D4EB2F, 0x165667B1  # primes of xxHash, by Yann Collet
+HASH_FACTORS = (
+    0x9E3779B1,
+    0x85EBCA77,
+    0xC2B2AE3D,
+    0x27D4EB2F,
+    0x165667B1,
+)  # primes of xxHash, by Yann Collet
 SAMPLED_VERTICES = 512  # vertices with sides that decide on the hash
 NOBODY = -1
 # Sides as three arrays: their indices, their starts and their stops.
@@ -39,13 +45,16 @@ Sides = tuple[NDArray[np.int32], NDArray[np.integer], NDArray[np.integer]]
 
 def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     """Return the (2, e) mesh faces beside the used edges if each has two, run in opposite directions; else None."""
-    corners, edges = surface.corner_vertices, surface.corner_edges
+    corners = surface.corner_vertices
+    edges = surface.corner_edges
     if corners is None or edges is None or not len(corners) == len(edges) > 0:
         return None
     sides_at = _sides_at(surface, corners)
     if sides_at is None:
         return None
-    count = int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1  # a negative edge becomes a large one
+    count = (
+        int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1
+    )  # a negative edge becomes a large one
     if count > 2 * len(corners) or count > np.iinfo(edges.dtype).max // 2:
         return None  # most of them without faces, or too many for their type: the table would cost more than a search
     sides = np.full(2 * count, -1, np.int32)
@@ -65,7 +74,8 @@ def _sides_at(
     surface: Surface, corners: NDArray[np.integer]
 ) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
     """Return a function from a block's first corner to faces and directions of its corners; None if they do not fit."""
-    quads, triangles = len(surface.quads), len(surface.triangles)
+    quads = len(surface.quads)
+    triangles = len(surface.triangles)
     if not triangles and surface.quad_faces is None:
         size = 4
     elif not quads and surface.triangle_faces is None:
@@ -142,7 +152,9 @@ class Edges:
         """Return the sides of edges that have only one, ascending."""
         return self.first[self.count == 1]
 
-    def boundary_ends(self, triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    def boundary_ends(
+        self, triangles: NDArray[np.integer]
+    ) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
         """Return the start vertices and the end vertices of the boundary sides of (m, 3) triangles."""
         side = self.boundary_sides()
         return triangles.ravel()[side], triangles.take(NEXT_AXIS, 1).ravel()[side]
@@ -150,10 +162,14 @@ class Edges:
 
 def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
     """Return the edges of (m, 3) triangles; the last 2 * `quads` are halves with diagonals of their own."""
-    start, stop = triangles.ravel(), triangles.take(NEXT_AXIS, 1).ravel()
-    low, high = np.minimum(start, stop), np.maximum(start, stop)
+    start = triangles.ravel()
+    stop = triangles.take(NEXT_AXIS, 1).ravel()
+    low = np.minimum(start, stop)
+    high = np.maximum(start, stop)
     width = int(high.max(initial=0)) + 1
-    bits = (len(low) // width).bit_length() + 1  # neighbors in the mesh share the table's cached part
+    bits = (
+        len(low) // width
+    ).bit_length() + 1  # neighbors in the mesh share the table's cached part
     slots = np.left_shift(low, bits, dtype=np.intp)
     slots += (high.astype(np.uint32) * HASH_FACTOR) >> np.uint32(32 - bits)
     keys = np.multiply(low, width, dtype=np.int64)
@@ -163,7 +179,12 @@ def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
     first = first_occurrence(keys, slots=slots)
     begins = first == np.arange(len(first))
     of_side = (np.cumsum(begins) - 1).take(first)
-    return Edges(of_side=of_side, upward=start < stop, first=np.flatnonzero(begins), count=np.bincount(of_side))
+    return Edges(
+        of_side=of_side,
+        upward=start < stop,
+        first=np.flatnonzero(begins),
+        count=np.bincount(of_side),
+    )
 
 
 def uncancelled_sides(
@@ -173,12 +194,19 @@ def uncancelled_sides(
 
     They are in the order of the sides. owner: (m,) of each triangle.
     """
-    start, stop = triangles.ravel().astype(np.int64), triangles.take(NEXT_AXIS, 1).ravel().astype(np.int64)
-    low, high, owner = np.minimum(start, stop), np.maximum(start, stop), np.repeat(owner, 3).astype(np.int64)
+    start = triangles.ravel().astype(np.int64)
+    stop = triangles.take(NEXT_AXIS, 1).ravel().astype(np.int64)
+    low = np.minimum(start, stop)
+    high = np.maximum(start, stop)
+    owner = np.repeat(owner, 3).astype(np.int64)
     first = first_occurrence(low, high, owner)
-    left = np.bincount(first, np.sign(stop - start)).astype(np.intp)  # nothing of sides without length
+    left = np.bincount(first, np.sign(stop - start)).astype(
+        np.intp
+    )  # nothing of sides without length
     first = np.repeat(np.arange(len(left)), np.abs(left))
-    low, high, forward = low[first], high[first], left[first] > 0
+    low = low[first]
+    high = high[first]
+    forward = left[first] > 0
     return owner[first], np.where(forward, low, high), np.where(forward, high, low)
 
 
@@ -195,7 +223,9 @@ def consistent_orientation(
         return flipped, twisted
     # Nodes f and f + count: the face as it is and turned.
     cover, _ = connected_components(
-        2 * count, np.concatenate([a, a + count]), np.concatenate([b + count * misoriented, b + count * ~misoriented])
+        2 * count,
+        np.concatenate([a, a + count]),
+        np.concatenate([b + count * misoriented, b + count * ~misoriented]),
     )
     plain, reverse = cover[:count], cover[count:]
     twisted = plain == reverse
@@ -239,7 +269,9 @@ def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray
     if max(faces.size, vertex_count << bits) > np.iinfo(np.int32).max:
         return None
     faces = np.ascontiguousarray(faces)
-    if any((faces[:, k] == faces[:, k - 1]).any() for k in range(faces.shape[1])):  # a side that is its own partner
+    if any(
+        (faces[:, k] == faces[:, k - 1]).any() for k in range(faces.shape[1])
+    ):  # a side that is its own partner
         return None
     partner = np.empty(faces.size + 1, np.int32)
     partner[NOBODY] = NOBODY
@@ -263,9 +295,13 @@ class _Table:
     """A table of sides, by the row of one end vertex and a hash of the other."""
 
     def __init__(self, vertex_count: int, bits: int):
-        self.bits, self.sides = bits, np.zeros(vertex_count << bits, np.int32)  # counted from 1
+        # counted from 1
+        self.bits = bits
+        self.sides = np.zeros(vertex_count << bits, np.int32)
 
-    def places(self, row: NDArray[np.integer], other: NDArray[np.integer], factor: np.uint32) -> NDArray[np.intp]:
+    def places(
+        self, row: NDArray[np.integer], other: NDArray[np.integer], factor: np.uint32
+    ) -> NDArray[np.intp]:
         """Return the table slots of the sides with these end vertices."""
         place = row.astype(np.intp)
         place <<= self.bits
@@ -284,12 +320,20 @@ class _Table:
         flat = faces.ravel()
         first = len(self.sides) >> self.bits + 1
         number = np.flatnonzero((flat >= first) & (flat < first + SAMPLED_VERTICES))
-        start, stop = flat[number], flat[_following(number, faces.shape[1])]
-        return sorted(HASH_FACTORS, key=lambda factor: -len(np.unique(self.places(start, stop, np.uint32(factor)))))
+        start = flat[number]
+        stop = flat[_following(number, faces.shape[1])]
+        return sorted(
+            HASH_FACTORS,
+            key=lambda factor: -len(np.unique(self.places(start, stop, np.uint32(factor)))),
+        )
 
 
 def _pair(
-    faces: NDArray[np.integer], left: Sides | None, table: _Table, factor: np.uint32, partner: NDArray[np.int32]
+    faces: NDArray[np.integer],
+    left: Sides | None,
+    table: _Table,
+    factor: np.uint32,
+    partner: NDArray[np.int32],
 ) -> Sides | None:
     """Pair the sides in `left` (None: all) by a hash. Return the sides still unpaired; None if a side occurs twice."""
 
@@ -308,7 +352,10 @@ def _pair(
             continue
         number, start, stop = (each.take(apart, mode="clip") for each in (number, start, stop))
         winner = table.at(table.places(start, stop, factor))
-        if ((flat.take(_following(winner, faces.shape[1]), mode="clip") == stop) & (winner != number)).any():
+        if (
+            (flat.take(_following(winner, faces.shape[1]), mode="clip") == stop)
+            & (winner != number)
+        ).any():
             return None
         rest.append((number, start, stop))
     number, start, stop = (np.concatenate(each) for each in zip(*rest))
@@ -322,7 +369,8 @@ def _following(number: NDArray[np.integer], corners: int) -> NDArray[np.integer]
 
 def _range(number: NDArray[np.int32]) -> slice | NDArray[np.int32]:
     """Return ascending numbers as a slice, if they are without gaps."""
-    first, last = int(number[0]), int(number[-1])
+    first = int(number[0])
+    last = int(number[-1])
     return slice(first, last + 1) if last - first + 1 == len(number) else number
 
 
@@ -347,7 +395,8 @@ def _paired_by_sorting(
     number: NDArray[np.int32], start: NDArray[np.integer], stop: NDArray[np.integer]
 ) -> NDArray[np.int32] | None:
     """Return the partner of each of an even number of sides; None if they are no pairs."""
-    low, high = np.minimum(start, stop).astype(np.uint64), np.maximum(start, stop).astype(np.uint64)
+    low = np.minimum(start, stop).astype(np.uint64)
+    high = np.maximum(start, stop).astype(np.uint64)
     key = low << np.uint64(32) | high << np.uint64(1) | (start < stop)
     order = np.argsort(key)
     order = order.reshape(-1, 2)

@@ -4,4 +4,6 @@
 
 from ..verdict.finding import error
 
-HULL_WITHOUT_EXTENT = error("hull_without_extent", "All points are on one line: nothing can stand on it.")
+HULL_WITHOUT_EXTENT = error(
+    "hull_without_extent", "All points are on one line: nothing can stand on it."
+)

@@ -59,7 +59,9 @@ class ConvexHull:
         )
 
 
-def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | None = None) -> ConvexHull:
+def convex_hull(
+    points: ArrayLike, tolerance: float = 1e-8, max_corners: int | None = None
+) -> ConvexHull:
     """Compute the convex hull of points.
 
     Parameters
@@ -99,24 +101,34 @@ def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | N
         return _flat_hull(points, corners, tolerance)
     hull = _GrowingHull(grid, np.array([corners]), np.zeros(len(grid), np.intp), step)
     while max_corners is None or len(hull.corners) // 2 + 2 < max_corners:
-        if not hull.add_points(None if max_corners is None else max_corners - len(hull.corners) // 2 - 2):
+        if not hull.add_points(
+            None if max_corners is None else max_corners - len(hull.corners) // 2 - 2
+        ):
             break
     indices, triangles = np.unique(hull.corners, return_inverse=True)
     gap = max(float(hull.height.max(initial=0.0)) / 2.0**GRID_BITS, tolerance) * extent
-    return ConvexHull(points[indices], indices, triangles.reshape(-1, 3), hull.neighbors, is_flat=False, gap=gap)
+    return ConvexHull(
+        points[indices], indices, triangles.reshape(-1, 3), hull.neighbors, is_flat=False, gap=gap
+    )
 
 
-def hull_volumes(points: NDArray[np.float64], starts: NDArray[np.intp], tolerance: float) -> NDArray[np.float64]:
+def hull_volumes(
+    points: NDArray[np.float64], starts: NDArray[np.intp], tolerance: float
+) -> NDArray[np.float64]:
     """Return the hull volumes of (k,) sets of points, which begin at the rows `starts`; all hulls grow at once.
 
     tolerance: relative to the extent of each set, as for `convex_hull`. A flat set has no volume.
     """
     sizes = np.diff(np.append(starts, len(points)))
-    low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
+    low = np.minimum.reduceat(points, starts)
+    high = np.maximum.reduceat(points, starts)
     extent = (high - low).max(axis=1)
     steps = 2.0**GRID_BITS / np.where(extent > 0.0, extent, 1.0)
-    grid = np.rint((points - low.repeat(sizes, axis=0)) * steps.repeat(sizes)[:, None]).astype(np.int64)
-    step, volumes = max(tolerance * 2.0**GRID_BITS, 1.0), np.zeros(len(starts))
+    grid = np.rint((points - low.repeat(sizes, axis=0)) * steps.repeat(sizes)[:, None]).astype(
+        np.int64
+    )
+    step = max(tolerance * 2.0**GRID_BITS, 1.0)
+    volumes = np.zeros(len(starts))
     corners: list[list[int]] = []
     solid: list[int] = []
     for i, (start, size) in enumerate(zip(starts.tolist(), sizes.tolist())):
@@ -159,7 +171,9 @@ def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
     fourth = _farthest(np.abs(heights), reach, least)
     if abs(heights[fourth]) <= least:
         return [first, second, third]
-    return [first, second, third, fourth] if heights[fourth] < 0.0 else [first, third, second, fourth]
+    return (
+        [first, second, third, fourth] if heights[fourth] < 0.0 else [first, third, second, fourth]
+    )
 
 
 def _farthest(distances: NDArray, reach: NDArray, least: float) -> int:
@@ -176,7 +190,9 @@ class _GrowingHull:
     faces, and their heights in steps of the grid. reach: squared distances of all points from the middle.
     """
 
-    def __init__(self, grid: NDArray[np.int64], first: NDArray[np.intp], owner: NDArray[np.intp], step: float) -> None:
+    def __init__(
+        self, grid: NDArray[np.int64], first: NDArray[np.intp], owner: NDArray[np.intp], step: float
+    ) -> None:
         self.grid, self.step = grid, step
         self.reach = ((grid.astype(np.float64) - 2.0 ** (GRID_BITS - 1)) ** 2).sum(axis=1)
         self.corners = first[:, [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]].reshape(-1, 3)
@@ -184,7 +200,9 @@ class _GrowingHull:
         self.neighbors = (4 * np.arange(len(first))[:, None, None] + beyond).reshape(-1, 3)
         self._set_normals(np.zeros((0, 3), np.int64), self.corners)
         every = np.flatnonzero(owner >= 0)
-        self.outside, self.seen, self.height = self._highest(every, np.full(len(every), 4), 4 * owner[every])
+        self.outside, self.seen, self.height = self._highest(
+            every, np.full(len(every), 4), 4 * owner[every]
+        )
 
     def _set_normals(self, kept: NDArray[np.int64], added: NDArray[np.intp]) -> None:
         """Set the normals of the faces: `kept`, then the normals of new ones, below 2^60, so exact."""
@@ -230,13 +248,16 @@ class _GrowingHull:
         order = np.lexsort((self.reach[self.outside[place]], self.seen[place]))
         seen = self.seen[place[order]]
         place = place[order[np.append(seen[1:] != seen[:-1], True)]]
-        place = place[np.lexsort((self.seen[place], -self.height[place]))]  # the first one is never left out
+        place = place[
+            np.lexsort((self.seen[place], -self.height[place]))
+        ]  # the first one is never left out
         apexes = self.outside[place]
         visible, horizon = self._visible_faces(apexes, self.seen[place])
         keeps = self._independent(len(apexes), visible, horizon)
         if most is not None:
             keeps &= np.cumsum(keeps) <= most
-        visible, horizon = visible[keeps[visible[:, 0]]], horizon[keeps[horizon[:, 0]]]
+        visible = visible[keeps[visible[:, 0]]]
+        horizon = horizon[keeps[horizon[:, 0]]]
         self._replace_faces(apexes, visible, horizon[np.argsort(horizon[:, 0], kind="stable")])
         return True
 
@@ -260,7 +281,9 @@ class _GrowingHull:
             front = np.stack(np.divmod(new, size), axis=1)
         return np.stack(np.divmod(known, size), axis=1), np.concatenate(edges)
 
-    def _independent(self, count: int, visible: NDArray[np.intp], horizon: NDArray[np.intp]) -> NDArray[np.bool_]:
+    def _independent(
+        self, count: int, visible: NDArray[np.intp], horizon: NDArray[np.intp]
+    ) -> NDArray[np.bool_]:
         """Return a (count,) mask of the apexes that no earlier apex disturbs."""
         beyond = self.neighbors[horizon[:, 1], horizon[:, 2]]
         seen_by = np.full(len(self.corners), count)
@@ -270,11 +293,15 @@ class _GrowingHull:
         keeps[horizon[seen_by[beyond] < horizon[:, 0], 0]] = False
         return keeps
 
-    def _replace_faces(self, apexes: NDArray[np.intp], visible: NDArray[np.intp], horizon: NDArray[np.intp]) -> None:
+    def _replace_faces(
+        self, apexes: NDArray[np.intp], visible: NDArray[np.intp], horizon: NDArray[np.intp]
+    ) -> None:
         """Replace the faces that each apex sees by a cone to that apex. horizon: sorted by apex."""
         apex, face, side = horizon.T
-        size, added = len(self.corners), len(horizon)
-        start, end = self.corners[face, side], self.corners[face, NEXT_AXIS[side]]
+        size = len(self.corners)
+        added = len(horizon)
+        start = self.corners[face, side]
+        end = self.corners[face, NEXT_AXIS[side]]
         beyond = self.neighbors[face, side]
         back = (self.neighbors[beyond] == face[:, None]).argmax(axis=1)
         count = len(self.grid)
@@ -315,14 +342,19 @@ def _flat_hull(points: NDArray[np.float64], corners: list[int], tolerance: float
     plane = (points - a) @ np.stack([first, np.cross(normal, first)], axis=1)
     indices = convex_polygon(plane, tolerance)
     size = len(indices)
-    fan = np.stack([np.zeros(size - 2, np.intp), np.arange(1, size - 1), np.arange(2, size)], axis=1)
+    fan = np.stack(
+        [np.zeros(size - 2, np.intp), np.arange(1, size - 1), np.arange(2, size)], axis=1
+    )
     triangles = np.concatenate([fan, fan[:, [0, 2, 1]]])
     above, below = np.arange(2 * size - 4).reshape(2, -1)
     ends = np.stack([above - 1, above + 1]), np.stack([below - 1, below + 1])
     for sides, beyond in zip(ends, (below, above)):
-        sides[0, 0], sides[1, -1] = beyond[0], beyond[-1]
+        sides[0, 0] = beyond[0]
+        sides[1, -1] = beyond[-1]
     (before, after), (first, last) = ends
-    neighbors = np.concatenate([np.stack([before, below, after], axis=1), np.stack([last, above, first], axis=1)])
+    neighbors = np.concatenate(
+        [np.stack([before, below, after], axis=1), np.stack([last, above, first], axis=1)]
+    )
     gap = tolerance * float(np.ptp(points, axis=0).max())
     return ConvexHull(points[indices], indices, triangles, neighbors, is_flat=True, gap=gap)
 
@@ -333,22 +365,31 @@ def convex_polygon(points: NDArray[np.float64], tolerance: float = 0.0) -> NDArr
     least = tolerance * float(np.ptp(points, axis=0).max())
     if np.abs(points[ends[1]] - points[ends[0]]).max() <= least:
         return ends[:1]
-    corners, rest = ends, np.repeat(np.arange(len(points)), 2)
+    corners = ends
+    rest = np.repeat(np.arange(len(points)), 2)
     side = np.tile([0, 1], len(points))  # the side of the polygon that the points may be outside of
     while len(rest):
-        start, end = points[corners[side]], points[np.roll(corners, -1)[side]]
-        along, offset = end - start, points[rest] - start
+        start = points[corners[side]]
+        end = points[np.roll(corners, -1)[side]]
+        along = end - start
+        offset = points[rest] - start
         length = np.linalg.norm(along, axis=1)
-        height = (offset[:, 0] * along[:, 1] - offset[:, 1] * along[:, 0]) / np.where(length > 0.0, length, 1.0)
+        height = (offset[:, 0] * along[:, 1] - offset[:, 1] * along[:, 0]) / np.where(
+            length > 0.0, length, 1.0
+        )
         outside = height > max(least, 4.0 * np.finfo(np.float64).eps * np.abs(points).max())
-        rest, side, height = rest[outside], side[outside], height[outside]
+        rest = rest[outside]
+        side = side[outside]
+        height = height[outside]
         if not len(rest):
             break
         order = np.lexsort((height, side))
         last = np.append(side[order][1:] != side[order][:-1], True)
-        apexes, sides = rest[order[last]], side[order[last]]
+        apexes = rest[order[last]]
+        sides = side[order[last]]
         corners = np.insert(corners, sides + 1, apexes)
         shift = np.searchsorted(sides, side)  # the number of split sides before
-        rest, side = np.repeat(rest, 2), np.repeat(side + shift, 2)
+        rest = np.repeat(rest, 2)
+        side = np.repeat(side + shift, 2)
         side[1::2] += 1
     return np.roll(corners, -int(corners.argmin()))

@@ -31,7 +31,9 @@ FACES_PER_BLOCK = 1 << 14
 PLANAR_RTOL = 1e-6  # relative to the square root of a face's area
 ZERO_AREA_RTOL = 1e-12  # relative to a face's size, for float64 points
 NO_FACES = np.empty(0, np.intp)
-QUAD, TRIANGLE = ((2, 0), (3, 1), (1, 0)), ((1, 0), (2, 0))  # corners (i, j) whose differences i - j are taken
+# corners (i, j) whose differences i - j are taken
+QUAD = ((2, 0), (3, 1), (1, 0))
+TRIANGLE = ((1, 0), (2, 0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,28 +82,36 @@ class PlanarityAccumulator:
         longest = 3.0 * self.extent * self.extent  # no face is longer than √3 times the extent
         return float(2.0 * np.sqrt(_degenerate_limit(longest, self.error)))
 
-    def add_quads(self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray) -> None:
+    def add_quads(
+        self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray
+    ) -> None:
         """Add the quads from row `start` on.
 
         lengths: (2, k) of both triangles' normals. volume: (k,) 6 times the corners' tetrahedra, overwritten. folded:
         columns whose triangles may face away from each other. room: (2, k) scratch.
         """
-        volume, normal = np.abs(volume, out=volume), np.add(lengths[0], lengths[1], out=room[0])
+        volume = np.abs(volume, out=volume)
+        normal = np.add(lengths[0], lengths[1], out=room[0])
         least, most = normal.min(), normal.max()
-        bent = volume > np.multiply(normal, 8.0 * self.error + PLANAR_RTOL * np.sqrt(most), out=room[1])
+        bent = volume > np.multiply(
+            normal, 8.0 * self.error + PLANAR_RTOL * np.sqrt(most), out=room[1]
+        )
         narrow = NO_FACES
         if least <= self.degenerate_limit or len(folded):
             normal[folded] = 0.0
             narrow = np.flatnonzero(normal <= self.degenerate_limit)
             bent[narrow] = False
-        count, unsure = np.count_nonzero(bent), NO_FACES
+        count = np.count_nonzero(bent)
+        unsure = NO_FACES
         if count < len(bent):
             limit = 0.7 * (8.0 * self.error + PLANAR_RTOL * np.sqrt(0.7 * least))
             maybe = volume > np.multiply(normal, limit, out=room[1])
             maybe[narrow] = True
             unsure = start + np.flatnonzero(maybe > bent)
             volume[np.flatnonzero(~bent)] = 0.0
-        self.quads[start] = _PlanarityPartial(len(bent), int(count), float(np.add.reduce(volume)), unsure)
+        self.quads[start] = _PlanarityPartial(
+            len(bent), int(count), float(np.add.reduce(volume)), unsure
+        )
 
     def add_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
         """Add every `step`-th triangle from each row in `starts` on. lengths: (len(starts), k) of their normals."""
@@ -112,8 +122,12 @@ class PlanarityAccumulator:
 
     def planarity(self) -> Planarity:
         """Return the planarity from the kernel's reports, and from a pass over the faces that these leave undecided."""
-        surface, triangle_faces = self.surface, self.surface.triangle_faces
-        non_planar_count, seen_volume, total_volume, degenerate = 0, 0.0, 0.0, NO_FACES
+        surface = self.surface
+        triangle_faces = self.surface.triangle_faces
+        non_planar_count = 0
+        seen_volume = 0.0
+        total_volume = 0.0
+        degenerate = NO_FACES
         classify = partial(_classify_rows, surface.points, error=self.error, exponent=self.exponent)
         if len(surface.quads):
             merged = _merge_blocks(self.quads, len(surface.quads))
@@ -121,15 +135,20 @@ class PlanarityAccumulator:
             degenerate = merged.undecided[narrow]
             if surface.quad_faces is not None:
                 degenerate = surface.quad_faces[degenerate]
-            non_planar_count, seen_volume = merged.non_planar_count + np.count_nonzero(volumes), merged.volume_spread
+            non_planar_count = merged.non_planar_count + np.count_nonzero(volumes)
+            seen_volume = merged.volume_spread
             total_volume = _sum_in_order(volumes)
         if len(surface.triangles):
             undecided_rows = _merge_blocks(self.triangles, len(surface.triangles)).undecided
-            undecided_rows = undecided_rows[classify(surface.triangles[undecided_rows], TRIANGLE)[1]]
+            undecided_rows = undecided_rows[
+                classify(surface.triangles[undecided_rows], TRIANGLE)[1]
+            ]
             if triangle_faces is not None:
-                pieces, degenerate_pieces = np.bincount(triangle_faces), np.bincount(triangle_faces[undecided_rows])
+                pieces = np.bincount(triangle_faces)
+                degenerate_pieces = np.bincount(triangle_faces[undecided_rows])
                 undecided_rows = np.flatnonzero(
-                    (degenerate_pieces == pieces[: len(degenerate_pieces)]) & (degenerate_pieces > 0)
+                    (degenerate_pieces == pieces[: len(degenerate_pieces)])
+                    & (degenerate_pieces > 0)
                 )
                 polygon, corners = self._polygon_tetrahedra(pieces)
                 volumes, _ = classify(corners, QUAD)
@@ -139,10 +158,13 @@ class PlanarityAccumulator:
         volume_spread = (seen_volume + float(np.ldexp(total_volume, 3 * self.exponent))) / 6.0
         return Planarity(int(non_planar_count), volume_spread, np.sort(degenerate))
 
-    def _polygon_tetrahedra(self, pieces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
+    def _polygon_tetrahedra(
+        self, pieces: NDArray[np.integer]
+    ) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
         """Return (m,) faces and (m, 4) corners of the polygons' tetrahedra. pieces: the triangles of each mesh face."""
         quad_faces, triangle_faces = face_of_each(self.surface)
-        ring, sizes = self.surface.corner_vertices, ring_sizes(triangle_faces, quad_faces)
+        ring = self.surface.corner_vertices
+        sizes = ring_sizes(triangle_faces, quad_faces)
         polygon = np.flatnonzero(pieces > 1)
         if ring is None or sizes.sum() != len(ring):
             return NO_FACES, np.empty((0, 4), np.intp)
@@ -161,34 +183,43 @@ class StackPlanarity:
 
     def at(self, i: int) -> Planarity:
         """Return the planarity of one surface."""
-        degenerate = np.flatnonzero(self.is_degenerate[self.face_stops[i - 1] if i else 0 : self.face_stops[i]])
+        degenerate = np.flatnonzero(
+            self.is_degenerate[self.face_stops[i - 1] if i else 0 : self.face_stops[i]]
+        )
         return Planarity(int(self.non_planar_counts[i]), float(self.volume_spread[i]), degenerate)
 
 
 def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
     """Classify the faces of a stack one by one, as `PlanarityAccumulator` does for undecided faces."""
-    count, face_count = len(stack.face_counts), int(stack.face_counts.sum())
+    count = len(stack.face_counts)
+    face_count = int(stack.face_counts.sum())
     low, high = stack.box
     exponent = np.frexp(np.maximum((high - low).max(axis=1), float(np.finfo(np.float32).tiny)))[1]
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
     face_owner = np.repeat(np.arange(count), stack.face_counts)
 
-    def classify(corners: NDArray, faces: NDArray, pairs: tuple) -> tuple[NDArray, NDArray, NDArray]:
+    def classify(
+        corners: NDArray, faces: NDArray, pairs: tuple
+    ) -> tuple[NDArray, NDArray, NDArray]:
         owner = face_owner[faces]
         volumes, bare = _classify_rows(stack.points, corners, pairs, error[owner], exponent[owner])
         return owner, volumes, bare
 
-    sizes, non_planar, degenerate = stack.face_sizes, np.zeros(face_count, bool), np.zeros(face_count, bool)
+    sizes = stack.face_sizes
+    non_planar = np.zeros(face_count, bool)
+    degenerate = np.zeros(face_count, bool)
     total = np.zeros(count)
     if len(stack.quads):
         owner, volumes, bare = classify(stack.quads, stack.quad_faces, QUAD)
-        non_planar[stack.quad_faces], degenerate[stack.quad_faces] = volumes > 0.0, bare
+        non_planar[stack.quad_faces] = volumes > 0.0
+        degenerate[stack.quad_faces] = bare
         total += np.bincount(owner, volumes, count)
     rows = np.flatnonzero(sizes[stack.triangle_faces] != 4) if len(stack.quads) else slice(None)
     faces = stack.triangle_faces[rows]
     if len(faces):
         bare = classify(stack.triangles[rows], faces, TRIANGLE)[2]
-        pieces, narrow = np.bincount(faces, minlength=face_count), np.bincount(faces[bare], minlength=face_count)
+        pieces = np.bincount(faces, minlength=face_count)
+        narrow = np.bincount(faces[bare], minlength=face_count)
         degenerate |= (narrow > 0) & (narrow == pieces)
     polygons = np.flatnonzero(sizes > 4)
     if len(polygons):
@@ -212,7 +243,8 @@ def _classify_rows(
     points: NDArray, corners: NDArray, pairs: tuple, error: float | NDArray, exponent: int | NDArray
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Return (m,) 6 times the scaled tetrahedra of faces' corners, 0 if flat, and a mask of faces without area."""
-    volumes, bare = [np.empty(0)], [np.empty(0, bool)]
+    volumes = [np.empty(0)]
+    bare = [np.empty(0, bool)]
     for start in range(0, len(corners), FACES_PER_BLOCK):
         part = slice(start, start + FACES_PER_BLOCK)
         scale = -(exponent[part] if isinstance(exponent, np.ndarray) else exponent)
@@ -225,8 +257,11 @@ def _classify_rows(
         squares = np.add.reduce(vectors * vectors, axis=1)
         bare.append(squares[2] <= _degenerate_limit(np.maximum(squares[0], squares[1]), off))
         if third:
-            volume, normal = np.abs(dot(third[0], across)), np.sqrt(squares[2])
-            volume[(volume <= normal * (8.0 * off + PLANAR_RTOL * np.sqrt(normal))) | bare[-1]] = 0.0
+            volume = np.abs(dot(third[0], across))
+            normal = np.sqrt(squares[2])
+            volume[(volume <= normal * (8.0 * off + PLANAR_RTOL * np.sqrt(normal))) | bare[-1]] = (
+                0.0
+            )
             volumes.append(volume)
     return np.concatenate(volumes), np.concatenate(bare)
 

@@ -22,7 +22,8 @@ TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float64]:
     """Return the (m,) distances of (m, 3) points, or of one point, each from its own of (m, 3, 3) triangles."""
-    point, ends = np.asarray(points, np.float64).T, np.ascontiguousarray(corners.transpose(1, 2, 0))
+    point = np.asarray(points, np.float64).T
+    ends = np.ascontiguousarray(corners.transpose(1, 2, 0))
     if point.ndim == 1:
         point = point[:, None]
     to = [subtract(point, end) for end in ends]
@@ -30,7 +31,8 @@ def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float6
     normal = cross(edges[0], edges[1])
     size = np.sqrt(dot(normal, normal))
     real = size > 0.0
-    nearest, inside = np.full(len(corners), np.inf), real
+    nearest = np.full(len(corners), np.inf)
+    inside = real
     for away, edge in zip(to, edges):
         length = dot(edge, edge)
         share = np.clip(dot(away, edge) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
@@ -42,18 +44,28 @@ def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float6
     return np.where(inside, np.minimum(height, nearest), nearest)
 
 
-def winding_number(points: NDArray[np.floating], triangles: NDArray[np.integer], point: NDArray) -> float:
+def winding_number(
+    points: NDArray[np.floating], triangles: NDArray[np.integer], point: NDArray
+) -> float:
     """Return the number of times that triangles (m, 3), closed or open, surround a point."""
     blocks = range(0, len(triangles), TRIANGLES_PER_BLOCK)
     return sum(
-        float(solid_angles(points, triangles[start : start + TRIANGLES_PER_BLOCK], point).sum()) for start in blocks
+        float(solid_angles(points, triangles[start : start + TRIANGLES_PER_BLOCK], point).sum())
+        for start in blocks
     ) / (4.0 * math.pi)
 
 
-def solid_angles(points: NDArray, triangles: NDArray[np.integer], point: ArrayLike = 0.0) -> NDArray[np.float64]:
+def solid_angles(
+    points: NDArray, triangles: NDArray[np.integer], point: ArrayLike = 0.0
+) -> NDArray[np.float64]:
     """Return (m,) signed solid angles of triangles seen from a point, by van Oosterom and Strackee (1983), eq. 8."""
     a, b, c = (points[triangles[:, k]] - np.asarray(point) for k in range(3))
     la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
     volume = (a * np.cross(b, c)).sum(axis=1)
-    below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
+    below = (
+        la * lb * lc
+        + (a * b).sum(axis=1) * lc
+        + (b * c).sum(axis=1) * la
+        + (c * a).sum(axis=1) * lb
+    )
     return 2.0 * np.arctan2(volume, below)

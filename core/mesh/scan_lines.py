@@ -28,7 +28,10 @@ COLUMN_SLOPE = 0.6180339887498949  # shift of columns from row to row, in column
 POINTS_PER_BLOCK = 1 << 14
 FACES_PER_BLOCK = 1 << 16
 PAIRS_PER_BLOCK = 1 << 16  # pairs of triangles and rows
-MIN_LINES, MAX_LINES, LINES_PER_SQRT = 576, 2048, 5.0  # lines through a body; and for each √triangles
+# lines through a body; and for each √triangles
+MIN_LINES = 576
+MAX_LINES = 2048
+LINES_PER_SQRT = 5.0
 MAX_PAIRS = 8192, 1.0  # pairs of triangles and rows of a body; and more for each of its triangles
 MAX_CROSSINGS = 16384, 0.5  # pairs of lines and triangles; likewise
 
@@ -54,7 +57,8 @@ class LineGrids:
         """Make grids of about `lines`, (b,), lines each over boxes, (b, 3)."""
         axes = np.argsort(low - high, axis=1, kind="stable")
         body = np.arange(len(low))[:, None]
-        extent, center = (high - low)[body, axes], ((low + high) / 2.0)[body, axes]
+        extent = (high - low)[body, axes]
+        center = ((low + high) / 2.0)[body, axes]
         width = extent[:, :2] + LINE_SLOPES * extent[:, 2:]
         width = np.maximum(width, 1e-6 * width.max(axis=1, keepdims=True) + np.finfo(float).tiny)
         rows = np.clip(np.rint(np.sqrt(lines * width[:, 0] / width[:, 1])), 1, lines)
@@ -71,14 +75,20 @@ class LineGrids:
         cell = np.repeat(4.0 * sizes[:, None], 2, axis=1)
         return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
 
-    def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> NDArray[np.float64]:
+    def places(
+        self, points: NDArray[np.floating], body: NDArray[np.integer] | None
+    ) -> NDArray[np.float64]:
         """Return the (3, n) rows, columns and lengths along the lines of points. body: (n,), None for a single body."""
         if body is None:
             places = points.T[self.axes[0]].astype(np.float64)
-            center, cell, origin = self.center.T, self.cell.T, self.origin.T
+            center = self.center.T
+            cell = self.cell.T
+            origin = self.origin.T
         else:
             places = points[np.arange(len(points)), self.axes[body].T].astype(np.float64)
-            center, cell, origin = self.center[body].T, self.cell[body].T, self.origin[body].T
+            center = self.center[body].T
+            cell = self.cell[body].T
+            origin = self.origin[body].T
         places -= center
         along = places[2]
         for k in range(2):
@@ -89,7 +99,11 @@ class LineGrids:
         return places
 
     def squared_distances(
-        self, body: NDArray[np.intp], row: NDArray[np.intp], column: NDArray[np.intp], along: NDArray[np.float64]
+        self,
+        body: NDArray[np.intp],
+        row: NDArray[np.intp],
+        column: NDArray[np.intp],
+        along: NDArray[np.float64],
     ) -> NDArray[np.float64]:
         """Return the (k,) squared distances of places on lines from the centers of their bodies (unit²)."""
         across = np.stack([row, column], axis=1) - self.origin[body]
@@ -122,15 +136,23 @@ def line_counts(triangles: NDArray[np.integer]) -> NDArray[np.intp]:
     return np.clip(LINES_PER_SQRT * np.sqrt(triangles), MIN_LINES, MAX_LINES).astype(np.intp)
 
 
-def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer] | None = None) -> Crossings:
+def find_crossings(
+    surface: Surface, grids: LineGrids, body: NDArray[np.integer] | None = None
+) -> Crossings:
     """Find the crossings of lines with faces of bodies, unordered. body: (n,) of the points, None for a single body."""
     triangles, number = _crossed_triangles(surface, _cells(surface.points, grids, body))
-    corners, count = triangles.ravel(), triangles.shape[1]
+    corners = triangles.ravel()
+    count = triangles.shape[1]
     owner = np.zeros(count, np.intp) if body is None else body[triangles[0]].astype(np.intp)
     places = grids.places(surface.points.take(corners, 0), None if body is None else body[corners])
-    above = np.ceil(places[0]).astype(np.intp).reshape(3, count)  # the lowest row that is not below the corner
-    first, last = (np.clip(end, 0, grids.rows) for end in (np.minimum.reduce(above), np.maximum.reduce(above)))
-    bodies, faces = len(grids.cell), _count_faces(surface, body, len(grids.cell))
+    above = (
+        np.ceil(places[0]).astype(np.intp).reshape(3, count)
+    )  # the lowest row that is not below the corner
+    first, last = (
+        np.clip(end, 0, grids.rows) for end in (np.minimum.reduce(above), np.maximum.reduce(above))
+    )
+    bodies = len(grids.cell)
+    faces = _count_faces(surface, body, len(grids.cell))
     apart = _rows_apart(sums_by_index(owner, last - first, bodies), MAX_PAIRS, faces)
     step = apart[owner]
     first = -(-first // step) * step
@@ -139,13 +161,17 @@ def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer]
     for part in batches(count, PAIRS_PER_BLOCK):
         which = part.start + np.repeat(np.arange(len(count[part])), count[part])
         row = first[which] + segment_ranges(count[part]) * step[which]
-        pieces.append((which, row, *_cross_row(places, corners, which, above.take(which, 1) > row, row)))
+        pieces.append(
+            (which, row, *_cross_row(places, corners, which, above.take(which, 1) > row, row))
+        )
     if not pieces:
         none = np.empty(0, np.intp)
         return Crossings(none, none, none, none, np.empty(0), none, apart)
     which, row, left, right, sign = (np.concatenate(column, axis=-1) for column in zip(*pieces))
     owner = owner[which]
-    start, stop = (np.clip(np.ceil(end[0]), 0, grids.columns).astype(np.intp) for end in (left, right))
+    start, stop = (
+        np.clip(np.ceil(end[0]), 0, grids.columns).astype(np.intp) for end in (left, right)
+    )
     count = stop - start
     further = _rows_apart(sums_by_index(owner, count, bodies), MAX_CROSSINGS, faces)
     apart = apart * further
@@ -161,25 +187,34 @@ def _cells(
     points: NDArray[np.floating], grids: LineGrids, body: NDArray[np.integer] | None
 ) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
     """Return the (n,) lowest rows and the (n,) lowest columns that are not below the points."""
-    short = max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4  # the cache holds more of these
+    short = (
+        max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4
+    )  # the cache holds more of these
     cells = np.empty((2, len(points)), np.int16 if short else np.int32)
     for start in range(0, len(points), POINTS_PER_BLOCK):
         part = slice(start, start + POINTS_PER_BLOCK)
-        cells[:, part] = np.ceil(grids.places(points[part], None if body is None else body[part])[:2])
+        cells[:, part] = np.ceil(
+            grids.places(points[part], None if body is None else body[part])[:2]
+        )
     return cells[0], cells[1]
 
 
-def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int) -> NDArray[np.intp]:
+def _count_faces(
+    surface: Surface, body: NDArray[np.integer] | None, bodies: int
+) -> NDArray[np.intp]:
     """Return the (b,) numbers of triangles of the bodies."""
     if body is None:
         return np.array([surface.triangle_count])
     quads, triangles = (
-        np.bincount(body[faces[:, 0]], minlength=bodies) for faces in (surface.quads, surface.triangles)
+        np.bincount(body[faces[:, 0]], minlength=bodies)
+        for faces in (surface.quads, surface.triangles)
     )
     return triangles + 2 * quads
 
 
-def _rows_apart(work: NDArray[np.float64], limit: tuple[int, float], faces: NDArray[np.intp]) -> NDArray[np.intp]:
+def _rows_apart(
+    work: NDArray[np.float64], limit: tuple[int, float], faces: NDArray[np.intp]
+) -> NDArray[np.intp]:
     """Return the (b,) distances, in rows, between the scanned rows of bodies, so that the work stays within a limit."""
     return np.maximum(np.ceil(work / (limit[0] + limit[1] * faces)), 1).astype(np.intp)
 
@@ -188,7 +223,8 @@ def _crossed_triangles(
     surface: Surface, cells: tuple[NDArray[np.integer], NDArray[np.integer]]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return (3, k) corners, and indices, of the triangles, or halves of quads, that span several rows and columns."""
-    triangles, number = [np.empty((3, 0), np.intp)], [np.empty(0, np.intp)]
+    triangles = [np.empty((3, 0), np.intp)]
+    number = [np.empty(0, np.intp)]
     quads = surface.quads
     for faces in (quads, surface.triangles):
         for start in range(0, len(faces), FACES_PER_BLOCK):
@@ -196,11 +232,14 @@ def _crossed_triangles(
             crossed = np.flatnonzero(_differ(cells[0], block))
             block = block.take(crossed, 1)
             both = np.flatnonzero(_differ(cells[1], block))
-            crossed, corners = crossed[both], block.take(both, 1)
+            crossed = crossed[both]
+            corners = block.take(both, 1)
             if faces is quads:
                 flipped = flipped_quads(surface.points, corners.T)
                 corners = np.where(flipped, np.roll(corners, -1, axis=0), corners)
-                triangles.append(corners.take([[0, 0], [1, 2], [2, 3]], 0).transpose(0, 2, 1).reshape(3, -1))
+                triangles.append(
+                    corners.take([[0, 0], [1, 2], [2, 3]], 0).transpose(0, 2, 1).reshape(3, -1)
+                )
                 number.append((2 * (start + crossed)[:, None] + [0, 1]).ravel())
             else:
                 triangles.append(corners)
@@ -228,7 +267,8 @@ def _cross_row(
     first, second, third = higher
     single = (first ^ second ^ third) & ~(first & second & third)
     lone = np.where(first == second, 2, first == third)  # the corner on a side of its own
-    total, ends = len(corners) // 3, []
+    total = len(corners) // 3
+    ends = []
     at = which + total * lone
     for k in (1, 2):
         next_one = which + total * ((lone + k) % 3)
@@ -238,5 +278,6 @@ def _cross_row(
         share = (row - begin[0]) / (end[0] - begin[0])
         ends.append(begin[1:] + share * (end[1:] - begin[1:]))
     forward = ends[0][0] < ends[1][0]
-    left, right = np.where(forward, ends[0], ends[1]), np.where(forward, ends[1], ends[0])
+    left = np.where(forward, ends[0], ends[1])
+    right = np.where(forward, ends[1], ends[0])
     return left, right, np.where(forward == single, -1, 1)

@@ -23,7 +23,8 @@ NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
 NEXT_CORNER = [1, 2, 3, 0]
 HALVES = [0, 1, 2, 0, 2, 3]  # corners of a quad's triangles
-POINT_TYPES, INDEX_TYPES = (np.dtype(np.float32), np.dtype(np.float64)), (np.dtype(np.int32), np.dtype(np.int64))
+POINT_TYPES = (np.dtype(np.float32), np.dtype(np.float64))
+INDEX_TYPES = (np.dtype(np.int32), np.dtype(np.int64))
 INDEX_SHAPES = {
     "triangles": ("m", 3),
     "quads": ("q", 4),
@@ -87,13 +88,19 @@ class Surface:
                 kind = indices.dtype if indices.dtype in INDEX_TYPES else np.int64
                 object.__setattr__(self, name, indices.astype(kind, copy=False))
         if self.displacement is not None:
-            object.__setattr__(self, "displacement", float_array("displacement", self.displacement, 3))
+            object.__setattr__(
+                self, "displacement", float_array("displacement", self.displacement, 3)
+            )
 
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Smallest and largest coordinates of the points, (3,) each, unused points included; NaN if any is NaN."""
-        rows = np.ascontiguousarray(self.points.T)  # along rows of three numpy is twenty times as slow
-        return np.minimum.reduce(rows, axis=1).astype(np.float64), np.maximum.reduce(rows, axis=1).astype(np.float64)
+        rows = np.ascontiguousarray(
+            self.points.T
+        )  # along rows of three numpy is twenty times as slow
+        return np.minimum.reduce(rows, axis=1).astype(np.float64), np.maximum.reduce(
+            rows, axis=1
+        ).astype(np.float64)
 
     @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:
@@ -115,16 +122,21 @@ class Surface:
 
     def used_points(self) -> NDArray[np.floating]:
         """Return the (k, 3) points that are corners of faces."""
-        return self.points[np.bincount(self.all_triangles()[0].ravel(), minlength=len(self.points)) > 0]
+        return self.points[
+            np.bincount(self.all_triangles()[0].ravel(), minlength=len(self.points)) > 0
+        ]
 
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
         """Map the points by (3, 3) `linear` @ x + (3,) `offset` in float64; the surface is then one of triangles alone.
 
         A mirroring map reverses the faces, so that outward stays outward; the diagonals stay as Blender drew them.
         """
-        rows, offset = float_array("linear", linear, 3, 3), float_array("offset", offset, 3)
+        rows = float_array("linear", linear, 3, 3)
+        offset = float_array("offset", offset, 3)
         x, y, z = self.points.T.astype(np.float64)
-        points = np.stack([a[0] * x + a[1] * y + a[2] * z + t for a, t in zip(rows, offset)], axis=1)
+        points = np.stack(
+            [a[0] * x + a[1] * y + a[2] * z + t for a, t in zip(rows, offset)], axis=1
+        )
         triangles, faces = self.all_triangles()
         if np.linalg.det(rows) < 0.0:
             triangles = triangles[:, ::-1]
@@ -153,14 +165,18 @@ class Surface:
         if not len(self.quads):
             return self.triangles, faces
         cut = turned_quads(self.points, self.quads)[:, HALVES].reshape(-1, 3)
-        return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
+        return np.concatenate([self.triangles, cut]), np.concatenate(
+            [faces, np.repeat(quad_faces, 2)]
+        )
 
 
 def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
     """Return the mesh face of each quad and of each triangle."""
     return (
         np.arange(len(surface.quads)) if surface.quad_faces is None else surface.quad_faces,
-        np.arange(len(surface.triangles)) if surface.triangle_faces is None else surface.triangle_faces,
+        np.arange(len(surface.triangles))
+        if surface.triangle_faces is None
+        else surface.triangle_faces,
     )
 
 
@@ -170,20 +186,27 @@ def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDA
     return cross_rows(b - a, c - a)
 
 
-def triangle_areas(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+def triangle_areas(
+    points: NDArray[np.floating], triangles: NDArray[np.integer]
+) -> NDArray[np.float64]:
     """Return (m,) areas of triangles."""
     return 0.5 * lengths(normals(points, triangles))[:, 0]
 
 
 def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
     """Join surfaces, in the same coordinates, into one of float64 triangles; the numbers of their faces continue."""
-    points, triangles, faces, start, face = [], [], [], 0, 0
+    points = []
+    triangles = []
+    faces = []
+    start = 0
+    face = 0
     for surface in surfaces:
         cut, source_face = surface.all_triangles()
         points.append(surface.points.astype(np.float64))
         triangles.append(cut + start)
         faces.append(source_face + face)
-        start, face = start + len(surface.points), face + int(source_face.max(initial=-1)) + 1
+        start = start + len(surface.points)
+        face = face + int(source_face.max(initial=-1)) + 1
     return Surface(
         np.concatenate(points),
         np.concatenate(triangles),
@@ -207,5 +230,7 @@ def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
     with np.errstate(over="ignore", invalid="ignore"):
         points = points.astype(np.float32, copy=False)
         a, b, c, d = (points[quads[:, i]] for i in range(4))
-        first, second, diagonal = (b - a).T, (d - a).T, (c - a).T
+        first = (b - a).T
+        second = (d - a).T
+        diagonal = (c - a).T
         return dot(cross(first, diagonal), cross(second, diagonal)) > 0.0

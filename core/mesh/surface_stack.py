@@ -68,8 +68,10 @@ class TriangleStack:
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The smallest and the largest coordinates of the surfaces, (n, 3) each."""
-        rows, starts = np.ascontiguousarray(self.points.T), self.first_point
-        low, high = np.minimum.reduceat(rows, starts, axis=1), np.maximum.reduceat(rows, starts, axis=1)
+        rows = np.ascontiguousarray(self.points.T)
+        starts = self.first_point
+        low = np.minimum.reduceat(rows, starts, axis=1)
+        high = np.maximum.reduceat(rows, starts, axis=1)
         return low.T.astype(np.float64), high.T.astype(np.float64)
 
     @cached_property
@@ -113,8 +115,11 @@ class SurfaceStack(TriangleStack):
         known = [surface for surface, is_fit in zip(surfaces, fits) if is_fit]
         if not known:
             return fits
-        counts = np.array([(len(surface.points), len(np.asarray(surface.corner_edges))) for surface in known])
-        starts, in_range = segment_starts(counts[:, 1]), np.ones(len(known), bool)
+        counts = np.array(
+            [(len(surface.points), len(np.asarray(surface.corner_edges))) for surface in known]
+        )
+        starts = segment_starts(counts[:, 1])
+        in_range = np.ones(len(known), bool)
         for name, limit in (("corner_vertices", counts[:, 0]), ("corner_edges", 2 * counts[:, 1])):
             numbers = np.concatenate([getattr(surface, name) for surface in known])
             in_range &= np.maximum.reduceat(as_unsigned(numbers), starts) < limit
@@ -126,26 +131,39 @@ class SurfaceStack(TriangleStack):
         """Stack surfaces that it `takes`, at least one."""
         point_counts, corner_counts, single, quad_counts = np.array(
             [
-                [len(surface.points), len(np.asarray(surface.corner_edges)), len(surface.triangles), len(surface.quads)]
+                [
+                    len(surface.points),
+                    len(np.asarray(surface.corner_edges)),
+                    len(surface.triangles),
+                    len(surface.quads),
+                ]
                 for surface in surfaces
             ]
         ).T
         bodies = np.arange(len(surfaces))
-        of_triangle, of_quad, of_corner = (bodies.repeat(counts) for counts in (single, quad_counts, corner_counts))
+        of_triangle, of_quad, of_corner = (
+            bodies.repeat(counts) for counts in (single, quad_counts, corner_counts)
+        )
         points = np.concatenate([surface.points for surface in surfaces])
         triangles = np.concatenate([surface.triangles for surface in surfaces]).astype(np.intp)
         quads = np.concatenate([surface.quads for surface in surfaces]).astype(np.intp)
         quad_faces, triangle_faces = (
-            np.concatenate(faces).astype(np.intp) for faces in zip(*[face_of_each(surface) for surface in surfaces])
+            np.concatenate(faces).astype(np.intp)
+            for faces in zip(*[face_of_each(surface) for surface in surfaces])
         )
-        corners = np.concatenate([np.asarray(surface.corner_vertices) for surface in surfaces]).astype(np.intp)
-        edges = np.concatenate([np.asarray(surface.corner_edges) for surface in surfaces]).astype(np.intp)
+        corners = np.concatenate(
+            [np.asarray(surface.corner_vertices) for surface in surfaces]
+        ).astype(np.intp)
+        edges = np.concatenate([np.asarray(surface.corner_edges) for surface in surfaces]).astype(
+            np.intp
+        )
         edge_counts = np.maximum.reduceat(edges, segment_starts(corner_counts)) + 1
         face_counts = np.zeros(len(surfaces), np.intp)
         np.maximum.at(face_counts, of_triangle, triangle_faces + 1)
         np.maximum.at(face_counts, of_quad, quad_faces + 1)
         if len(surfaces) > 1:  # numbers go on from surface to surface
-            first_point, first_face = segment_starts(point_counts), segment_starts(face_counts)
+            first_point = segment_starts(point_counts)
+            first_face = segment_starts(face_counts)
             triangles += first_point[of_triangle][:, None]
             quads += first_point[of_quad][:, None]
             triangle_faces += first_face[of_triangle]
@@ -155,7 +173,9 @@ class SurfaceStack(TriangleStack):
         cut, cut_faces = triangles, triangle_faces
         if len(quads):
             order = np.concatenate([of_triangle, of_quad.repeat(2)]).argsort(kind="stable")
-            cut = np.concatenate([triangles, turned_quads(points, quads).take(HALVES, 1).reshape(-1, 3)])[order]
+            cut = np.concatenate(
+                [triangles, turned_quads(points, quads).take(HALVES, 1).reshape(-1, 3)]
+            )[order]
             cut_faces = np.concatenate([triangle_faces, quad_faces.repeat(2)])[order]
         return cls(
             points,
@@ -191,11 +211,15 @@ class SurfaceStack(TriangleStack):
 
     def connections(self) -> Connections:
         """Find the connections of the faces, by the meshes' own edges."""
-        sizes, corners, edges = self.face_sizes, self.corner_vertices, self.corner_edges
+        sizes = self.face_sizes
+        corners = self.corner_vertices
+        edges = self.corner_edges
         first_face = self.first_face
         fits = np.add.reduceat(sizes, first_face) == self.corner_counts
         fits &= np.minimum.reduceat(sizes, first_face) > 0
-        if not fits.all():  # the rings of the others are not known; their corners must not be taken for rings
+        if (
+            not fits.all()
+        ):  # the rings of the others are not known; their corners must not be taken for rings
             sizes = np.where(np.repeat(fits, self.face_counts), sizes, 0)
             known = np.repeat(fits, self.corner_counts)
             corners, edges = corners[known], edges[known]

@@ -25,11 +25,15 @@ WELD_LIMIT_RTOL = 1e-3  # relative to the smallest triangle at a vertex: larger 
 
 def first_at_equal_position(points: NDArray[np.floating]) -> NDArray[np.intp]:
     """Return the (n,) first points at exactly the same places as the points; -0.0 equals 0.0."""
-    return first_occurrence(*(points[:, k].astype(np.float64) + 0.0 for k in range(3)))  # -0.0 + 0.0 = 0.0
+    return first_occurrence(
+        *(points[:, k].astype(np.float64) + 0.0 for k in range(3))
+    )  # -0.0 + 0.0 = 0.0
 
 
 def may_have_neighbor(
-    points: NDArray[np.floating], reach: float | NDArray[np.float64], owner: NDArray[np.integer] | None = None
+    points: NDArray[np.floating],
+    reach: float | NDArray[np.float64],
+    owner: NDArray[np.integer] | None = None,
 ) -> NDArray[np.bool_]:
     """Return an (n,) mask of all points with another point of their owner within `reach`, and of some more points."""
     x, y, z = points.T.astype(np.float64)
@@ -45,7 +49,9 @@ def may_have_neighbor(
     return result
 
 
-def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.float64]) -> NDArray[np.intp]:
+def first_at_near_position(
+    points: NDArray[np.floating], tolerance: NDArray[np.float64]
+) -> NDArray[np.intp]:
     """Return (n,) for each point the first of its cluster of points nearer to each other than (n,) tolerances."""
     place = points.astype(np.float64)
     place = place - place.min(axis=0)
@@ -59,14 +65,18 @@ def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.f
     return _first_of_clusters(place, tolerance, cell)
 
 
-def _first_of_clusters(place: NDArray[np.float64], tolerance: NDArray[np.float64], cell: float) -> NDArray[np.intp]:
+def _first_of_clusters(
+    place: NDArray[np.float64], tolerance: NDArray[np.float64], cell: float
+) -> NDArray[np.intp]:
     """Return the (n,) points of `first_at_near_position`, on grids of cells of this size."""
     left, right = [], []
     for shift in np.ndindex(2, 2, 2):
         grid = np.floor(place / cell + 0.5 * np.array(shift))
         first = first_at_equal_position(grid)
         distance = np.linalg.norm(place - place[first], axis=1)
-        near = (distance <= np.minimum(tolerance, tolerance[first])) & (first != np.arange(len(place)))
+        near = (distance <= np.minimum(tolerance, tolerance[first])) & (
+            first != np.arange(len(place))
+        )
         left.append(first[near])
         right.append(np.flatnonzero(near))
     cluster, number = connected_components(len(place), np.concatenate(left), np.concatenate(right))
@@ -76,7 +86,10 @@ def _first_of_clusters(place: NDArray[np.float64], tolerance: NDArray[np.float64
 
 
 def vertex_tolerance(
-    points: NDArray[np.floating], triangles: NDArray[np.integer], vertices: NDArray[np.integer], tolerance: float
+    points: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    vertices: NDArray[np.integer],
+    tolerance: float,
 ) -> NDArray[np.float64]:
     """Return the (k,) distances that `vertices` may move: `tolerance`, less if the triangles around them are small."""
     requested = np.zeros(len(points), bool)
@@ -89,7 +102,9 @@ def vertex_tolerance(
     return np.minimum(tolerance, WELD_LIMIT_RTOL * size[vertices])
 
 
-def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integer]) -> NDArray[np.intp]:
+def same_vertices_groups(
+    triangles: NDArray[np.integer], faces: NDArray[np.integer]
+) -> NDArray[np.intp]:
     """Return for m triangles the first mesh faces on the same vertices as their own mesh faces, `faces` (m,)."""
     width = int(faces.max()) + 1
     pieces = np.bincount(faces)
@@ -100,11 +115,15 @@ def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integ
         sums[k, faces[single]] = hashes[:, 0] + hashes[:, 1] + hashes[:, 2]
     if not single.all():
         vertices = int(triangles.max()) + 1
-        corner = np.unique(np.repeat(faces[~single], 3).astype(np.int64) * vertices + triangles[~single].ravel())
+        corner = np.unique(
+            np.repeat(faces[~single], 3).astype(np.int64) * vertices + triangles[~single].ravel()
+        )
         owner = corner // vertices
         begin = np.flatnonzero(np.concatenate([[True], owner[1:] != owner[:-1]]))
         for k, salt in enumerate((np.uint64(0), np.uint64(1) << np.uint64(32))):
-            sums[k, owner[begin]] = np.add.reduceat(hash_uint64((corner % vertices).astype(np.uint64) + salt), begin)
+            sums[k, owner[begin]] = np.add.reduceat(
+                hash_uint64((corner % vertices).astype(np.uint64) + salt), begin
+            )
     present = np.flatnonzero(pieces)
     group = np.empty(width, np.intp)
     group[present] = present[first_occurrence(*sums[:, present])]

@@ -17,14 +17,25 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arrays import segment_ranges, segment_starts
-from .exponents import count_of_degree, monomial_count, monomial_index, monomials, product_indices, quotient_indices
+from .exponents import (
+    count_of_degree,
+    monomial_count,
+    monomial_index,
+    monomials,
+    product_indices,
+    quotient_indices,
+)
 
 # If the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
 # float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
 SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
-SIMILARITY_RTOL = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
+SIMILARITY_RTOL = (
+    1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
+)
 ROTATIONS_PER_BLOCK = 128  # with tables of coefficients that stay in the cache
-HIGHEST_ODD = 3.0  # safety factor of the estimate from the two lower even degrees; a thin bar needs 1.3
+HIGHEST_ODD = (
+    3.0  # safety factor of the estimate from the two lower even degrees; a thin bar needs 1.3
+)
 
 
 def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -33,7 +44,9 @@ def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np
     return affine[:, :3], affine[:, 3]
 
 
-def distinct_linear_parts(matrices: NDArray) -> Iterator[tuple[NDArray[np.float64], NDArray[np.intp]]]:
+def distinct_linear_parts(
+    matrices: NDArray,
+) -> Iterator[tuple[NDArray[np.float64], NDArray[np.intp]]]:
     """Yield each distinct (3, 3) linear part of (k, 4, 4) maps with the (j,) indices of the maps that have it."""
     linear, which = np.unique(matrices[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
     for i, row in enumerate(linear):
@@ -52,17 +65,24 @@ def similarity_groups(matrices: NDArray) -> Iterator[tuple[NDArray[np.intp], boo
 def affine_matrices(linear: NDArray, offsets: ArrayLike = 0.0) -> NDArray[np.float64]:
     """Return (..., 4, 4) maps with these (..., 3, 3) linear parts and (..., 3) offsets, either of which may be one."""
     matrices = np.zeros((*np.broadcast_shapes(linear.shape[:-2], np.shape(offsets)[:-1]), 4, 4))
-    matrices[..., :3, :3], matrices[..., :3, 3], matrices[..., 3, 3] = linear, offsets, 1.0
+    matrices[..., :3, :3] = linear
+    matrices[..., :3, 3] = offsets
+    matrices[..., 3, 3] = 1.0
     return matrices
 
 
-def placed_boxes(box: tuple[NDArray, NDArray], matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def placed_boxes(
+    box: tuple[NDArray, NDArray], matrices: NDArray
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return (k, 3) middles and half sides of boxes around the images of a box, (3,) and (3,), by (k, 4, 4) maps."""
-    (low, high), linear = box, matrices[:, :3, :3]
+    (low, high) = box
+    linear = matrices[:, :3, :3]
     return linear @ ((low + high) / 2.0) + matrices[:, :3, 3], np.abs(linear) @ ((high - low) / 2.0)
 
 
-def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
+def transform_by_horner(
+    values: NDArray, order: int, linear: NDArray, offset: NDArray
+) -> NDArray[np.float64]:
     """Return (K, k) images of functionals, (K, 1) or (K, k), under maps with (3, 3, k) `linear` and (3, k) `offset`."""
     forms = [(offset[i], *linear[i]) for i in range(3)]
     out = np.zeros((len(values), offset.shape[1]))
@@ -79,7 +99,9 @@ def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: ND
     return out
 
 
-def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.float64]:
+def multiply_by_linear_form(
+    form: tuple[NDArray, ...], values: NDArray, order: int
+) -> NDArray[np.float64]:
     """Return a functional times the linear form (t, a, b, c), one order shorter: empty if `order` is 0."""
     if not order:
         return values[:0]
@@ -98,15 +120,22 @@ def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.flo
     out = np.array(values)
     for part, table in _image_coefficients(np.stack([linear, np.abs(linear)], axis=-3), order):
         out[..., 0, part] = np.add.reduce(table[..., 0, :, :] * values[..., 0, None, part], axis=-1)
-        out[..., 1:, part] = np.einsum("...rc,...mc->...mr", table[..., 1, :, :], values[..., 1:, part])
+        out[..., 1:, part] = np.einsum(
+            "...rc,...mc->...mr", table[..., 1, :, :], values[..., 1:, part]
+        )
     return out
 
 
 def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.float64]:
     """Return (..., K) moments of bodies after rotations (..., 3, 3), from their moments `raw`; no error bounds."""
     if raw.ndim + 1 == rotation.ndim == 3 and len(rotation) == len(raw) > ROTATIONS_PER_BLOCK:
-        blocks = [slice(start, start + ROTATIONS_PER_BLOCK) for start in range(0, len(raw), ROTATIONS_PER_BLOCK)]
-        return np.concatenate([rotate_moments(raw[block], order, rotation[block]) for block in blocks])
+        blocks = [
+            slice(start, start + ROTATIONS_PER_BLOCK)
+            for start in range(0, len(raw), ROTATIONS_PER_BLOCK)
+        ]
+        return np.concatenate(
+            [rotate_moments(raw[block], order, rotation[block]) for block in blocks]
+        )
     out = np.zeros((*np.broadcast_shapes(raw.shape[:-1], rotation.shape[:-2]), raw.shape[-1]))
     out += raw
     for part, table in _image_coefficients(rotation, order):
@@ -126,7 +155,8 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[n
     """Return (..., rows, rows) coefficients of the images of a degree's monomials. table: those one degree lower."""
     if degree == 1:
         return forms
-    count, below = count_of_degree(degree), count_of_degree(degree - 1)
+    count = count_of_degree(degree)
+    below = count_of_degree(degree - 1)
     padded = np.concatenate([table, np.zeros((*table.shape[:-1], 1))], axis=-1)
     raised = padded[..., quotient_indices(degree, below)]  # times x, y, z: (..., below, 3, rows)
     grown = np.empty((*table.shape[:-2], count, count))
@@ -144,16 +174,22 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[n
 
 
 @lru_cache
-def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]]:
+def _terms(
+    order: int,
+) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]]:
     """Return, by axis, the terms of all shifted monomials: (t,) old indices, powers, binomials; (K,) first terms."""
-    powers, tables = monomials(order), []
+    powers = monomials(order)
+    tables = []
     for axis in range(3):
         count = powers[:, axis] + 1
         target = np.repeat(np.arange(len(powers)), count)
-        old, raised = powers[target], powers[target, axis]
+        old = powers[target]
+        raised = powers[target, axis]
         old[:, axis] = segment_ranges(count)
         sources = monomial_index(*old.T)
-        binomials = np.array([float(math.comb(n, k)) for n, k in zip(raised.tolist(), old[:, axis].tolist())])
+        binomials = np.array(
+            [float(math.comb(n, k)) for n, k in zip(raised.tolist(), old[:, axis].tolist())]
+        )
         tables.append((sources, raised - old[:, axis], binomials, segment_starts(count)))
     return tables
 
@@ -167,7 +203,8 @@ def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[
             values[moved] = apply_translation(values[moved], order, offsets[moved])
         return values
     lead = values.shape[:-1]
-    values, offsets = values.reshape(-1, values.shape[-1]), offsets.reshape(-1, 3)
+    values = values.reshape(-1, values.shape[-1])
+    offsets = offsets.reshape(-1, 3)
     for axis, (sources, lags, binomials, starts) in enumerate(_terms(order)):
         powers = np.ones((len(values), order + 1))
         powers[:, 1:] = offsets[:, axis, None]
@@ -189,7 +226,9 @@ def are_singular(linear: NDArray) -> NDArray[np.bool_]:
     columns /= np.where(lengths > 0.0, lengths, 1.0)
     x, y, z = columns
     volume = (
-        x[0] * (y[1] * z[2] - z[1] * y[2]) + y[0] * (z[1] * x[2] - x[1] * z[2]) + z[0] * (x[1] * y[2] - y[1] * x[2])
+        x[0] * (y[1] * z[2] - z[1] * y[2])
+        + y[0] * (z[1] * x[2] - x[1] * z[2])
+        + z[0] * (x[1] * y[2] - y[1] * x[2])
     )
     return np.abs(volume) <= SINGULAR_RTOL
 
@@ -198,7 +237,9 @@ def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
     """Return (..., K) upper bounds of ∫ |x^p y^q z^r|; of odd highest order they are estimates."""
     out = np.abs(raw)
     largest = [
-        out[..., [monomial_index(n, 0, 0), monomial_index(0, n, 0), monomial_index(0, 0, n)]].max(axis=-1)
+        out[..., [monomial_index(n, 0, 0), monomial_index(0, n, 0), monomial_index(0, 0, n)]].max(
+            axis=-1
+        )
         for n in range(order + 1)
     ]
     for n in range(1, order + 1, 2):
@@ -216,16 +257,24 @@ def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
 
 def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
     """Return a (k,) mask of the (k, 3, 3) maps that are similarities to the accuracy of float32 entries."""
-    return anisotropy(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY_RTOL
+    return (
+        anisotropy(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0)))
+        <= SIMILARITY_RTOL
+    )
 
 
 def anisotropy(linear: NDArray) -> NDArray[np.float64]:
     """Return (k,) bounds of the variation of (3, 3, k) maps' squared stretch, relative to its mean; infinite for 0."""
     columns = linear.transpose(1, 0, 2)
     a, b, c = [np.add.reduce(column * column) for column in columns]
-    ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j])) for i, j in ((0, 1), (0, 2), (1, 2))]
+    ab, ac, bc = [
+        np.abs(np.add.reduce(columns[i] * columns[j])) for i, j in ((0, 1), (0, 2), (1, 2))
+    ]
     mean = (a + b + c) / 3.0
-    off = np.maximum(np.maximum(np.abs(a - mean) + ab + ac, np.abs(b - mean) + ab + bc), np.abs(c - mean) + ac + bc)
+    off = np.maximum(
+        np.maximum(np.abs(a - mean) + ab + ac, np.abs(b - mean) + ab + bc),
+        np.abs(c - mean) + ac + bc,
+    )
     with np.errstate(invalid="ignore", divide="ignore"):
         off = off / mean
     return np.where(np.isfinite(off), off, np.inf)

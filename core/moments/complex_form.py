@@ -36,8 +36,12 @@ class ComplexBound:
     bound: float
 
     def __mul__(self, other: ComplexBound) -> ComplexBound:
-        value, a, b = self.value * other.value, abs(self.value), abs(other.value)
-        return ComplexBound(value, a * other.bound + b * self.bound + self.bound * other.bound + 4.0 * U * a * b)
+        value = self.value * other.value
+        a = abs(self.value)
+        b = abs(other.value)
+        return ComplexBound(
+            value, a * other.bound + b * self.bound + self.bound * other.bound + 4.0 * U * a * b
+        )
 
     def conjugate(self) -> ComplexBound:
         """Return the complex conjugate, which belongs to the mirror image."""
@@ -66,7 +70,9 @@ class Invariant:
     is_complex: bool = False
 
 
-def complex_moments(moments: Moments, bounds: NDArray[np.float64] | None = None) -> dict[tuple[int, int], ComplexBound]:
+def complex_moments(
+    moments: Moments, bounds: NDArray[np.float64] | None = None
+) -> dict[tuple[int, int], ComplexBound]:
     """Return {(p, q): c_pq}, p ≥ q, of a plane shape (z = 0). bounds: (K,) errors, by default `rounding_error`."""
     bounds = moments.rounding_error if bounds is None else bounds
     found = {}
@@ -79,7 +85,9 @@ def complex_moments(moments: Moments, bounds: NDArray[np.float64] | None = None)
 
 
 @lru_cache
-def _expansions(order: int) -> list[tuple[tuple[int, int], NDArray[np.int64], NDArray[np.complex128]]]:
+def _expansions(
+    order: int,
+) -> list[tuple[tuple[int, int], NDArray[np.int64], NDArray[np.complex128]]]:
     """Return, by degree, each (p, q), p ≥ q, with the indices and factors of the real moments that make up c_pq."""
     expansions = []
     for n in range(order + 1):
@@ -98,7 +106,9 @@ def hu_invariants(moments: Moments) -> list[Invariant]:
 
     def products(bounds: NDArray) -> list[ComplexBound]:
         c = complex_moments(moments.truncate(3), bounds[: len(moments.truncate(3).raw)])
-        c20, c30, c21 = c[2, 0], c[3, 0], c[2, 1]
+        c20 = c[2, 0]
+        c30 = c[3, 0]
+        c21 = c[2, 1]
         c12 = c21.conjugate()
         cubed = c30 * c12.power(3)
         pairs = [c[1, 1], c20 * c20.conjugate(), c30 * c30.conjugate(), c21 * c12]
@@ -106,7 +116,11 @@ def hu_invariants(moments: Moments) -> list[Invariant]:
 
     return [
         Invariant(
-            "φ{:d}".format(i + 1), 2 if i < 2 else 3, complex(own.value.real), own.bound, with_input.bound - own.bound
+            "φ{:d}".format(i + 1),
+            2 if i < 2 else 3,
+            complex(own.value.real),
+            own.bound,
+            with_input.bound - own.bound,
         )
         for i, (own, with_input) in enumerate(_both(moments, products))
     ]
@@ -127,7 +141,12 @@ def flusser_invariants(moments: Moments) -> list[Invariant]:
 
     return [
         Invariant(
-            _name(p, q), max(p + q, 2 if p == q else 3), own.value, own.bound, with_input.bound - own.bound, p > q
+            _name(p, q),
+            max(p + q, 2 if p == q else 3),
+            own.value,
+            own.bound,
+            with_input.bound - own.bound,
+            p > q,
         )
         for (p, q), (own, with_input) in zip(names, _both(moments, products))
     ]
@@ -135,7 +154,11 @@ def flusser_invariants(moments: Moments) -> list[Invariant]:
 
 def _both(moments: Moments, products) -> list[tuple[ComplexBound, ComplexBound]]:
     """Return products with bounds of rounding alone, paired with products that have bounds of the input errors too."""
-    return list(zip(products(moments.rounding_error), products(moments.rounding_error + moments.input_error)))
+    return list(
+        zip(
+            products(moments.rounding_error), products(moments.rounding_error + moments.input_error)
+        )
+    )
 
 
 def _name(p: int, q: int) -> str:
@@ -172,9 +195,13 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
     # Bounds of the total, the trace, and the center's place.
     for delta in (body.rounding_error, body.rounding_error + body.input_error):
         total = body.total / (body.total - delta[0])
-        off = (np.abs(body.raw[1:4]) + delta[1:4]) / (body.total - delta[0]) + 2.0 * U * np.abs(body.about)
+        off = (np.abs(body.raw[1:4]) + delta[1:4]) / (body.total - delta[0]) + 2.0 * U * np.abs(
+            body.about
+        )
         size = np.abs(body.raw) + delta
-        away = apply_translation(size[None], moments.order, off[None])[0] - size + 8.0 * U * n * size
+        away = (
+            apply_translation(size[None], moments.order, off[None])[0] - size + 8.0 * U * n * size
+        )
         if by == "gyration":
             spread = delta[[4, 7, 9]].sum() + away[[4, 7, 9]].sum()
             if not trace > 2.0 * spread:
@@ -182,7 +209,9 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
             stretch = total ** np.abs(n / 2.0 - 1.0) * (trace / (trace - spread)) ** (n / 2.0)
         else:
             stretch = total ** (1.0 + n / dimension)
-        bounds.append(factor * (stretch * (delta + away) + (stretch - 1.0 + (8.0 + 4.0 * n) * U) * size))
+        bounds.append(
+            factor * (stretch * (delta + away) + (stretch - 1.0 + (8.0 + 4.0 * n) * U) * size)
+        )
     return Moments(
         body.raw * factor,
         np.zeros(3),

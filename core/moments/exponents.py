@@ -34,7 +34,9 @@ def order_from_count(count: int) -> int:
 def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int, ...]:
     """Return the exponents. TypeError if not `dimension` integers, IndexError if negative or beyond the order."""
     powers = tuple(exponents) if isinstance(exponents, (tuple, list, np.ndarray)) else ()
-    if len(powers) != dimension or not all(isinstance(power, (int, np.integer)) for power in powers):
+    if len(powers) != dimension or not all(
+        isinstance(power, (int, np.integer)) for power in powers
+    ):
         raise TypeError("not {:d} integer exponents: {!r}".format(dimension, exponents))
     if min(powers) < 0 or sum(powers) > order:
         raise IndexError("no moment {} to order {:d}".format(tuple(map(int, powers)), order))
@@ -70,7 +72,9 @@ def monomials(order: int) -> NDArray[np.int64]:
     >>> monomials(1).tolist()
     [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
     """
-    exponents = [(n - s, s - r, r) for n in range(order + 1) for s in range(n + 1) for r in range(s + 1)]
+    exponents = [
+        (n - s, s - r, r) for n in range(order + 1) for s in range(n + 1) for r in range(s + 1)
+    ]
     table = np.array(exponents, np.int64)
     table.flags.writeable = False
     return table
@@ -87,7 +91,9 @@ def monomial_values(points: NDArray[np.float64], order: int) -> NDArray[np.float
 
 def factorial_ratios(exponents: NDArray[np.integer], more: int) -> NDArray[np.float64]:
     """Return (K,) α! / (|α| + `more`)! of (K, n) exponents, correctly rounded."""
-    return np.array([prod(map(factorial, row)) / factorial(sum(row) + more) for row in exponents.tolist()])
+    return np.array(
+        [prod(map(factorial, row)) / factorial(sum(row) + more) for row in exponents.tolist()]
+    )
 
 
 @lru_cache
@@ -100,16 +106,21 @@ def count_of_degree(degree: int) -> int:
 def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
     """Return (3, rows) indices, within the degree below, of x^α / x, x^α / y, x^α / z; `missing` without the factor."""
     table = monomials(degree)[-count_of_degree(degree) :]
-    r, s = table[:, 2], table[:, 1] + table[:, 2]
+    r = table[:, 2]
+    s = table[:, 1] + table[:, 2]
     lower = s * (s - 1) // 2
-    return np.where(table.T > 0, np.array([s * (s + 1) // 2 + r, lower + r, lower + r - 1]), missing)
+    return np.where(
+        table.T > 0, np.array([s * (s + 1) // 2 + r, lower + r, lower + r - 1]), missing
+    )
 
 
 @lru_cache
 def product_indices(order: int) -> tuple[NDArray[np.int64], ...]:
     """Return three arrays: the indices of the products with x, y and z of each monomial of a degree below `order`."""
     lower = monomials(order - 1)
-    return tuple(np.array([monomial_index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int))
+    return tuple(
+        np.array([monomial_index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int)
+    )
 
 
 @lru_cache

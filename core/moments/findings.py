@@ -5,5 +5,6 @@
 from ..verdict.finding import error
 
 NORMALIZATION_UNDEFINED = error(
-    "normalization_undefined", "The moments cannot be normalized: the volume or area is zero. Set About to Center."
+    "normalization_undefined",
+    "The moments cannot be normalized: the volume or area is zero. Set About to Center.",
 )

@@ -15,7 +15,9 @@ from .affine_maps import absolute_moments, to_trailing_axis, transform_by_horner
 from .exponents import monomial_count, monomials
 from .moments import Moments, U, image, measure_scale_factors
 
-MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
+MAPS_PER_BLOCK = (
+    2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
+)
 
 
 def sum_of_images(moments: Moments, matrices: ArrayLike) -> Moments:
@@ -26,7 +28,8 @@ def sum_of_images(moments: Moments, matrices: ArrayLike) -> Moments:
     matrices = float_array("matrices", matrices, "k", 4, 4, finite=True)
     check_filled("matrices", matrices)
     linear, offsets = to_trailing_axis(matrices)
-    point, order = moments.about[:, None], moments.order
+    point = moments.about[:, None]
+    order = moments.order
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
     center = origins.mean(axis=1)
     if len(matrices) == 1:
@@ -39,13 +42,24 @@ def sum_of_images(moments: Moments, matrices: ArrayLike) -> Moments:
         weight, weight_error, uneven = measure_scale_factors(moments.measure, maps)
         offset = origins[:, part] - center[:, None]
         # The images of the reference point are rounded, and the body moves with them.
-        stretch, reach = np.abs(maps).sum(axis=1).max(axis=0), np.abs(offset).max(axis=0)
+        stretch = np.abs(maps).sum(axis=1).max(axis=0)
+        reach = np.abs(offset).max(axis=0)
         tolerance = (
-            6 * U * (np.abs(offsets[:, part]).max(axis=0) + np.abs(center).max() + stretch * np.abs(point).max())
+            6
+            * U
+            * (
+                np.abs(offsets[:, part]).max(axis=0)
+                + np.abs(center).max()
+                + stretch * np.abs(point).max()
+            )
         )
         weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
-        raw += np.add.reduce(transform_by_horner(moments.raw[:, None], order, maps, offset) * weight, axis=1)
-        bounds = _image_error_bounds(moments, stretch, reach, tolerance, weight, weight_error, uneven)
+        raw += np.add.reduce(
+            transform_by_horner(moments.raw[:, None], order, maps, offset) * weight, axis=1
+        )
+        bounds = _image_error_bounds(
+            moments, stretch, reach, tolerance, weight, weight_error, uneven
+        )
         error += bounds[0]
         extra += bounds[1]
     return Moments(raw, center, moments.measure, error, extra)
@@ -75,23 +89,28 @@ def _image_error_bounds(
     order = moments.order
     degree = monomials(order).sum(axis=1)
     starts = [monomial_count(n - 1) for n in range(order + 1)]
-    error, inputs = (
-        np.maximum.reduceat(moments.rounding_error, starts),
-        np.maximum.reduceat(moments.input_error, starts),
-    )
+    error = np.maximum.reduceat(moments.rounding_error, starts)
+    inputs = np.maximum.reduceat(moments.input_error, starts)
     size = np.maximum.reduceat(np.abs(moments.raw), starts) + error
 
     def carried(factor: NDArray, reach: NDArray, *largest: NDArray) -> list[NDArray]:
         powers = [[factor]]
         for _ in range(order):
             powers.append([power * reach for power in powers[-1]] + [powers[-1][-1] * stretch])
-        sums = [[math.comb(n, j) * power.sum() for j, power in enumerate(row)] for n, row in enumerate(powers)]
+        sums = [
+            [math.comb(n, j) * power.sum() for j, power in enumerate(row)]
+            for n, row in enumerate(powers)
+        ]
         return [np.array([np.dot(row, top[: len(row)]) for row in sums]) for top in largest]
 
     rounding, mapped_input = carried(weight, reach, error, inputs)
     rounding += carried(weight_error, reach, size)[0]
-    rounding[1:] += np.arange(1, order + 1) * carried(weight * tolerance, reach + tolerance, size)[0][:-1]
+    rounding[1:] += (
+        np.arange(1, order + 1) * carried(weight * tolerance, reach + tolerance, size)[0][:-1]
+    )
     if uneven.any():
-        absolute = np.maximum.reduceat(absolute_moments(moments.raw, order), starts) + error + inputs
+        absolute = (
+            np.maximum.reduceat(absolute_moments(moments.raw, order), starts) + error + inputs
+        )
         rounding += carried(weight * uneven, reach, absolute)[0]
     return rounding[degree], mapped_input[degree]

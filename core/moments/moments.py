@@ -23,7 +23,14 @@ from ..numerics.arrays import PerBody, as_rows
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError
 from ..verdict.findings import OBJECT_TOO_SMALL
-from .affine_maps import SIMILARITY_RTOL, absolute_moments, anisotropy, apply_linear, apply_translation, are_singular
+from .affine_maps import (
+    SIMILARITY_RTOL,
+    absolute_moments,
+    anisotropy,
+    apply_linear,
+    apply_translation,
+    are_singular,
+)
 from .exponents import (
     check_exponents,
     monomial_count,
@@ -41,7 +48,8 @@ FLOAT32_HALF_ULP = 2.0**-24  # relative rounding error of float32
 PAIRWISE_SUM_ROUNDINGS = 64
 
 
-SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX = tensor_index(2), tensor_index(3)
+SECOND_MOMENT_INDEX = tensor_index(2)
+THIRD_MOMENT_INDEX = tensor_index(3)
 
 
 class Measure(StrEnum):
@@ -99,7 +107,9 @@ class Moments:
     raw: NDArray[np.float64]
     about: NDArray[np.float64]
     measure: Measure = Measure.VOLUME
-    rounding_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)  # zeros after `__post_init__`
+    rounding_error: NDArray[np.float64] = cast(
+        "NDArray[np.float64]", None
+    )  # zeros after `__post_init__`
     input_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)
 
     def __post_init__(self) -> None:
@@ -109,9 +119,17 @@ class Moments:
         about = float_array("about", self.about, *raw.shape[:-1], 3)
         bounds = {
             name: np.zeros_like(raw) if bound is None else float_array(name, bound, *raw.shape)
-            for name, bound in (("rounding_error", self.rounding_error), ("input_error", self.input_error))
+            for name, bound in (
+                ("rounding_error", self.rounding_error),
+                ("input_error", self.input_error),
+            )
         }
-        for name, value in {"raw": raw, "about": about, "measure": Measure(self.measure), **bounds}.items():
+        for name, value in {
+            "raw": raw,
+            "about": about,
+            "measure": Measure(self.measure),
+            **bounds,
+        }.items():
             object.__setattr__(self, name, value)
 
     @property
@@ -120,8 +138,14 @@ class Moments:
         return order_from_count(self.raw.shape[-1])
 
     def __repr__(self) -> str:
-        about = tuple(self.about.tolist()) if self.about.ndim == 1 else "{} points".format(self.about[..., 0].size)
-        return "Moments(order={:d}, about={}, {!s}={!r})".format(self.order, about, self.measure, self.total)
+        about = (
+            tuple(self.about.tolist())
+            if self.about.ndim == 1
+            else "{} points".format(self.about[..., 0].size)
+        )
+        return "Moments(order={:d}, about={}, {!s}={!r})".format(
+            self.order, about, self.measure, self.total
+        )
 
     def __getitem__(self, exponents: tuple[int, int, int]) -> PerBody:
         p, q, r = check_exponents(exponents, 3, self.order)
@@ -147,8 +171,13 @@ class Moments:
 
     def at(self, which: int | slice | list[int] | NDArray | None) -> Moments:
         """Return the bodies of a stack that an index selects; None turns a single body into a stack of one."""
-        raw, about, rounding, inputs = self.raw, self.about, self.rounding_error, self.input_error
-        return unchecked_moments(raw[which], about[which], self.measure, rounding[which], inputs[which])
+        raw = self.raw
+        about = self.about
+        rounding = self.rounding_error
+        inputs = self.input_error
+        return unchecked_moments(
+            raw[which], about[which], self.measure, rounding[which], inputs[which]
+        )
 
     @property
     def center(self) -> NDArray[np.float64]:
@@ -168,7 +197,8 @@ class Moments:
         k = monomial_count(order)
         if k == self.raw.shape[-1]:
             return self
-        rounding, inputs = self.rounding_error[..., :k], self.input_error[..., :k]
+        rounding = self.rounding_error[..., :k]
+        inputs = self.input_error[..., :k]
         return unchecked_moments(self.raw[..., :k], self.about, self.measure, rounding, inputs)
 
     __array_ufunc__ = None  # a numpy number on the left multiplies the moments, not their exponents
@@ -200,8 +230,15 @@ class Moments:
         if not offset.any():
             return self
         away = np.abs(offset)
-        values = [self.raw, self.rounding_error, self.input_error, np.abs(self.raw) + self.rounding_error]
-        shifted = apply_translation(as_rows(values), self.order, as_rows([offset, away, away, away]))
+        values = [
+            self.raw,
+            self.rounding_error,
+            self.input_error,
+            np.abs(self.raw) + self.rounding_error,
+        ]
+        shifted = apply_translation(
+            as_rows(values), self.order, as_rows([offset, away, away, away])
+        )
         raw, error, moved, size = (shifted[..., i, :] for i in range(4))
         rounding = (4.0 * monomials(self.order).sum(axis=1) + 16.0) * U
         return unchecked_moments(raw, point, self.measure, error + rounding * size, moved)
@@ -221,7 +258,8 @@ class Moments:
         matrix = np.concatenate([inverse, -inverse @ origin[..., None]], axis=-1)
         # A change of axes stretches nothing, whatever is measured and however the rotation was rounded.
         return replace(
-            image(replace(self, measure=Measure.MASS), matrix, np.zeros(self.about.shape)), measure=self.measure
+            image(replace(self, measure=Measure.MASS), matrix, np.zeros(self.about.shape)),
+            measure=self.measure,
         )
 
     def transform(self, matrix: ArrayLike) -> Moments:
@@ -233,7 +271,9 @@ class Moments:
         to be a number.
         """
         affine = float_array("matrix", matrix, *self.about.shape[:-1], 4, 4, finite=True)
-        return image(self, affine, (affine[..., :3, :3] @ self.about[..., None])[..., 0] + affine[..., :3, 3])
+        return image(
+            self, affine, (affine[..., :3, :3] @ self.about[..., None])[..., 0] + affine[..., :3, 3]
+        )
 
 
 def unchecked_moments(
@@ -296,14 +336,20 @@ def image(moments: Moments, matrices: NDArray, center: NDArray | None = None) ->
     for its measure to be a number.
     """
     order, about = moments.order, moments.about
-    linear, offsets = matrices[..., :3, :3], matrices[..., :3, 3]
+    linear = matrices[..., :3, :3]
+    offsets = matrices[..., :3, 3]
     origins = (
-        linear[..., 0] * about[..., :1] + linear[..., 1] * about[..., 1:2] + linear[..., 2] * about[..., 2:] + offsets
+        linear[..., 0] * about[..., :1]
+        + linear[..., 1] * about[..., 1:2]
+        + linear[..., 2] * about[..., 2:]
+        + offsets
     )
     center = origins if center is None else center
     offset = origins - center
     lead = linear.shape[:-2]
-    factors = measure_scale_factors(moments.measure, linear.reshape(-1, 3, 3).transpose(1, 2, 0).copy())
+    factors = measure_scale_factors(
+        moments.measure, linear.reshape(-1, 3, 3).transpose(1, 2, 0).copy()
+    )
     weight, weight_error, uneven = [factor.reshape(*lead, 1) for factor in factors]
     # The images of the reference point are rounded, and the body moves with them.
     stretch = np.add.reduce(np.abs(linear), axis=-1).max(axis=-1, keepdims=True)
@@ -311,10 +357,17 @@ def image(moments: Moments, matrices: NDArray, center: NDArray | None = None) ->
     tolerance = 6 * U * (reach + stretch * np.abs(about).max(axis=-1, keepdims=True))
     weight_error = weight_error + (1 + 6 * order + 8) * U * weight
     away = np.abs(offset)
-    rows = [moments.raw, moments.rounding_error, moments.input_error, np.abs(moments.raw) + moments.rounding_error]
+    rows = [
+        moments.raw,
+        moments.rounding_error,
+        moments.input_error,
+        np.abs(moments.raw) + moments.rounding_error,
+    ]
     shifts = [offset, away, away, away + tolerance]
     if uneven.any():
-        rows.append(absolute_moments(moments.raw, order) + moments.rounding_error + moments.input_error)
+        rows.append(
+            absolute_moments(moments.raw, order) + moments.rounding_error + moments.input_error
+        )
         shifts.append(away + tolerance)
     shifted = as_rows(rows)
     if order:
@@ -325,8 +378,12 @@ def image(moments: Moments, matrices: NDArray, center: NDArray | None = None) ->
         moved = monomials(order)[raised, axis] * tolerance * weight * size[..., : len(raised)]
         rounding[..., raised] += moved
     if uneven.any():
-        rounding = rounding + weight * uneven * shifted[..., -1, :]  # a face at a time, some more and some less
-    return unchecked_moments(weight * mapped, center, moments.measure, rounding, weight * mapped_input)
+        rounding = (
+            rounding + weight * uneven * shifted[..., -1, :]
+        )  # a face at a time, some more and some less
+    return unchecked_moments(
+        weight * mapped, center, moments.measure, rounding, weight * mapped_input
+    )
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
@@ -335,7 +392,9 @@ def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, N
     if measure == Measure.MASS:
         return np.ones(linear.shape[2]), exact, exact
     a, b, c = linear
-    terms = [(a[i] * b[j] * c[k], a[i] * b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
+    terms = [
+        (a[i] * b[j] * c[k], a[i] * b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+    ]
     det = np.abs(sum([plus - minus for plus, minus in terms], exact))
     vanished = det < TINY
     if vanished.any() and not are_singular(linear.transpose(2, 0, 1)[vanished]).all():

@@ -32,7 +32,9 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
             result[l + 2 * j, l] = with_negative_orders(half)
         if order - 2 * j >= 2:
             products = zip(product_indices(order - 2 * j), product_indices(order - 2 * j - 1))
-            raw = raw[np.array([twice[once] for twice, once in products])].sum(axis=0)  # ∫ r² f, f two orders lower
+            raw = raw[np.array([twice[once] for twice, once in products])].sum(
+                axis=0
+            )  # ∫ r² f, f two orders lower
     return result
 
 
@@ -65,10 +67,14 @@ def _solid(l: int) -> NDArray[np.complex128]:
         norm = sqrt((2 * l + 1) / (4.0 * pi) * factorial(l + m) * factorial(l - m))
         for k in range((l - m) // 2 + 1):
             factor = (
-                (-1.0) ** (k + m) / 2.0 ** (2 * k + m) / (factorial(k + m) * factorial(k) * factorial(l - m - 2 * k))
+                (-1.0) ** (k + m)
+                / 2.0 ** (2 * k + m)
+                / (factorial(k + m) * factorial(k) * factorial(l - m - 2 * k))
             )
             for i, value in enumerate(circular_coefficients(k + m, k)):
-                table[m, monomial_index(2 * k + m - i, i, l - m - 2 * k) - start] += norm * factor * value
+                table[m, monomial_index(2 * k + m - i, i, l - m - 2 * k) - start] += (
+                    norm * factor * value
+                )
     table.flags.writeable = False
     return table
 
@@ -82,7 +88,9 @@ def circular_coefficients(plus: int, minus: int) -> tuple[complex, ...]:
 
 
 @lru_cache(maxsize=256)
-def _nonzero_three_j(a: int, b: int, c: int) -> tuple[NDArray[np.float64], tuple[NDArray[np.intp], ...]]:
+def _nonzero_three_j(
+    a: int, b: int, c: int
+) -> tuple[NDArray[np.float64], tuple[NDArray[np.intp], ...]]:
     """Return the nonzero Wigner 3j symbols and their indices."""
     table = _three_j(a, b, c)
     return table[table != 0.0], np.nonzero(table)
@@ -91,7 +99,12 @@ def _nonzero_three_j(a: int, b: int, c: int) -> tuple[NDArray[np.float64], tuple
 def _three_j(a: int, b: int, c: int) -> NDArray[np.float64]:
     """Return (2a+1, 2b+1, 2c+1) Wigner's 3j symbols, by Racah's sum."""
     table = np.zeros((2 * a + 1, 2 * b + 1, 2 * c + 1))
-    triangle = factorial(a + b - c) * factorial(a - b + c) * factorial(-a + b + c) / factorial(a + b + c + 1)
+    triangle = (
+        factorial(a + b - c)
+        * factorial(a - b + c)
+        * factorial(-a + b + c)
+        / factorial(a + b + c + 1)
+    )
     for i in range(-a, a + 1):
         for j in range(max(-b, -c - i), min(b, c - i) + 1):
             k = -i - j

@@ -20,7 +20,9 @@ from .arrays import indices_in_range
 Length = int | str | EllipsisType
 
 
-def number_array(name: str, values: ArrayLike, *shape: Length, finite: bool = False) -> NDArray[Any]:
+def number_array(
+    name: str, values: ArrayLike, *shape: Length, finite: bool = False
+) -> NDArray[Any]:
     """Return a parameter as an array of real numbers, without a change of their type."""
     array = _array(name, values, shape, "fiub", "real numbers")
     if finite and not np.isfinite(array).all():
@@ -28,14 +30,23 @@ def number_array(name: str, values: ArrayLike, *shape: Length, finite: bool = Fa
     return array
 
 
-def float_array(name: str, values: ArrayLike, *shape: Length, finite: bool = False) -> NDArray[np.float64]:
+def float_array(
+    name: str, values: ArrayLike, *shape: Length, finite: bool = False
+) -> NDArray[np.float64]:
     """Return a parameter as an array of float64."""
-    if isinstance(values, np.ndarray) and values.dtype == np.float64 and values.shape == shape and not finite:
+    if (
+        isinstance(values, np.ndarray)
+        and values.dtype == np.float64
+        and values.shape == shape
+        and not finite
+    ):
         return values  # the core passes arrays like this: no further calls
     return number_array(name, values, *shape, finite=finite).astype(np.float64, copy=False)
 
 
-def index_array(name: str, values: ArrayLike, *shape: Length, count: int | None = None) -> NDArray[np.integer]:
+def index_array(
+    name: str, values: ArrayLike, *shape: Length, count: int | None = None
+) -> NDArray[np.integer]:
     """Return a parameter as an array of integers, from 0 to `count` - 1 if there is a count."""
     array = _array(name, values, shape, "iu", "integers")
     if array.dtype.kind not in "iu":  # an empty list has no integers
@@ -47,7 +58,12 @@ def index_array(name: str, values: ArrayLike, *shape: Length, count: int | None 
 
 def has_form(values: object, types: tuple[np.dtype, ...], row: tuple[Length, ...]) -> bool:
     """Return whether values are an array of one of these types with rows of this shape: it needs no conversion."""
-    return type(values) is np.ndarray and values.dtype in types and values.ndim > 0 and values.shape[1:] == row
+    return (
+        type(values) is np.ndarray
+        and values.dtype in types
+        and values.ndim > 0
+        and values.shape[1:] == row
+    )
 
 
 def check_type(name: str, value: object, kind: type) -> None:
@@ -68,7 +84,9 @@ def check_filled(name: str, values: Sized) -> None:
         raise ValueError("{} must not be empty".format(name))
 
 
-def _array(name: str, values: ArrayLike, shape: tuple[Length, ...], kinds: str, content: str) -> NDArray[Any]:
+def _array(
+    name: str, values: ArrayLike, shape: tuple[Length, ...], kinds: str, content: str
+) -> NDArray[Any]:
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):  # rows of different lengths
@@ -84,6 +102,12 @@ def _array(name: str, values: ArrayLike, shape: tuple[Length, ...], kinds: str, 
 
 def shape_error(name: str, values: object, shape: tuple[Length, ...], content: str) -> ValueError:
     """Return the error for a parameter of another shape or content."""
-    expected = ", ".join(["..." if length is ... else str(length) for length in shape]) + "," * (len(shape) == 1)
-    found = "{} {}".format(values.shape, values.dtype) if isinstance(values, np.ndarray) else type(values).__name__
+    expected = ", ".join(["..." if length is ... else str(length) for length in shape]) + "," * (
+        len(shape) == 1
+    )
+    found = (
+        "{} {}".format(values.shape, values.dtype)
+        if isinstance(values, np.ndarray)
+        else type(values).__name__
+    )
     return ValueError("{} must be ({}) {}, not {}".format(name, expected, content, found))

@@ -14,12 +14,14 @@ from numpy.typing import NDArray
 PerBody: TypeAlias = Any
 
 
-NEXT_AXIS, PREVIOUS_AXIS = np.array([1, 2, 0]), np.array([2, 0, 1])
+NEXT_AXIS = np.array([1, 2, 0])
+PREVIOUS_AXIS = np.array([2, 0, 1])
 
 
 def cross_rows(u: NDArray, v: NDArray) -> NDArray:
     """Return the cross products of vectors (..., 3), equal to those of `np.cross`, whose overhead is ten times this."""
-    after, before = u.take(NEXT_AXIS, -1) * v.take(PREVIOUS_AXIS, -1), u.take(PREVIOUS_AXIS, -1) * v.take(NEXT_AXIS, -1)
+    after = u.take(NEXT_AXIS, -1) * v.take(PREVIOUS_AXIS, -1)
+    before = u.take(PREVIOUS_AXIS, -1) * v.take(NEXT_AXIS, -1)
     return after - before
 
 
@@ -62,7 +64,9 @@ def segment_starts(counts: NDArray) -> NDArray[np.intp]:
     return counts.cumsum() - counts
 
 
-def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:
+def sums_by_index(
+    indices: NDArray[np.integer], weights: NDArray, count: int = 0
+) -> NDArray[np.float64]:
     """Return (count or more,) sums of the weights of each index: `bincount`, typed."""
     return cast("NDArray[np.float64]", np.bincount(indices, weights, count))
 
@@ -77,7 +81,8 @@ def power_table(values: NDArray[np.float64], order: int) -> list[NDArray[np.floa
 
 def batches(weights: NDArray, size: float) -> Iterator[slice]:
     """Yield slices of consecutive items with weights that add up to about `size`, at least one item each."""
-    total, start = np.cumsum(weights), 0
+    total = np.cumsum(weights)
+    start = 0
     while start < len(total):
         done = total[start - 1] if start else 0
         stop = max(start + 1, int(np.searchsorted(total, done + size)))
@@ -95,9 +100,12 @@ def following_pairs(
             yield order[row], order[row + 1 + segment_ranges(counts[part])]
 
 
-def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None) -> NDArray[np.intp]:
+def first_occurrence(
+    *columns: NDArray, slots: NDArray[np.integer] | None = None
+) -> NDArray[np.intp]:
     """Return (n,) indices of the first row with the bits of each row. slots: (n,) hash slots of the first round."""
-    bits_of, salt = [column.view(np.uint64) for column in columns], 0
+    bits_of = [column.view(np.uint64) for column in columns]
+    salt = 0
     first = rest = np.arange(len(columns[0]), dtype=np.min_scalar_type(-len(columns[0])))
     while len(rest):
         size = 1 << (2 * len(rest)).bit_length() if slots is None else int(slots.max()) + 1
@@ -107,7 +115,9 @@ def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None
                 key = hash_uint64(key + column)
             slots = (key & np.uint64(size - 1)).view(np.intp)
         winner = np.empty(size, rest.dtype)
-        winner[slots[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=rest.dtype)  # numpy keeps the last of equal slots
+        winner[slots[::-1]] = np.arange(
+            len(rest) - 1, -1, -1, dtype=rest.dtype
+        )  # numpy keeps the last of equal slots
         winner = winner.take(slots).astype(np.intp)
         lost = np.zeros(len(rest), bool)
         for column in bits_of:
@@ -117,11 +127,16 @@ def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None
         else:
             first[rest] = rest[winner]
         lost = np.flatnonzero(lost)
-        rest, bits_of, slots, salt = rest[lost], [column[lost] for column in bits_of], None, salt + 1
+        rest = rest[lost]
+        bits_of = [column[lost] for column in bits_of]
+        slots = None
+        salt = salt + 1
     return first.astype(np.intp, copy=False)
 
 
-GOLDEN_RATIO_64 = np.uint64(0x9E3779B97F4A7C15)  # 2^64 divided by the golden ratio, as in SplitMix64
+GOLDEN_RATIO_64 = np.uint64(
+    0x9E3779B97F4A7C15
+)  # 2^64 divided by the golden ratio, as in SplitMix64
 
 
 def hash_uint64(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
@@ -141,5 +156,7 @@ def unique_pairs(pairs: NDArray[np.integer]) -> NDArray[np.intp]:
 
 def distinct_arrays(arrays: NDArray, within: float) -> NDArray[np.float64]:
     """Return the (n, ...) vectors or matrices that differ from all earlier ones by at least `within` in some entry."""
-    same = np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
+    same = (
+        np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
+    )
     return arrays[np.argmax(same, axis=1) == np.arange(len(arrays))]

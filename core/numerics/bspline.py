@@ -52,7 +52,12 @@ class SplineSpace:
     def __post_init__(self) -> None:
         knots = float_array("knots", self.knots, "n")
         object.__setattr__(self, "knots", tuple(knots.tolist()))
-        if self.order < 1 or self.count < 1 or len(knots) < 2 * self.order or self.function_count < self.count:
+        if (
+            self.order < 1
+            or self.count < 1
+            or len(knots) < 2 * self.order
+            or self.function_count < self.count
+        ):
             raise ValueError("too few control points")
         if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
             raise ValueError("knots must ascend")
@@ -111,7 +116,9 @@ class SplineSpace:
         """(s, order, order) weights of the acting control points in each Bézier control point of a span."""
         return self.bezier_weights(self.spans, self.intervals)
 
-    def bezier_weights(self, spans: NDArray[np.integer], intervals: ArrayLike) -> NDArray[np.float64]:
+    def bezier_weights(
+        self, spans: NDArray[np.integer], intervals: ArrayLike
+    ) -> NDArray[np.float64]:
         """Return (s, order, order) weights of the acting control points in the Bézier control points of intervals.
 
         There is an interval (s, 2) within each span (s,). The recursion of Cox and de Boor takes the interval's
@@ -141,7 +148,9 @@ class SplineSpace:
         inner = self.intervals[1:, 0]
         return self.spans[np.searchsorted(inner, parameters, side="right")]
 
-    def derivatives(self, spans: NDArray[np.integer], parameters: NDArray, highest: int) -> list[NDArray[np.float64]]:
+    def derivatives(
+        self, spans: NDArray[np.integer], parameters: NDArray, highest: int
+    ) -> list[NDArray[np.float64]]:
         """Return `highest` + 1 arrays (..., order): values and derivatives of the basis functions that act in spans.
 
         spans, parameters: broadcast against each other to some shape (...).
@@ -173,7 +182,9 @@ class SplineSpace:
 
     def _adjacent_knots(self, near: NDArray, order: int) -> tuple[NDArray, NDArray]:
         """Return the first and the last knot of the order - 1 functions, one order lower, that act in a span."""
-        return near[..., self.order - order : self.order - 1], near[..., self.order - 1 : self.order + order - 2]
+        return near[..., self.order - order : self.order - 1], near[
+            ..., self.order - 1 : self.order + order - 2
+        ]
 
     def collocation_matrix(
         self, parameters: ArrayLike, derivative: int = 0, spans: NDArray[np.integer] | None = None
@@ -186,12 +197,16 @@ class SplineSpace:
         spans = self.find_spans(parameters) if spans is None else spans
         values = self.derivatives(spans, parameters, derivative)[derivative]
         table = np.zeros((len(parameters), self.count))
-        np.add.at(table, (np.arange(len(parameters))[:, None], self.controls_of_spans(spans)), values)
+        np.add.at(
+            table, (np.arange(len(parameters))[:, None], self.controls_of_spans(spans)), values
+        )
         return table
 
 
 @lru_cache(maxsize=64)
-def clamped_space(order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0) -> SplineSpace:
+def clamped_space(
+    order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0
+) -> SplineSpace:
     """Make the space of curves that begin and end at their first and last control points.
 
     Parameters

@@ -36,9 +36,12 @@ def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float6
     (u, ul), (v, vl) = two_sum(b, -a), two_sum(c, -a)
     coordinates = []
     for y, z in ((1, 2), (2, 0), (0, 1)):
-        (p, pl), (m, ml) = two_product(u[y], v[z]), two_product(u[z], v[y])
+        (p, pl) = two_product(u[y], v[z])
+        (m, ml) = two_product(u[z], v[y])
         total, rest = two_sum(p, -m)
-        coordinates.append(total + (rest + (pl - ml) + (u[y] * vl[z] + ul[y] * v[z] - u[z] * vl[y] - ul[z] * v[y])))
+        coordinates.append(
+            total + (rest + (pl - ml) + (u[y] * vl[z] + ul[y] * v[z] - u[z] * vl[y] - ul[z] * v[y]))
+        )
     return np.stack(coordinates)
 
 

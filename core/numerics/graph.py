@@ -18,11 +18,15 @@ EDGES_PER_BLOCK = 3 << 16
 NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 
 
-def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
+def connected_components(
+    count: int, a: NDArray[np.integer], b: NDArray[np.integer]
+) -> tuple[NDArray[np.intp], int]:
     """Return (count,) components of nodes joined by links a-b, (k,), numbered by first nodes, and their number."""
     label, number = None, count
     while True:
-        blocks = [slice(start, start + EDGES_PER_BLOCK) for start in range(0, len(a), EDGES_PER_BLOCK)]
+        blocks = [
+            slice(start, start + EDGES_PER_BLOCK) for start in range(0, len(a), EDGES_PER_BLOCK)
+        ]
         parent = np.arange(number, dtype=np.min_scalar_type(-number))
         for block in blocks:
             np.minimum.at(
@@ -40,7 +44,8 @@ def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integ
             apart = np.flatnonzero(left != right)
             left_ends.append(left[apart])
             right_ends.append(right[apart])
-        a, b = np.concatenate(left_ends), np.concatenate(right_ends)
+        a = np.concatenate(left_ends)
+        b = np.concatenate(right_ends)
         if not len(a):
             return label.astype(np.intp), number
 

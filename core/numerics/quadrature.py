@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 def gauss_legendre(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return read-only nodes and weights, (points,), of the rule on [0, 1] that is exact to degree 2 points - 1."""
     nodes, weights = leggauss(points)
-    nodes, weights = (nodes + 1.0) / 2.0, weights / 2.0
+    nodes = (nodes + 1.0) / 2.0
+    weights = weights / 2.0
     nodes.flags.writeable = weights.flags.writeable = False
     return nodes, weights
 
@@ -24,7 +25,8 @@ def gauss_legendre(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64
 def gauss_legendre_with_ends(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the rule of `gauss_legendre` with the nodes 0 and 1 of weight 0 added at its ends; read-only."""
     nodes, weights = gauss_legendre(points)
-    nodes, weights = np.concatenate([[0.0], nodes, [1.0]]), np.concatenate([[0.0], weights, [0.0]])
+    nodes = np.concatenate([[0.0], nodes, [1.0]])
+    weights = np.concatenate([[0.0], weights, [0.0]])
     nodes.flags.writeable = weights.flags.writeable = False
     return nodes, weights
 
@@ -40,15 +42,24 @@ def triangle_rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         root = np.sqrt(15.0)
         barycentric = [
             [1.0 / 3.0] * 3,
-            *(np.roll([1.0 - 2.0 * a, a, a], k) for a in ((6.0 - root) / 21.0, (6.0 + root) / 21.0) for k in range(3)),
+            *(
+                np.roll([1.0 - 2.0 * a, a, a], k)
+                for a in ((6.0 - root) / 21.0, (6.0 + root) / 21.0)
+                for k in range(3)
+            ),
         ]
-        return np.array(barycentric).T, np.array([270.0, *[155.0 - root] * 3, *[155.0 + root] * 3]) / 2400.0
+        return np.array(barycentric).T, np.array(
+            [270.0, *[155.0 - root] * 3, *[155.0 + root] * 3]
+        ) / 2400.0
     k = np.arange(n)
     beside = np.sqrt((k[1:] * (k[1:] + 1.0)) / (2.0 * k[1:] + 1.0) ** 2)
     u, vectors = np.linalg.eigh(
-        np.diag(-1.0 / ((2.0 * k + 1.0) * (2.0 * k + 3.0))) + np.diag(beside, 1) + np.diag(beside, -1)
+        np.diag(-1.0 / ((2.0 * k + 1.0) * (2.0 * k + 3.0)))
+        + np.diag(beside, 1)
+        + np.diag(beside, -1)
     )
-    u, towards = (u + 1.0) / 2.0, vectors[0] ** 2 / 2.0
+    u = (u + 1.0) / 2.0
+    towards = vectors[0] ** 2 / 2.0
     v, across = gauss_legendre(n)
     second = np.outer(1.0 - u, v).reshape(-1)
     first = np.repeat(u, n)
@@ -59,7 +70,8 @@ def triangle_rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def spread_directions(count: int) -> NDArray[np.float64]:
     """Return read-only (count, 3) unit directions, spread evenly over the sphere: Fibonacci's lattice."""
     index = np.arange(count) + 0.5
-    height, turn = 1.0 - 2.0 * index / count, np.pi * (1.0 + 5.0**0.5) * index
+    height = 1.0 - 2.0 * index / count
+    turn = np.pi * (1.0 + 5.0**0.5) * index
     across = np.sqrt(1.0 - height * height)
     directions = np.stack([across * np.cos(turn), across * np.sin(turn), height], axis=1)
     directions.flags.writeable = False

@@ -23,8 +23,12 @@ from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
 from .splines import Patch
 
 VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoidable rounding.
-ROUNDING = 64.0  # Estimated rounding: units roundoff of the sum of absolute values, per order of a basis.
-Rule = tuple[tuple[int, ...], tuple[int, ...]]  # along s and t the points of a Gauss rule, or of two side by side
+ROUNDING = (
+    64.0  # Estimated rounding: units roundoff of the sum of absolute values, per order of a basis.
+)
+Rule = tuple[
+    tuple[int, ...], tuple[int, ...]
+]  # along s and t the points of a Gauss rule, or of two side by side
 Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
 # Up to this many cells of a patch keep a common anchor: none is so small that rounding by the patch's size matters.
 SMALL_CELL_COUNT = 32
@@ -70,11 +74,14 @@ class BezierCells:
             for t_half in halves(net.shape[3])
         ]
         anchor = self.anchor if self.anchor.shape[1] == 1 else np.tile(self.anchor, 4)
-        return replace(self, net=np.concatenate(quarters, axis=1).swapaxes(1, 2), anchor=anchor).about_anchor()
+        return replace(
+            self, net=np.concatenate(quarters, axis=1).swapaxes(1, 2), anchor=anchor
+        ).about_anchor()
 
     def about_anchor(self) -> BezierCells:
         """Return the cells anchored at their first control points, so that coordinates are as small as the cell."""
-        net, first = np.empty_like(self.net), self.net[:3, 0, :, 0]
+        net = np.empty_like(self.net)
+        first = self.net[:3, 0, :, 0]
         if len(net) == 4:
             net[3] = self.net[3]
             first = first / net[3, 0, :, 0]
@@ -83,7 +90,9 @@ class BezierCells:
             np.subtract(self.net, first[:, None, :, None], out=net)
         return replace(self, net=net, anchor=self.anchor + first)
 
-    def evaluate(self, rule: Rule, most: int = 1, ends: bool = False) -> tuple[list[NDArray[np.float64]], Weights]:
+    def evaluate(
+        self, rule: Rule, most: int = 1, ends: bool = False
+    ) -> tuple[list[NDArray[np.float64]], Weights]:
         """Evaluate the patches and their derivatives at the points of Gauss rules; return them and the points' weights.
 
         most: the highest derivative, 1 or 2. ends: add the sides, with weight zero. Returns S, S_s, S_t and if most = 2
@@ -95,7 +104,10 @@ class BezierCells:
         m, n = s_basis.shape[1], t_basis.shape[1]
         half = np.matmul(self.net.reshape(-1, kk), t_basis.swapaxes(1, 2)).reshape(-1, d, k, c * n)
         s_basis = s_basis.reshape(-1, k)
-        blocks = [np.matmul(s_basis[: (most + 1 - j) * m], half[j]).reshape(d, -1, m, c, n) for j in range(most + 1)]
+        blocks = [
+            np.matmul(s_basis[: (most + 1 - j) * m], half[j]).reshape(d, -1, m, c, n)
+            for j in range(most + 1)
+        ]
         derivatives = [blocks[j][:, i] for i, j in DERIVATIVES[most]]
         if d == 4:
             derivatives = _quotient_derivatives(derivatives)
@@ -107,7 +119,9 @@ def cells_of(patches: Sequence[Patch], about: NDArray) -> Iterator[BezierCells]:
     """Yield blocks of the Bézier cells of patches, grouped by orders and kind of weights, relative to a point (3,)."""
     groups: dict[tuple, list[Patch]] = {}
     for patch in patches:
-        groups.setdefault((patch.spaces, patch.weights is None, patch.constant_weights), []).append(patch)
+        groups.setdefault((patch.spaces, patch.weights is None, patch.constant_weights), []).append(
+            patch
+        )
     waiting: dict[tuple, list[BezierCells]] = {}
     for (spaces, exact, steady), group in groups.items():
         waiting_cells = waiting.setdefault((spaces[0].order, spaces[1].order, exact, steady), [])
@@ -124,7 +138,8 @@ def _cells_of_group(
 ) -> Iterator[BezierCells]:
     """Yield blocks of the Bézier cells of patches in the same function spaces, relative to a point (3,)."""
     u, v = len(spaces[0].spans), len(spaces[1].spans)
-    step, spans_per_step = max(1, MAX_CELLS // (u * v)), max(1, MAX_CELLS // v)
+    step = max(1, MAX_CELLS // (u * v))
+    spans_per_step = max(1, MAX_CELLS // v)
     for first in range(0, len(group), step):
         some = group[first : first + step]
         nets = np.array([patch.points for patch in some])
@@ -132,7 +147,11 @@ def _cells_of_group(
         nets -= anchor[:, None, None]  # first: far from `about` the differences would be rounded
         anchor -= about
         control_points = nets + anchor[:, None, None]
-        reach = math.sqrt(np.maximum.reduce(np.einsum("gijd,gijd->gij", control_points, control_points), axis=None))
+        reach = math.sqrt(
+            np.maximum.reduce(
+                np.einsum("gijd,gijd->gij", control_points, control_points), axis=None
+            )
+        )
         if some[0].weights is not None:
             nets = homogeneous(nets, np.array([patch.weights for patch in some]))
         for start in range(0, u, spans_per_step):
@@ -157,13 +176,21 @@ def cells_of_nets(
     reach: float,
 ) -> BezierCells:
     """Return the Bézier cells of control nets (g, count_s, count_t, 3 or 4) over knot spans. anchor: (g, 3) origins."""
-    s, active_rows = spaces[0].bezier_extraction[spans[0]], spaces[0].active_controls[spans[0]]
-    t, columns = spaces[1].bezier_extraction[spans[1]], spaces[1].active_controls[spans[1]]
-    (u, k), (v, kk), (g, _, count, d) = active_rows.shape, columns.shape, nets.shape
-    half = np.matmul(s, nets.swapaxes(0, 1).take(active_rows, axis=0).reshape(u, k, -1)).reshape(u, k, g, count, d)
+    s = spaces[0].bezier_extraction[spans[0]]
+    active_rows = spaces[0].active_controls[spans[0]]
+    t = spaces[1].bezier_extraction[spans[1]]
+    columns = spaces[1].active_controls[spans[1]]
+    (u, k) = active_rows.shape
+    (v, kk) = columns.shape
+    (g, _, count, d) = nets.shape
+    half = np.matmul(s, nets.swapaxes(0, 1).take(active_rows, axis=0).reshape(u, k, -1)).reshape(
+        u, k, g, count, d
+    )
     whole = np.matmul(t, half.transpose(3, 4, 1, 2, 0).take(columns, axis=0).reshape(v, kk, -1))
     net = whole.reshape(v, kk, d, k, g, u).transpose(2, 3, 4, 5, 0, 1).reshape(d, k, g * u * v, kk)
-    cells = BezierCells(net, anchor.T if g == 1 else np.repeat(anchor.T, u * v, axis=1), constant_weights, reach)
+    cells = BezierCells(
+        net, anchor.T if g == 1 else np.repeat(anchor.T, u * v, axis=1), constant_weights, reach
+    )
     return cells.about_anchor() if u * v > SMALL_CELL_COUNT else cells
 
 
@@ -184,9 +211,12 @@ def bernstein(
     order: int, rule: tuple[int, ...], most: int = 1, ends: bool = False
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the derivatives (most + 1, n, order) of Bernstein polynomials at Gauss points, and weights (n, rules)."""
-    parts = [gauss_legendre_with_ends(points) if ends else gauss_legendre(points) for points in rule]
+    parts = [
+        gauss_legendre_with_ends(points) if ends else gauss_legendre(points) for points in rule
+    ]
     nodes = np.concatenate([nodes for nodes, _ in parts])
-    weights, start = np.zeros((len(nodes), len(parts))), 0
+    weights = np.zeros((len(nodes), len(parts)))
+    start = 0
     for k, (_, part_weights) in enumerate(parts):
         weights[start : start + len(part_weights), k] = part_weights
         start += len(part_weights)
@@ -207,7 +237,8 @@ def halves(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def _quotient_derivatives(derivatives: list[NDArray]) -> list[NDArray[np.float64]]:
     """Return derivatives of a quotient in place, from those of numerator (rows 0 to 2) and denominator (row 3)."""
     inverse = 1.0 / derivatives[0][3]
-    result, bottom = [row[:3] for row in derivatives], [row[3] for row in derivatives]
+    result = [row[:3] for row in derivatives]
+    bottom = [row[3] for row in derivatives]
     result[0] *= inverse
     for row, (i, j) in zip(range(1, len(derivatives)), ((0, 0), (0, 0), (1, 1), (1, 2), (2, 2))):
         if row > 2:
@@ -221,17 +252,22 @@ def _quotient_derivatives(derivatives: list[NDArray]) -> list[NDArray[np.float64
 Integrand = Callable[[BezierCells, Rule], NDArray]
 
 
-def integrand_in_blocks(cells: BezierCells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
+def integrand_in_blocks(
+    cells: BezierCells, rule: Rule, integrand: Integrand
+) -> NDArray[np.float64]:
     """Return (rules, K, c) values of an integrand for cells, evaluated in blocks."""
     step = max(1, POINTS_PER_BLOCK // (sum(rule[0]) * sum(rule[1])))
     if len(cells) <= step:
         return integrand(cells, rule)
     return np.concatenate(
-        [integrand(cells[start : start + step], rule) for start in range(0, len(cells), step)], axis=2
+        [integrand(cells[start : start + step], rule) for start in range(0, len(cells), step)],
+        axis=2,
     )
 
 
-def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
+def weighted_monomials(
+    place: NDArray, density: NDArray, order: int, more: int = 0
+) -> NDArray[np.float64]:
     """Return (K + more, ...) the density times the monomials of points (3, ...), then rows of zeros to be filled."""
     terms = np.empty((monomial_count(order) + more, *density.shape))
     terms[monomial_count(order) :] = 0.0
@@ -243,7 +279,9 @@ def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int =
         end = monomial_count(degree)
         onward = 2 * end - start
         np.multiply(place[0], terms[start:end], out=terms[end:onward])
-        np.multiply(place[1], terms[end - degree - 1 : end], out=terms[onward : onward + degree + 1])
+        np.multiply(
+            place[1], terms[end - degree - 1 : end], out=terms[onward : onward + degree + 1]
+        )
         np.multiply(place[2], terms[end - 1], out=terms[onward + degree + 1])
         start = end
     return terms

@@ -25,7 +25,9 @@ from ..numerics.bspline import SplineSpace
 from .bezier import homogeneous
 from .splines import Curve, Patch
 
-SAME_KNOT_RTOL = 1e-12  # Relative to the domain: ends of a part that are nearer to a knot are moved to it.
+SAME_KNOT_RTOL = (
+    1e-12  # Relative to the domain: ends of a part that are nearer to a knot are moved to it.
+)
 
 
 def is_valid(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> bool:
@@ -35,7 +37,9 @@ def is_valid(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool)
     )
 
 
-def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> NDArray[np.float64]:
+def blender_knots(
+    count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool
+) -> NDArray[np.float64]:
     """Return the knot vector of a valid direction: count + order knots, and order - 1 more if it is cyclic."""
     repeat = order - 1 if bezier else 1
     head = (order - 1 if cyclic else order) if endpoint else (min(2, repeat) if bezier else 1)
@@ -48,14 +52,17 @@ def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
         knots[i] = current
         left -= 1
         if left == 0:
-            current, left = current + 1, repeat
+            current = current + 1
+            left = repeat
     for i in range(tail):  # One by one: a tail longer than the rest copies its own first knots.
         knots[length - tail + i] = current + knots[i] - knots[0]
     return knots
 
 
 @lru_cache(maxsize=256)  # keeps the cached tables of a space from frame to frame
-def blender_space(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> SplineSpace | None:
+def blender_space(
+    count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool
+) -> SplineSpace | None:
     """Return the function space of one direction of a Blender spline, or None if Blender shows nothing for it."""
     if not is_valid(count, order, cyclic, bezier, endpoint):
         return None
@@ -69,7 +76,8 @@ def display_parameters(space: SplineSpace, resolution: int) -> NDArray[np.float6
     """Return (count * resolution,) parameters of Blender's display mesh, with the drift of its float32 sums."""
     cyclic = space.function_count > space.count
     total = space.count * resolution
-    low, high = np.float32(space.domain[0]), np.float32(space.domain[1])
+    low = np.float32(space.domain[0])
+    high = np.float32(space.domain[1])
     steps = np.full(total, (high - low) / np.float32(total if cyclic else total - 1), np.float32)
     steps[0] = low
     return np.add.accumulate(steps, dtype=np.float32).astype(np.float64)
@@ -86,7 +94,9 @@ def display_table(space: SplineSpace, parameters: NDArray) -> NDArray[np.float64
     return table
 
 
-def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None]) -> list[Patch]:
+def bezier_patches(
+    patch: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None]
+) -> list[Patch]:
     """Convert a patch with any knots into patches of the same surface with Blender's flags *Bézier* and *Endpoint*.
 
     A surface that may jump, at knots with the multiplicity of the order, gives several patches. domain: (low, high) of
@@ -97,12 +107,18 @@ def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple
     """
     pieces = [list(_pieces(space, part)) for space, part in zip(patch.spaces, domain)]
     old_net = patch.points if patch.weights is None else homogeneous(patch.points, patch.weights)
-    found, (s_space, t_space) = [], patch.spaces
+    found = []
+    (s_space, t_space) = patch.spaces
     for s_matrix, t_matrix in product(*pieces):
-        spaces = bezier_space(len(s_matrix), s_space.order), bezier_space(len(t_matrix), t_space.order)
+        spaces = (
+            bezier_space(len(s_matrix), s_space.order),
+            bezier_space(len(t_matrix), t_space.order),
+        )
         net = np.einsum("bj,ajd->abd", t_matrix, np.einsum("ai,ijd->ajd", s_matrix, old_net))
         weights = None if patch.weights is None else net[..., 3]
-        found.append(Patch(spaces, net if weights is None else net[..., :3] / weights[..., None], weights))
+        found.append(
+            Patch(spaces, net if weights is None else net[..., :3] / weights[..., None], weights)
+        )
     return found
 
 
@@ -122,7 +138,9 @@ def bezier_curves(curve: Curve, part: tuple[float, float] | None = None) -> list
 
 def bezier_space(count: int, order: int) -> SplineSpace:
     """Return the space of Bézier pieces side by side that Blender's flags *Bézier* and *Endpoint* describe."""
-    return cast("SplineSpace", blender_space(count, order, cyclic=False, bezier=True, endpoint=True))
+    return cast(
+        "SplineSpace", blender_space(count, order, cyclic=False, bezier=True, endpoint=True)
+    )
 
 
 def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[NDArray[np.float64]]:
@@ -132,7 +150,8 @@ def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[ND
     inside = edges[:, 0] < edges[:, 1]
     if space.order < 2:
         raise ValueError("a space of steps")
-    spans, edges = space.spans[inside], edges[inside]
+    spans = space.spans[inside]
+    edges = edges[inside]
     weights = space.bezier_weights(spans, edges)
     controls = space.controls_of_spans(spans)
     knots = np.asarray(space.knots)

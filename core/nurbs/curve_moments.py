@@ -31,7 +31,9 @@ from .splines import Curve
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # Gauss points per piece; each rule is compared with the one before.
 MAX_DEPTH = 60  # Limit of successive halvings of a piece.
-MAX_WEIGHT_RATIO = 1e8  # Largest by smallest weight of a piece: beyond it two rules may miss the same.
+MAX_WEIGHT_RATIO = (
+    1e8  # Largest by smallest weight of a piece: beyond it two rules may miss the same.
+)
 
 
 def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
@@ -66,39 +68,56 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
     5.0
     """
     about = curves_center(curves)
-    reach, degree = _reach(curves, about), monomials(order).sum(axis=1)
+    reach = _reach(curves, about)
+    degree = monomials(order).sum(axis=1)
 
     def length(place: NDArray, velocity: NDArray) -> NDArray:
         return np.sqrt((velocity**2).sum(axis=0))
 
-    values, estimate, size = _integrate(curves, length, 1.0, order, about, reach, LENGTH_TOLERANCE, kinks=True)
+    values, estimate, size = _integrate(
+        curves, length, 1.0, order, about, reach, LENGTH_TOLERANCE, kinks=True
+    )
     scale = size * reach ** degree.astype(np.float64)
     error = estimate * reach ** degree.astype(np.float64) + ROUNDING * U * 8 * scale
     return Moments(values, about, Measure.LENGTH, error)
 
 
-def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, about: NDArray | None = None) -> Moments:
+def plane_moments(
+    curves: Sequence[Curve], normal: NDArray, order: int = 3, about: NDArray | None = None
+) -> Moments:
     """Return the area moments of the plane region between curves, counter-clockwise about the (3,) unit normal."""
     center: NDArray[np.float64] = (
-        np.mean([curve.points.mean(axis=0) for curve in curves], axis=0) if about is None else np.asarray(about)
+        np.mean([curve.points.mean(axis=0) for curve in curves], axis=0)
+        if about is None
+        else np.asarray(about)
     )
-    reach, degree = _reach(curves, center), monomials(order).sum(axis=1)
+    reach = _reach(curves, center)
+    degree = monomials(order).sum(axis=1)
 
     def flux(place: NDArray, velocity: NDArray) -> NDArray:
         return dot(normal, cross(place, velocity))
 
-    values, estimate, size = np.zeros(len(degree)), 0.0, 0.0
+    values = np.zeros(len(degree))
+    estimate = 0.0
+    size = 0.0
     exact = [curve for curve in curves if curve.weights is None]
     for curve in exact:
         points = ceil((order + 2) * (curve.space.order - 1) / 2)
-        contributions, length = _piece_integrals(*_bezier_pieces(curve, center), max(points, 1), flux, order)
-        values, size = values + contributions.sum(axis=0), size + length.sum()
+        contributions, length = _piece_integrals(
+            *_bezier_pieces(curve, center), max(points, 1), flux, order
+        )
+        values = values + contributions.sum(axis=0)
+        size = size + length.sum()
     rational = [curve for curve in curves if curve.weights is not None]
     if rational:
-        more, estimate, length = _integrate(rational, flux, reach, order, center, reach, VOLUME_RTOL)
+        more, estimate, length = _integrate(
+            rational, flux, reach, order, center, reach, VOLUME_RTOL
+        )
         values, size = values + more, size + length
     powers = reach ** (degree + 1.0)
-    error = (estimate / max(reach, 1e-300) * powers + ROUNDING * U * 8 * size * powers) / (degree + 2.0)
+    error = (estimate / max(reach, 1e-300) * powers + ROUNDING * U * 8 * size * powers) / (
+        degree + 2.0
+    )
     return Moments(values / (degree + 2.0), center, Measure.AREA, error)
 
 
@@ -123,33 +142,48 @@ def _integrate(
     """
     degree = monomials(order).sum(axis=1)
     unit = reach ** degree.astype(np.float64)
-    values, estimate, whole = np.zeros(len(degree)), 0.0, 0.0
+    values = np.zeros(len(degree))
+    estimate = 0.0
+    whole = 0.0
     for curve in curves:
         net, anchor = _bezier_pieces(curve, about)
-        coarse, rule, depth, share = None, 0, 0, 0.0
+        coarse = None
+        rule = 0
+        depth = 0
+        share = 0.0
         while len(net):
             if coarse is None:
                 coarse, _ = _piece_integrals(net, anchor, RULES[rule], density, order)
             fine, size = _piece_integrals(net, anchor, RULES[rule + 1], density, order)
             share = share or float(size.mean())
-            differ = np.where(unit > 0.0, np.abs(fine - coarse) / np.where(unit > 0.0, unit, 1.0), 0.0).max(axis=1)
+            differ = np.where(
+                unit > 0.0, np.abs(fine - coarse) / np.where(unit > 0.0, unit, 1.0), 0.0
+            ).max(axis=1)
             differ += _doubtful_lengths(net, kinks, largest)
             # A piece whose moments overflow is not halved.
             good = ~(differ > tolerance * np.maximum(size, share) * largest) | (depth >= MAX_DEPTH)
             values += fine[good].sum(axis=0)
             estimate += float(differ[good].sum())
             whole += float(size[good].sum())
-            net, anchor, coarse, rule = net[~good], anchor[~good], fine[~good], rule + 1
+            net = net[~good]
+            anchor = anchor[~good]
+            coarse = fine[~good]
+            rule = rule + 1
             if rule + 1 == len(RULES):
-                net = np.concatenate([np.einsum("ij,cjd->cid", half, net) for half in halves(net.shape[1])])
+                net = np.concatenate(
+                    [np.einsum("ij,cjd->cid", half, net) for half in halves(net.shape[1])]
+                )
                 net, anchor = _about_first_control(net, np.tile(anchor, (2, 1)))
-                coarse, rule, depth = None, 0, depth + 1
+                coarse = None
+                rule = 0
+                depth = depth + 1
     return values, estimate, whole
 
 
 def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return control points (c, order, 3 or 4) of Bézier pieces from anchors (c, 3), and the anchors, from `about`."""
-    space, origin = curve.space, curve.points[0]
+    space = curve.space
+    origin = curve.points[0]
     net = curve.points - origin
     if curve.weights is not None:
         net = homogeneous(net, curve.weights)
@@ -157,7 +191,9 @@ def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], N
     return _about_first_control(net, np.tile(origin - about, (len(net), 1)))
 
 
-def _about_first_control(net: NDArray, anchor: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _about_first_control(
+    net: NDArray, anchor: NDArray
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the control points and anchors of Bézier curves, anchored anew at their first control points."""
     rational = net.shape[2] == 4
     first = net[:, :1, :3] / net[:, :1, 3:] if rational else net[:, :1]
@@ -168,12 +204,15 @@ def _about_first_control(net: NDArray, anchor: NDArray) -> tuple[NDArray[np.floa
 def _doubtful_lengths(net: NDArray, kinks: bool, largest: float) -> NDArray[np.float64]:
     """Return (c,) bounds of the length that rules may miss: if pieces may turn back, or have very unequal weights."""
     edges = np.diff(net[..., :3] / net[..., 3:] if net.shape[2] == 4 else net, axis=1)
-    length, doubtful = np.sqrt((edges**2).sum(axis=2)).sum(axis=1), np.zeros(len(net))
+    length = np.sqrt((edges**2).sum(axis=2)).sum(axis=1)
+    doubtful = np.zeros(len(net))
     if kinks:
         doubtful += length * ~(np.einsum("ckd,cd->ck", edges, edges.sum(axis=1)).min(axis=1) >= 0.0)
     if net.shape[2] == 4:
         weights = net[..., 3]
-        doubtful += largest * length * (weights.max(axis=1) > MAX_WEIGHT_RATIO * weights.min(axis=1))
+        doubtful += (
+            largest * length * (weights.max(axis=1) > MAX_WEIGHT_RATIO * weights.min(axis=1))
+        )
     return doubtful
 
 
@@ -190,6 +229,9 @@ def _piece_integrals(
     place = place + anchor.T[:, :, None]
     element = density(place, velocity) * weights[:, 0]
     columns = [
-        (element * place[0] ** p * place[1] ** q * place[2] ** r).sum(axis=1) for p, q, r in monomials(order).tolist()
+        (element * place[0] ** p * place[1] ** q * place[2] ** r).sum(axis=1)
+        for p, q, r in monomials(order).tolist()
     ]
-    return np.stack(columns, axis=1), (np.sqrt((velocity**2).sum(axis=0)) * weights[:, 0]).sum(axis=1)
+    return np.stack(columns, axis=1), (np.sqrt((velocity**2).sum(axis=0)) * weights[:, 0]).sum(
+        axis=1
+    )

@@ -9,10 +9,12 @@ NON_FINITE_CONTROL_POINTS = error(
     "Some control points have no finite coordinates. Delete them, or fix the modifier or driver that moves them.",
 )
 NON_POSITIVE_WEIGHTS = error(
-    "non_positive_weights", "Some control points have weights that are not positive. Set their weights above zero."
+    "non_positive_weights",
+    "Some control points have weights that are not positive. Set their weights above zero.",
 )
 CURVE_OPEN = error(
-    "curve_open", "A curve is open and bounds no region. Close it with Toggle Cyclic, or set Kind to Wire."
+    "curve_open",
+    "A curve is open and bounds no region. Close it with Toggle Cyclic, or set Kind to Wire.",
 )
 CURVES_NOT_COPLANAR = error(
     "curves_not_coplanar",
@@ -25,7 +27,8 @@ CURVE_TOO_SMALL = error(
     "Wire.",
 )
 CURVES_CROSS = error(
-    "curves_cross", "The curves cross or touch, so the region is ambiguous. Separate them, or set Kind to Wire."
+    "curves_cross",
+    "The curves cross or touch, so the region is ambiguous. Separate them, or set Kind to Wire.",
 )
 NO_EXTENT = error("no_extent", "All control points coincide. Move them apart.")
 DISCONTINUOUS_PATCH = error(
@@ -67,5 +70,6 @@ PATCH_BOUNDARY_CROSSES_ITSELF = warning(
     "{count} boundaries cross themselves; the regions beyond the crossings count as negative.",
 )
 WALL_THICKER_THAN_CURVATURE = error(
-    "wall_thicker_than_curvature", "The wall is thicker than the radius of curvature of its surface. Reduce Thickness."
+    "wall_thicker_than_curvature",
+    "The wall is thicker than the radius of curvature of its surface. Reduce Thickness.",
 )

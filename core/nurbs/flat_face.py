@@ -24,7 +24,9 @@ from .curve_moments import curves_center, plane_moments
 from .findings import CURVE_OPEN, CURVE_TOO_SMALL, CURVES_CROSS, CURVES_NOT_COPLANAR
 from .splines import Curve, Face, Patch
 
-SAME_HEIGHT_RTOL = 1e-9  # Relative to the extent: corners whose heights differ by less share a row of trapezoids.
+SAME_HEIGHT_RTOL = (
+    1e-9  # Relative to the extent: corners whose heights differ by less share a row of trapezoids.
+)
 PAIRS_PER_BLOCK = 1 << 22  # rows and edges compared at a time
 SAMPLES_PER_SPAN = 16  # For the first comparison.
 FINER_SAMPLES = 64, 256  # Used if the chords of fewer samples cross.
@@ -82,7 +84,10 @@ class FlatFace:
     @property
     def perimeter(self) -> float:
         """An upper bound of the length of the boundary."""
-        return sum(float(np.linalg.norm(np.diff(curve.points, axis=0), axis=1).sum()) for curve in self.curves)
+        return sum(
+            float(np.linalg.norm(np.diff(curve.points, axis=0), axis=1).sum())
+            for curve in self.curves
+        )
 
     def reverse_orientation(self) -> FlatFace:
         """Return the same region facing the other way."""
@@ -102,11 +107,14 @@ class FlatFace:
 
     def volume_moments(self, order: int, about: NDArray) -> Moments:
         """Return the moments of the cone from a point (3,) to the region: the region's share in a body's moments."""
-        area, degree = self.area_moments(order, about), monomials(order).sum(axis=1)
+        area = self.area_moments(order, about)
+        degree = monomials(order).sum(axis=1)
         height = float((self.center - about) @ self.normal)
         reach = float(np.sqrt(((self.points - about) ** 2).sum(axis=-1).max()))
         error = abs(height) * area.rounding_error + 16.0 * U * area.total * reach ** (degree + 1.0)
-        return Moments(height * area.raw / (degree + 3.0), about, Measure.VOLUME, error / (degree + 3.0))
+        return Moments(
+            height * area.raw / (degree + 3.0), about, Measure.VOLUME, error / (degree + 3.0)
+        )
 
     def slab_moments(self, heights: NDArray, steps: NDArray, order: int, about: NDArray) -> Moments:
         """Return the volume moments of a slab on the region, from its sections at heights (n,) with weights (n,)."""
@@ -119,27 +127,41 @@ class FlatFace:
 
     def quads(self, each: int) -> NDArray[np.float64]:
         """Return (n, 4, 3) corners of trapezoids that fill the polygon through `each` samples per span."""
-        loops = [np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in self.loops]
+        loops = [
+            np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in self.loops
+        ]
         begin = (np.concatenate(loops) - self.center) @ self._frame
         grain = SAME_HEIGHT_RTOL * float(np.ptp(begin, axis=0).max())
         begin[:, 1] = np.round(begin[:, 1] / grain) * grain
         starts = np.cumsum([0, *map(len, loops)])
-        end = np.concatenate([np.roll(begin[a:b], -1, axis=0) for a, b in zip(starts[:-1], starts[1:])])
+        end = np.concatenate(
+            [np.roll(begin[a:b], -1, axis=0) for a, b in zip(starts[:-1], starts[1:])]
+        )
         heights = np.unique(begin[:, 1])
-        low, high = np.minimum(begin[:, 1], end[:, 1]), np.maximum(begin[:, 1], end[:, 1])
+        low = np.minimum(begin[:, 1], end[:, 1])
+        high = np.maximum(begin[:, 1], end[:, 1])
         with np.errstate(divide="ignore", invalid="ignore"):
             slope = (end[:, 0] - begin[:, 0]) / (end[:, 1] - begin[:, 1])
         found: list[NDArray[np.float64]] = []
         step = max(1, PAIRS_PER_BLOCK // len(low))
         for start in range(0, len(heights) - 1, step):
-            bottom, top = heights[start : start + step], heights[start + 1 : start + 1 + step]
+            bottom = heights[start : start + step]
+            top = heights[start + 1 : start + 1 + step]
             bottom = bottom[: len(top)]
             row, edge = np.nonzero((low <= bottom[:, None]) & (high >= top[:, None]))
             x = begin[edge, 0] + (np.stack([bottom[row], top[row]]) - begin[edge, 1]) * slope[edge]
             order = np.lexsort((x.sum(axis=0), row))
-            (x0, x1), y0, y1 = x[:, order], bottom[row[order]], top[row[order]]
-            left, right = slice(0, None, 2), slice(1, None, 2)
-            corners = [(x0[left], y0[left]), (x0[right], y0[right]), (x1[right], y1[right]), (x1[left], y1[left])]
+            (x0, x1) = x[:, order]
+            y0 = bottom[row[order]]
+            y1 = top[row[order]]
+            left = slice(0, None, 2)
+            right = slice(1, None, 2)
+            corners = [
+                (x0[left], y0[left]),
+                (x0[right], y0[right]),
+                (x1[right], y1[right]),
+                (x1[left], y1[left]),
+            ]
             found.append(np.moveaxis(np.array(corners, np.float64), 2, 0))
         return np.concatenate(found) @ self._frame.T + self.center
 
@@ -153,10 +175,14 @@ class FlatFace:
 
 def split_faces(faces: Sequence[Face]) -> tuple[list[Patch], list[FlatFace]]:
     """Return the patches and the flat faces."""
-    return [one for one in faces if isinstance(one, Patch)], [one for one in faces if isinstance(one, FlatFace)]
+    return [one for one in faces if isinstance(one, Patch)], [
+        one for one in faces if isinstance(one, FlatFace)
+    ]
 
 
-def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], NDArray[np.float64]]:
+def planar_region(
+    curves: Sequence[Curve], stored: float = 0.0
+) -> tuple[list[Curve], NDArray[np.float64]]:
     """Return the curves oriented around a plane region, outer ones counter-clockwise, holes clockwise, and its normal.
 
     A curve inside an odd number of others is a hole, as in Blender. The first nonzero component of the unit normal (3,)
@@ -177,7 +203,10 @@ def planar_loops(
     tolerance = 4.0 * (WELDING_RTOL * size + stored + 2.0**-52 * float(np.abs(center).max()))
     for loop in loops:
         ends = [curve.evaluate(curve.space.domain) for curve in loop]
-        gaps = [np.linalg.norm(before[1] - after[0]) for before, after in zip(ends, [*ends[1:], ends[0]])]
+        gaps = [
+            np.linalg.norm(before[1] - after[0])
+            for before, after in zip(ends, [*ends[1:], ends[0]])
+        ]
         if max(gaps) > tolerance or any(curve.space.is_discontinuous for curve in loop):
             raise MeasureError(CURVE_OPEN)
     points = np.concatenate([curve.points for curve in curves]) - center
@@ -231,9 +260,15 @@ def chords_cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True)
     """Return whether edges of polygons (n, 2) cross by more than a tolerance or, if `touch`, corners coincide."""
     begin = np.concatenate(loops)
     end = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
-    low, high = (np.pad(corner, ((0, 0), (0, 1))) for corner in (np.minimum(begin, end), np.maximum(begin, end)))
+    low, high = (
+        np.pad(corner, ((0, 0), (0, 1)))
+        for corner in (np.minimum(begin, end), np.maximum(begin, end))
+    )
     i, j, _ = overlapping_box_pairs(low, high, -2.0 * tolerance, len(begin) ** 2)
-    p, q, a, b = begin[i], end[i], begin[j], end[j]
+    p = begin[i]
+    q = end[i]
+    a = begin[j]
+    b = end[j]
     if touch and (np.abs(p - a).max(axis=1) <= tolerance).any():
         return True
     sides = [_side(p, q, a), _side(p, q, b), _side(a, b, p), _side(a, b, q)]

@@ -52,13 +52,17 @@ UNCONVERGED_FACTOR = 8.0
 MAX_WEIGHT_RATIOS = 1e2, 1e6
 # Factor on the difference of two rules: if a patch folds back, its area has kinks, and both rules may err alike.
 FOLD_FACTOR = 8.0
-MIN_REVERSED_NORMAL = 1e-9  # a normal that points against its neighbor by less than this is rounding
+MIN_REVERSED_NORMAL = (
+    1e-9  # a normal that points against its neighbor by less than this is rounding
+)
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
 COARSE_RULES = (8, 12, 18)  # Used for tolerances from `AREA_RTOL` upward.
 MIN_DIVISOR = 1e-300  # Divisors are at least this.
 MAX_DEPTH = 14  # Limit of successive cuts of a cell.
 MAX_POINTS = 6_000_000  # Limit of evaluated points.
-SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time, for the area's gradient
+# Gauss points in a span, and spans at a time, for the area's gradient
+SLOPE_POINTS = 6
+SLOPE_SPANS = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,16 +76,26 @@ class Integral:
 
 
 def volume_moments(
-    faces: Sequence[Face], order: int = 3, about: NDArray | None = None, tolerance: float = VOLUME_RTOL
+    faces: Sequence[Face],
+    order: int = 3,
+    about: NDArray | None = None,
+    tolerance: float = VOLUME_RTOL,
 ) -> tuple[Moments, bool]:
     """Return the volume moments, about the box's middle, of the body in outward patches, and whether they converged."""
     about = patches_center(faces) if about is None else np.asarray(about, np.float64)
     patches, flat = split_faces(faces)
-    degree, flux = _degrees(order), partial(flux_sums, order=order)
-    values, estimate, size, converged = np.zeros(len(degree)), 0.0, 0.0, True
-    reach, orders, rational = 0.0, 0, []
+    degree = _degrees(order)
+    flux = partial(flux_sums, order=order)
+    values = np.zeros(len(degree))
+    estimate = 0.0
+    size = 0.0
+    converged = True
+    reach = 0.0
+    orders = 0
+    rational = []
     for part in cells_of(patches, about):
-        reach, orders = max(reach, part.reach), max(orders, sum(part.orders))
+        reach = max(reach, part.reach)
+        orders = max(orders, sum(part.orders))
         if len(part.net) == 4:
             rational.append(part)
             continue
@@ -92,14 +106,18 @@ def volume_moments(
     unit = reach ** (degree + 1.0)
     if rational:
         integral = integrate_adaptively(rational, flux, unit, tolerance, order)
-        values, estimate, converged = values + integral.values, integral.estimate, integral.converged
+        values = values + integral.values
+        estimate = integral.estimate
+        converged = integral.converged
         size += integral.size
     error = (estimate + (ROUNDING * U * size) * (orders + degree)) * unit / (degree + 3.0)
     curved = Moments(values / (degree + 3.0), about, Measure.VOLUME, error)
     return sum_moments([curved, *(face.volume_moments(order, about) for face in flat)]), converged
 
 
-def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
+def flux_sums(
+    cells: BezierCells, rule: Rule, order: int, area: bool = False
+) -> NDArray[np.float64]:
     """Return (rules, K + 1, c) fluxes of monomials times position; the last row: area or its bound ∫ |S_s| |S_t|."""
     (s, along, across), weights = cells.evaluate(rule)
     normal = cross(along, across)
@@ -108,7 +126,9 @@ def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) ->
     return sum_over_points(terms, weights)
 
 
-def area_moments(faces: Sequence[Face], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
+def area_moments(
+    faces: Sequence[Face], order: int = 0, about: NDArray | None = None
+) -> tuple[Moments, bool]:
     """Return the area moments of faces, and whether they converged; about: as for `volume_moments`.
 
     Flat faces have closed forms; patches are integrated by quadrature.
@@ -146,7 +166,10 @@ def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np
         nodes, _ = gauss_legendre_with_ends(points)
         length = _length(normal)
         # At a pole the normal is rounding.
-        over = dot(normal[:, :-1], normal[:, 1:]) < -MIN_REVERSED_NORMAL * np.maximum(length[:-1], length[1:]) ** 2
+        over = (
+            dot(normal[:, :-1], normal[:, 1:])
+            < -MIN_REVERSED_NORMAL * np.maximum(length[:-1], length[1:]) ** 2
+        )
         size = np.where(over, length[:-1] + length[1:], 0.0) * np.diff(nodes)[:, None, None] / 2.0
         total += size.sum(axis=0) @ other_weights[:, 0]
         normal = normal.swapaxes(1, 3)
@@ -165,7 +188,9 @@ def area_slope(faces: Sequence[Face]) -> float:
         for s, s_slope, s_steps, s_controls in _slope_tiles(patch.spaces[0]):
             for t, t_slope, t_steps, t_controls in _slope_tiles(patch.spaces[1]):
                 tile_net = np.ascontiguousarray(net[:, s_controls[:, None], t_controls])
-                force = _slope_of_tile((s, s_slope), (t, t_slope), s_steps[:, None] * t_steps, tile_net)
+                force = _slope_of_tile(
+                    (s, s_slope), (t, t_slope), s_steps[:, None] * t_steps, tile_net
+                )
                 gradient[:, s_controls[:, None], t_controls] += force
         if patch.weights is not None:
             gradient *= patch.weights
@@ -206,18 +231,23 @@ def _slope_of_tile(
     s_bottom = t_bottom = None
     if len(net) == 4:  # rational
         bottom = place[3]
-        place, s_bottom, t_bottom = place[:3] / bottom, by_s[3] / bottom, by_t[3] / bottom
-        by_s, by_t = by_s[:3] / bottom - place * s_bottom, by_t[:3] / bottom - place * t_bottom
+        place = place[:3] / bottom
+        s_bottom = by_s[3] / bottom
+        t_bottom = by_t[3] / bottom
+        by_s = by_s[:3] / bottom - place * s_bottom
+        by_t = by_t[:3] / bottom - place * t_bottom
         weights = weights / bottom
     normal = np.stack(cross(by_s, by_t))
     length = _length(normal)
     unit = normal / np.where(length > 0.0, length, 1.0) * weights
-    s_force, t_force = np.stack(cross(by_t, unit)), np.stack(cross(unit, by_s))
+    s_force = np.stack(cross(by_t, unit))
+    t_force = np.stack(cross(unit, by_s))
     parts = [(s_slope, s_force, t), (s, t_force, t_slope)]
     if s_bottom is not None and t_bottom is not None:
         parts.append((s, -(s_force * s_bottom + t_force * t_bottom), t))
     products = (
-        np.matmul(np.matmul(np.ascontiguousarray(s_table.T), force), t_table) for s_table, force, t_table in parts
+        np.matmul(np.matmul(np.ascontiguousarray(s_table.T), force), t_table)
+        for s_table, force, t_table in parts
     )
     return sum(products, np.zeros(()))
 
@@ -232,7 +262,8 @@ def sheet_moments(
     """
     about = patches_center(faces) if about is None else np.asarray(about, np.float64)
     nodes, steps = gauss_legendre(ceil((order + 3) / 2))
-    heights, steps = inner + (outer - inner) * nodes, (outer - inner) * steps
+    heights = inner + (outer - inner) * nodes
+    steps = (outer - inner) * steps
     patches, flat = split_faces(faces)
     of_flat = [face.slab_moments(heights, steps, order, about) for face in flat]
     if not patches:
@@ -274,7 +305,10 @@ def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
     """Return the (3,) integral of the unit normals: exact along directions of constant weights, else estimated."""
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
-        s, t = ((max(1, order - 1) if same else RULES[0],) for order, same in zip(cells.orders, cells.constant_weights))
+        s, t = (
+            (max(1, order - 1) if same else RULES[0],)
+            for order, same in zip(cells.orders, cells.constant_weights)
+        )
         (_, along, across), weights = cells.evaluate((s, t))
         total += sum_over_points(np.stack(cross(along, across)), weights)[0].sum(axis=1)
     return total
@@ -319,11 +353,22 @@ def integrate_adaptively(
     agree if they differ by at most the tolerance, relative to the cell's size or to the mean size of all cells.
     """
     k = len(unit)
-    values, estimate, lost, most = np.zeros(k), 0.0, 0.0, np.maximum(unit, MIN_DIVISOR)[:, None]
-    points, enough = (RULES, MAX_POINTS) if tolerance < AREA_RTOL else (COARSE_RULES, MAX_POINTS // 2)
+    values = np.zeros(k)
+    estimate = 0.0
+    lost = 0.0
+    most = np.maximum(unit, MIN_DIVISOR)[:, None]
+    points, enough = (
+        (RULES, MAX_POINTS) if tolerance < AREA_RTOL else (COARSE_RULES, MAX_POINTS // 2)
+    )
     work = [(part, None, 0) for part in cells]
-    whole, count, spent, converged, depth = 0.0, sum(map(len, cells)), 0, True, 0
-    at_stake = thickness * sum(float(undersampled_areas(part, MAX_WEIGHT_RATIOS[0]).sum()) for part in cells)
+    whole = 0.0
+    count = sum(map(len, cells))
+    spent = 0
+    converged = True
+    depth = 0
+    at_stake = thickness * sum(
+        float(undersampled_areas(part, MAX_WEIGHT_RATIOS[0]).sum()) for part in cells
+    )
     while work:
         waiting, compared = [], []
         for part, coarse, level in work:
@@ -333,8 +378,12 @@ def integrate_adaptively(
                 for rule in (rules if coarse is None else rules[-1:])
                 for row in integrand_in_blocks(part, rule, integrand)
             ]
-            spent += len(part) * sum(number**2 for number in points[level + (coarse is not None) : level + 2])
-            compared.append((part, estimates[0] if coarse is None else coarse, estimates[-1], level))
+            spent += len(part) * sum(
+                number**2 for number in points[level + (coarse is not None) : level + 2]
+            )
+            compared.append(
+                (part, estimates[0] if coarse is None else coarse, estimates[-1], level)
+            )
         whole = whole or sum(float(np.add.reduce(fine[k])) for _, _, fine, _ in compared)
         last = spent > enough or depth >= MAX_DEPTH
         for part, coarse, fine, level in compared:
@@ -346,7 +395,9 @@ def integrate_adaptively(
             good = differ + steep <= tolerance * np.maximum(fine[k], whole / count)
             if last or good.all():
                 converged &= bool(good.all())
-                lost += thickness * float(undersampled_areas(part[~good], MAX_WEIGHT_RATIOS[0]).sum())
+                lost += thickness * float(
+                    undersampled_areas(part[~good], MAX_WEIGHT_RATIOS[0]).sum()
+                )
                 values += np.add.reduce(fine[:k], axis=1)
                 estimate += float(np.add.reduce(differ)) + (UNCONVERGED_FACTOR - 1.0) * float(
                     np.add.reduce(differ[~good])
@@ -395,6 +446,8 @@ def _length(a: NDArray) -> NDArray[np.float64]:
     return np.sqrt(dot(a, a))
 
 
-def _offset_jacobian(along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float) -> NDArray:
+def _offset_jacobian(
+    along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float
+) -> NDArray:
     """Return the sheet's jacobian |S_s x S_t| (1 - 2 H h + K h²) by the offset surface's derivatives."""
     return dot(cross(along + height * turning[0], across + height * turning[1]), unit)

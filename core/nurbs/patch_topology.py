@@ -85,13 +85,21 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
     pieces = cut_open_sides(curves, sides, tolerance)
     if pieces:
         counts = np.array(list(map(len, pieces)))
-        cut_owner, cut_forward = np.repeat(owner, counts), np.repeat(forward, counts)
+        cut_owner = np.repeat(owner, counts)
+        cut_forward = np.repeat(forward, counts)
         cut_curves = [curve for row in pieces for curve in row]
         cut_sides = join_sides(cut_curves, cut_owner, cut_forward, tolerance)
         if cut_sides.open_length < sides.open_length - tolerance:
-            curves, owner, forward, sides = cut_curves, cut_owner, cut_forward, cut_sides
+            curves = cut_curves
+            owner = cut_owner
+            forward = cut_forward
+            sides = cut_sides
             number_of = np.repeat(np.where(counts == 1, number_of, -1), counts)
-    points, left, right, free, turned = sides.points, sides.left, sides.right, sides.free, sides.turned
+    points = sides.points
+    left = sides.left
+    right = sides.right
+    free = sides.free
+    turned = sides.turned
 
     # Two sides fit if one runs against the other; else one of their patches must turn.
     misoriented = sides.same == (forward[left] == forward[right])
@@ -101,15 +109,21 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
     are_most = 2 * np.bincount(component, flipped) > np.bincount(component)
     flipped ^= are_most[component]
     unclosable = np.zeros(number, bool)
-    unclosable[component[owner[left[misoriented ^ turned[owner[left]] ^ turned[owner[right]]]]]] = True
+    unclosable[component[owner[left[misoriented ^ turned[owner[left]] ^ turned[owner[right]]]]]] = (
+        True
+    )
 
-    loops, forward = [], forward ^ flipped[owner]
+    loops = []
+    forward = forward ^ flipped[owner]
     for loop_sides, complete in _find_loops(points, np.flatnonzero(free), forward, tolerance):
         if not complete:
             unclosable[component[owner[loop_sides]]] = True
             continue
-        loop_curves, part = [curves[k] for k in loop_sides], int(component[owner[loop_sides[0]]])
-        loops.append(_cap_loop(loop_curves, part, points[loop_sides], forward[loop_sides], tolerance))
+        loop_curves = [curves[k] for k in loop_sides]
+        part = int(component[owner[loop_sides[0]]])
+        loops.append(
+            _cap_loop(loop_curves, part, points[loop_sides], forward[loop_sides], tolerance)
+        )
     return PatchTopology(
         component,
         number,
@@ -119,7 +133,9 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
         sides.non_manifold,
         int(misoriented.sum()),
         sides.gap,
-        np.stack([number_of[left], number_of[right]], axis=1)[(number_of[left] >= 0) & (number_of[right] >= 0)],
+        np.stack([number_of[left], number_of[right]], axis=1)[
+            (number_of[left] >= 0) & (number_of[right] >= 0)
+        ],
         unclosable,
     )
 
@@ -129,18 +145,22 @@ def _find_loops(
 ) -> list[tuple[list[int], bool]]:
     """Join open sides to chains; return the side indices of each chain, and True if it is closed."""
     ahead = forward[free]
-    begin, end = (points[free, np.where(ahead, source, target)] for source, target in ((0, -1), (-1, 0)))
+    begin, end = (
+        points[free, np.where(ahead, source, target)] for source, target in ((0, -1), (-1, 0))
+    )
     limit = 2.0 * tolerance
     i, j = close_pairs(np.concatenate([begin, end]), limit)
     count = len(free)
     i, j = np.concatenate([i, j]), np.concatenate([j, i])  # both ways
     meet = (i >= count) & (j < count)
-    i, j = i[meet] - count, j[meet]
+    i = i[meet] - count
+    j = j[meet]
     close = np.linalg.norm(end[i] - begin[j], axis=1) <= limit
     onward: list[list[int]] = [[] for _ in range(count)]
     for source, target in sorted(zip(i[close].tolist(), j[close].tolist())):
         onward[source].append(target)
-    loops, used = [], np.zeros(count, bool)
+    loops = []
+    used = np.zeros(count, bool)
     for first in range(count):
         path = [] if used[first] else [first]
         while path:
@@ -154,7 +174,11 @@ def _find_loops(
 
 
 def _cap_loop(
-    curves: Sequence[Curve], component: int, points: NDArray, forward: NDArray[np.bool_], tolerance: float
+    curves: Sequence[Curve],
+    component: int,
+    points: NDArray,
+    forward: NDArray[np.bool_],
+    tolerance: float,
 ) -> BoundaryLoop:
     """Close a loop by the cone to its centroid, and return the loop with its caps."""
     run = np.concatenate([row if ahead else row[::-1] for row, ahead in zip(points, forward)])
@@ -173,5 +197,10 @@ def _cap_loop(
     # A path there and back has no net area; for a loop in space only its cone's area shows that.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width
     slim = bool(area <= tolerance * weigh.sum())
-    crossing = flat and not slim and len(arms) <= MAX_CHORDS and self_intersects(arms @ axes[:2].T, tolerance)
+    crossing = (
+        flat
+        and not slim
+        and len(arms) <= MAX_CHORDS
+        and self_intersects(arms @ axes[:2].T, tolerance)
+    )
     return BoundaryLoop(tuple(caps), component, flat, slim, area, crossing)

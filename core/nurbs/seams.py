@@ -59,7 +59,9 @@ class Sides:
     non_manifold: int
 
 
-def join_sides(curves: Sequence[Curve], owner: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float) -> Sides:
+def join_sides(
+    curves: Sequence[Curve], owner: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
+) -> Sides:
     """Find the sides that coincide. owner: (n,) patch of each side; forward: (n,) whether the patch is on its left."""
     count = max([SAMPLES_PER_SIDE] + [2 * len(curve.space.spans) + 1 for curve in curves])
     points = np.array([curve.apply_weights(_uniform_table(curve.space, count)) for curve in curves])
@@ -69,11 +71,15 @@ def join_sides(curves: Sequence[Curve], owner: NDArray[np.intp], forward: NDArra
     times = np.bincount(np.array([side for _, i, j, _ in coincident for side in (i, j)], np.intp))
     pairs, turned = _pair_sides(coincident, times, points, owner, forward)
     gap, left, right, same = np.array(pairs, np.float64).reshape(-1, 4).T
-    left, right = left.astype(np.intp), right.astype(np.intp)
+    left = left.astype(np.intp)
+    right = right.astype(np.intp)
     free[left] = free[right] = False
-    open_length, sum_of_gaps = float(length[free].sum()), float((gap * length[left]).sum())
+    open_length = float(length[free].sum())
+    sum_of_gaps = float((gap * length[left]).sum())
     non_manifold = int((times > 1).sum())
-    return Sides(points, left, right, same > 0.0, turned, free, open_length, sum_of_gaps, non_manifold)
+    return Sides(
+        points, left, right, same > 0.0, turned, free, open_length, sum_of_gaps, non_manifold
+    )
 
 
 def cut_open_sides(curves: Sequence[Curve], sides: Sides, tolerance: float) -> list[list[Curve]]:
@@ -82,22 +88,31 @@ def cut_open_sides(curves: Sequence[Curve], sides: Sides, tolerance: float) -> l
     if not 3 <= len(open_sides) <= MAX_CUT_SIDES:
         return []
     ends = sides.points[open_sides][:, [0, -1]].reshape(-1, 3)
-    pieces, is_cut = [[curve] for curve in curves], False
+    pieces = [[curve] for curve in curves]
+    is_cut = False
     for k in open_sides.tolist():
-        curve, samples = curves[k], sides.points[k]
+        curve = curves[k]
+        samples = sides.points[k]
         step = np.linalg.norm(np.diff(samples, axis=0), axis=1).max()
         near = ends[np.linalg.norm(ends[:, None] - samples, axis=2).min(axis=1) <= step + tolerance]
-        near = near[np.linalg.norm(near[:, None] - samples[[0, -1]], axis=2).min(axis=1) > 2.0 * tolerance]
+        near = near[
+            np.linalg.norm(near[:, None] - samples[[0, -1]], axis=2).min(axis=1) > 2.0 * tolerance
+        ]
         t = nearest_parameters(curve, samples, near, tolerance) if len(near) else np.zeros(0)
         t = np.unique(t[np.linalg.norm(near - curve.evaluate(t), axis=1) <= tolerance])
         if not len(t):
             continue
         marks = [curve.space.domain[0]]
         for at in t.tolist():
-            if np.linalg.norm(np.diff(curve.evaluate([marks[-1], at]), axis=0)) > 2.0 * tolerance or len(marks) == 1:
+            if (
+                np.linalg.norm(np.diff(curve.evaluate([marks[-1], at]), axis=0)) > 2.0 * tolerance
+                or len(marks) == 1
+            ):
                 marks.append(at)
         marks.append(curve.space.domain[1])
-        pieces[k] = [piece for part in zip(marks[:-1], marks[1:]) for piece in bezier_curves(curve, part)]
+        pieces[k] = [
+            piece for part in zip(marks[:-1], marks[1:]) for piece in bezier_curves(curve, part)
+        ]
         is_cut = True
     return pieces if is_cut else []
 
@@ -115,19 +130,27 @@ def _coincident_sides(
     """Return pairs of coinciding sides, nearest first: distance, two indices, whether their curves run the same way."""
     middle = points.shape[1] // 2
     side_points = points[wide]
-    first, last = side_points[:, 0], side_points[:, -1]
-    left, right = close_pairs(np.concatenate([first + last, 2.0 * side_points[:, middle]], axis=1), 2.0 * tolerance)
+    first = side_points[:, 0]
+    last = side_points[:, -1]
+    left, right = close_pairs(
+        np.concatenate([first + last, 2.0 * side_points[:, middle]], axis=1), 2.0 * tolerance
+    )
     coincident = list(_distance_between(points, wide[left], wide[right], tolerance))
     loose = np.ones(len(points), bool)
     loose[[side for _, i, j, _ in coincident for side in (i, j)]] = False
     # Equal curves with other parameters: between the same ends, or without ends.
     ring = np.linalg.norm(last - first, axis=1) <= 2.0 * tolerance
-    arcs, rings = np.flatnonzero(loose[wide] & ~ring), np.flatnonzero(loose[wide] & ring)
-    ends = close_pairs(np.concatenate([first + last, np.abs(first - last)], axis=1)[arcs], 2.0 * tolerance)
+    arcs = np.flatnonzero(loose[wide] & ~ring)
+    rings = np.flatnonzero(loose[wide] & ring)
+    ends = close_pairs(
+        np.concatenate([first + last, np.abs(first - last)], axis=1)[arcs], 2.0 * tolerance
+    )
     boxes = overlapping_box_pairs(
         side_points[rings].min(axis=1), side_points[rings].max(axis=1), -tolerance, MAX_SIDE_PAIRS
     )[:2]
-    candidates = np.concatenate([arcs[np.stack(ends)], np.sort(rings[np.stack(boxes)], axis=0)], axis=1)
+    candidates = np.concatenate(
+        [arcs[np.stack(ends)], np.sort(rings[np.stack(boxes)], axis=0)], axis=1
+    )
     for i, j in wide[candidates.T].tolist():
         coincident += _overlapping_sides(curves, points, i, j, tolerance)
     return sorted(coincident)
@@ -147,7 +170,9 @@ def _pair_sides(
     pairs the sharpest angle comes first; patches that lie on each other come last.
     """
     count = int(owner.max()) + 1
-    part, odd, size = list(range(count)), [False] * count, [1] * count
+    part = list(range(count))
+    odd = [False] * count
+    size = [1] * count
 
     def root(patch: int) -> tuple[int, bool]:
         turn = False
@@ -156,7 +181,8 @@ def _pair_sides(
             patch = part[patch]
         return patch, turn
 
-    pairs, used = [], np.zeros(len(owner), bool)
+    pairs = []
+    used = np.zeros(len(owner), bool)
     middles = points.mean(axis=1)
     sums = np.add.reduceat(middles, np.flatnonzero(np.diff(owner, prepend=-1)), axis=0)
     arms = (sums / np.bincount(owner)[:, None])[owner] - middles
@@ -167,7 +193,8 @@ def _pair_sides(
 
     def rank(pair: tuple[float, int, int, bool]) -> int:
         _, i, j, same = pair
-        (a, turn), (b, other) = root(int(owner[i])), root(int(owner[j]))
+        (a, turn) = root(int(owner[i]))
+        (b, other) = root(int(owner[j]))
         flip = same == (forward[i] == forward[j])
         if a == b:
             rank_found = 0 if flip == turn ^ other else 4
@@ -177,10 +204,12 @@ def _pair_sides(
 
     def join(pair: tuple[float, int, int, bool]) -> None:
         _, i, j, same = pair
-        (a, turn), (b, other) = root(int(owner[i])), root(int(owner[j]))
+        (a, turn) = root(int(owner[i]))
+        (b, other) = root(int(owner[j]))
         if a != b:
             a, b = (a, b) if size[a] >= size[b] else (b, a)
-            part[b], odd[b] = a, bool(same == (forward[i] == forward[j])) ^ turn ^ other
+            part[b] = a
+            odd[b] = bool(same == (forward[i] == forward[j])) ^ turn ^ other
             size[a] += size[b]
         used[[i, j]] = True
         pairs.append(pair)
@@ -189,7 +218,9 @@ def _pair_sides(
     for pair in coincident:
         if times[pair[1]] == times[pair[2]] == 1:
             join(pair)
-    crowd, number = connected_components(len(owner), *(np.array([pair[k] for pair in crowds], np.intp) for k in (1, 2)))
+    crowd, number = connected_components(
+        len(owner), *(np.array([pair[k] for pair in crowds], np.intp) for k in (1, 2))
+    )
     together: dict[int, list] = {}
     for pair in crowds:
         together.setdefault(int(crowd[pair[1]]), []).append(pair)
@@ -209,7 +240,9 @@ def close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[
     line = (keys * slope).sum(axis=1)
     order = np.argsort(line, kind="stable")
     line = line[order]
-    count = np.searchsorted(line, line + (limit * slope.sum() + 1e-12 * np.abs(line).max(initial=0.0)), side="right")
+    count = np.searchsorted(
+        line, line + (limit * slope.sum() + 1e-12 * np.abs(line).max(initial=0.0)), side="right"
+    )
     count -= np.arange(1, len(line) + 1)
     pairs = []
     for i, j in following_pairs(order, count, PAIRS_PER_BATCH):
@@ -223,16 +256,23 @@ def _distance_between(
 ) -> Iterator[tuple[float, int, int, bool]]:
     """Yield pairs of sides that coincide parameter by parameter: distance, indices, True if they run the same way."""
     for start in range(0, len(left), PAIRS_PER_BLOCK):
-        i, j = left[start : start + PAIRS_PER_BLOCK], right[start : start + PAIRS_PER_BLOCK]
+        i = left[start : start + PAIRS_PER_BLOCK]
+        j = right[start : start + PAIRS_PER_BLOCK]
         reversed_distance, forward_distance = (
             np.linalg.norm(points[i] - other_points, axis=2).max(axis=1)
             for other_points in (points[j][:, ::-1], points[j])
         )
         for same, gap, fits in (
             (False, reversed_distance, reversed_distance <= tolerance),
-            (True, forward_distance, (forward_distance <= tolerance) & (reversed_distance > tolerance)),
+            (
+                True,
+                forward_distance,
+                (forward_distance <= tolerance) & (reversed_distance > tolerance),
+            ),
         ):
-            yield from zip(gap[fits].tolist(), i[fits].tolist(), j[fits].tolist(), [same] * int(fits.sum()))
+            yield from zip(
+                gap[fits].tolist(), i[fits].tolist(), j[fits].tolist(), [same] * int(fits.sum())
+            )
 
 
 def _overlapping_sides(
@@ -240,16 +280,23 @@ def _overlapping_sides(
 ) -> list[tuple[float, int, int, bool]]:
     """Return [(distance, i, j, True if same direction)] if all points of each curve are on the other curve, else []."""
     gaps, ways = [], []
-    for curve, samples, others in ((curves[j], points[j], points[i]), (curves[i], points[i], points[j])):
+    for curve, samples, others in (
+        (curves[j], points[j], points[i]),
+        (curves[i], points[i], points[j]),
+    ):
         t = nearest_parameters(curve, samples, others, tolerance)
         gaps.append(float(np.linalg.norm(others - curve.evaluate(t), axis=1).max()))
-        ways.append(float((np.diff(others, axis=0) * curve.velocity(t[:-1])).sum()))  # negative if they run against it
+        ways.append(
+            float((np.diff(others, axis=0) * curve.velocity(t[:-1])).sum())
+        )  # negative if they run against it
         if gaps[-1] > tolerance:
             return []
     return [(max(gaps), i, j, ways[0] > 0.0)]
 
 
-def nearest_parameters(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) -> NDArray[np.float64]:
+def nearest_parameters(
+    curve: Curve, samples: NDArray, points: NDArray, tolerance: float
+) -> NDArray[np.float64]:
     """Return (n,) parameters of the curve points nearest to points; samples: (m, 3) of the curve, at equal steps."""
     low, high = curve.space.domain
     steps = low + (high - low) * np.linspace(0.0, 1.0, len(samples))
@@ -258,7 +305,9 @@ def nearest_parameters(curve: Curve, samples: NDArray, points: NDArray, toleranc
     for _ in range(12):
         slope = curve.velocity(t)
         square = (slope**2).sum(axis=1)
-        step = ((points - curve.evaluate(t)) * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0)
+        step = ((points - curve.evaluate(t)) * slope).sum(axis=1) / np.where(
+            square > 0.0, square, 1.0
+        )
         t = t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0])
         t = low + (t - low) % (high - low) if closed else np.clip(t, low, high)
     return t
@@ -267,7 +316,9 @@ def nearest_parameters(curve: Curve, samples: NDArray, points: NDArray, toleranc
 def sharpest_crease(faces: Sequence[Face], topology: PatchTopology) -> float:
     """Return the largest angle, in radians, between the normals on both sides of a crease, 0 if there is none."""
     worst = max(map(_inner_crease_angle, split_faces(faces)[0]), default=0.0)
-    sides = [(face, k, curve) for face, one in enumerate(faces) for k, (curve, _) in enumerate(one.sides)]
+    sides = [
+        (face, k, curve) for face, one in enumerate(faces) for k, (curve, _) in enumerate(one.sides)
+    ]
     for seam in topology.seams.tolist():
         first_side, second_side = (
             _along_side(faces[face], k) * (-1.0 if topology.flipped[face] else 1.0)
@@ -282,10 +333,13 @@ def sharpest_crease(faces: Sequence[Face], topology: PatchTopology) -> float:
 def _along_side(patch: Face, number: int) -> NDArray[np.float64]:
     """Return (m, 3) a face's unit normals along a side, at the samples of the side's curve; zero at poles."""
     if isinstance(patch, FlatFace):
-        return np.tile(patch.normal, (len(patch.sides[number][0].space.uniform_parameters(CREASE_SAMPLES)), 1))
+        return np.tile(
+            patch.normal, (len(patch.sides[number][0].space.uniform_parameters(CREASE_SAMPLES)), 1)
+        )
     assert isinstance(patch, Patch)
     axis, end, _ = SIDES[number]
-    held, run = patch.spaces[axis], patch.spaces[1 - axis]
+    held = patch.spaces[axis]
+    run = patch.spaces[1 - axis]
     tables = [(np.array([held.domain[end]]), None), (run.uniform_parameters(CREASE_SAMPLES), None)]
     return _normals(patch, *(tables if axis == 0 else tables[::-1])).reshape(-1, 3)
 
@@ -310,16 +364,21 @@ def _inner_crease_angle(patch: Patch) -> float:
 def _normals(patch: Patch, *parameters: tuple[NDArray, NDArray | None]) -> NDArray[np.float64]:
     """Return (m, n, 3) unit normals at parameters (values, spans or None) of s and of t; zero if undefined."""
     (s, by_s), (t, by_t) = (
-        [space.collocation_matrix(at, k, spans) for k in (0, 1)] for space, (at, spans) in zip(patch.spaces, parameters)
+        [space.collocation_matrix(at, k, spans) for k in (0, 1)]
+        for space, (at, spans) in zip(patch.spaces, parameters)
     )
     net = np.moveaxis(patch.points - patch.points[0, 0], -1, 0)
     weights = np.ones(net.shape[1:]) if patch.weights is None else patch.weights
     net = np.concatenate([net * weights, weights[None]])
-    place, along, across = (s_weights @ net @ t_weights.T for s_weights, t_weights in ((s, t), (by_s, t), (s, by_t)))
+    place, along, across = (
+        s_weights @ net @ t_weights.T for s_weights, t_weights in ((s, t), (by_s, t), (s, by_t))
+    )
     along, across = (slope[:3] - place[:3] / place[3] * slope[3] for slope in (along, across))
     normal = np.stack(cross(along, across), axis=-1)
     length = np.linalg.norm(normal, axis=-1, keepdims=True)
-    return np.where(length > POLE_RTOL * length.max(), normal / np.where(length > 0.0, length, 1.0), 0.0)
+    return np.where(
+        length > POLE_RTOL * length.max(), normal / np.where(length > 0.0, length, 1.0), 0.0
+    )
 
 
 def _largest_angle(first: NDArray, second: NDArray) -> float:

@@ -47,11 +47,20 @@ from .findings import (
     PATCH_HOLES_CAPPED,
 )
 from .flat_face import FlatFace, split_faces
-from .patch_moments import area_moments, area_slope, sheet_moments, volume_moments, with_area_error, with_swept_error
+from .patch_moments import (
+    area_moments,
+    area_slope,
+    sheet_moments,
+    volume_moments,
+    with_area_error,
+    with_swept_error,
+)
 from .patch_topology import PatchTopology, find_topology
 from .splines import Face, Patch, patches_center, patches_size
 
-SAMPLES_PER_SPAN, FINE_SAMPLES_PER_SPAN = 8, 48  # For comparing parts, and for parts that seem to cross.
+# For comparing parts, and for parts that seem to cross.
+SAMPLES_PER_SPAN = 8
+FINE_SAMPLES_PER_SPAN = 48
 MAX_TRIANGLES = 1_000_000  # Limit for the fine samples.
 
 
@@ -154,7 +163,9 @@ def assess(
     for loop in topology.loops:
         caps[loop.component] += 0.0 if loop.zero_area else loop.area
     total = np.array([moments.total for moments, _ in measured])
-    solid = ~topology.unclosable & (np.abs(total) > zero_volume(size, area.total, caps > 0.0, stored))
+    solid = ~topology.unclosable & (
+        np.abs(total) > zero_volume(size, area.total, caps > 0.0, stored)
+    )
     comparison = _compare_parts(parts, total, solid, welding_tolerance(size, stored))
     inverted = solid & (total < 0.0) if comparison is None else comparison.flipped
     is_counted = solid if solid.any() else topology.unclosable
@@ -165,12 +176,16 @@ def assess(
     ]
     volumes = [moments * sign for _, moments, _, sign in turned_parts]
     volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
-    whole_sign = -1.0 if volume.total < 0.0 else 1.0  # May be negative if open, or if cavities overlap.
+    whole_sign = (
+        -1.0 if volume.total < 0.0 else 1.0
+    )  # May be negative if open, or if cavities overlap.
     volume = replace(volume, raw=whole_sign * volume.raw)
     reach = size + 4.0 * stored
     # Caps move with their boundaries: their area counts too.
     skin = area.total + sum(loop.area for loop in topology.loops)
-    uneven = sum(face.deviation * face.area_moments(0, face.center).total for face in split_faces(patches)[1])
+    uneven = sum(
+        face.deviation * face.area_moments(0, face.center).total for face in split_faces(patches)[1]
+    )
     volume = with_swept_error(volume, stored * skin + topology.seam_gap + uneven, reach)
     area = with_area_error(area, slope, stored, reach)
     misoriented = np.flatnonzero(topology.flipped).tolist()
@@ -206,7 +221,11 @@ def assess(
         method,
         (
             *_orientation_findings(
-                topology, [[patches[k]] for k in misoriented], [parts[k] for k in turned], size, volume.total
+                topology,
+                [[patches[k]] for k in misoriented],
+                [parts[k] for k in turned],
+                size,
+                volume.total,
             ),
             *_closing_findings(topology, solid, area.total, volume.total, size),
             *_component_findings(comparison, size),
@@ -242,16 +261,28 @@ def _compare_parts(
         return None
     components, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
     shared = np.unique(relations.intersecting)
-    spans = sum(math.prod(len(space.spans) for space in face.spaces[:2]) for k in shared for face in parts[k])
+    spans = sum(
+        math.prod(len(space.spans) for space in face.spaces[:2])
+        for k in shared
+        for face in parts[k]
+    )
     each = min(FINE_SAMPLES_PER_SPAN, int(np.sqrt(MAX_TRIANGLES / (2.0 * max(spans, 1)))))
     if len(shared) and each > SAMPLES_PER_SPAN:  # Parts with crossing samples may be merely near.
-        nearer = _classify_parts([parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance)[1]
+        nearer = _classify_parts(
+            [parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance
+        )[1]
         crossed, inside, crossing = (
             np.sort(pairs) @ (len(parts), 1)
-            for pairs in (relations.intersecting, shared[nearer.contained_in], shared[nearer.intersecting])
+            for pairs in (
+                relations.intersecting,
+                shared[nearer.contained_in],
+                shared[nearer.intersecting],
+            )
         )
         relations = ComponentRelations(
-            np.concatenate([relations.contained_in, shared[nearer.contained_in][np.isin(inside, crossed)]]),
+            np.concatenate(
+                [relations.contained_in, shared[nearer.contained_in][np.isin(inside, crossed)]]
+            ),
             relations.intersecting[np.isin(crossed, crossing)],
             relations.undecided_pairs,
             shared[nearer.mostly_in],
@@ -270,9 +301,13 @@ def _component_findings(comparison: ComponentComparison | None, size: float) -> 
         COMPONENTS_NESTED: comparison.nested,
         COMPONENTS_OVERLAP: comparison.intersecting,
     }
-    values: dict[str, Any] = {CAVITIES_BREAK_THROUGH: {"share": float(comparison.breakthrough / size)}}
+    values: dict[str, Any] = {
+        CAVITIES_BREAK_THROUGH: {"share": float(comparison.breakthrough / size)}
+    }
     findings = [
-        finding(code, count=int(which.sum()), **values.get(code, {})) for code, which in counts.items() if which.any()
+        finding(code, count=int(which.sum()), **values.get(code, {}))
+        for code, which in counts.items()
+        if which.any()
     ]
     if comparison.undecided_pairs:
         findings.append(finding(OVERLAP_UNCHECKED, count=int(comparison.undecided_pairs)))
@@ -283,7 +318,9 @@ def _classify_parts(
     parts: Sequence[Sequence[Face]], solid: NDArray[np.bool_], each: int, tolerance: float
 ) -> tuple[SortedComponents, ComponentRelations]:
     """Return components sampled `each` times per span, and their relations."""
-    points, triangles, component = [], [], []
+    points = []
+    triangles = []
+    component = []
     count, off = 0, 0.0
     for number, part in enumerate(parts):
         for face in part:
@@ -293,10 +330,15 @@ def _classify_parts(
             component.append(np.full(len(triangles[-1]), number))
             count += len(corners)
             off = max(off, sagitta)
-    points, triangles, component = [np.concatenate(arrays) for arrays in (points, triangles, component)]
+    points, triangles, component = [
+        np.concatenate(arrays) for arrays in (points, triangles, component)
+    ]
     components = sort_components(points, triangles, component, len(parts))
     return components, classify_pairs(
-        points, components, solid, tolerance if each == SAMPLES_PER_SPAN else max(tolerance, 2.0 * off)
+        points,
+        components,
+        solid,
+        tolerance if each == SAMPLES_PER_SPAN else max(tolerance, 2.0 * off),
     )
 
 
@@ -309,8 +351,14 @@ def _sampled(face: Face, each: int) -> tuple[NDArray, NDArray[np.intp], float]:
     assert isinstance(face, Patch)
     grid = face.samples(each)
     corners = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2])
-    quads = np.stack([corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]], axis=-1)
-    return grid.reshape(-1, 3), quads.reshape(-1, 4), _sagitta(grid, each) + _sagitta(grid.swapaxes(0, 1), each)
+    quads = np.stack(
+        [corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]], axis=-1
+    )
+    return (
+        grid.reshape(-1, 3),
+        quads.reshape(-1, 4),
+        _sagitta(grid, each) + _sagitta(grid.swapaxes(0, 1), each),
+    )
 
 
 def _sagitta(grid: NDArray, each: int) -> float:
@@ -321,12 +369,20 @@ def _sagitta(grid: NDArray, each: int) -> float:
 
 
 def _orientation_findings(
-    topology: PatchTopology, mixed: list[list[Face]], turned: list[list[Face]], size: float, volume: float
+    topology: PatchTopology,
+    mixed: list[list[Face]],
+    turned: list[list[Face]],
+    size: float,
+    volume: float,
 ) -> list[Finding]:
     """Return findings about single patches turned to agree with their part, and about whole parts turned."""
 
-    def are_slight(groups: list[list[Face]]) -> bool:  # an area is at most twice the square of a box's diagonal
-        return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
+    def are_slight(
+        groups: list[list[Face]],
+    ) -> bool:  # an area is at most twice the square of a box's diagonal
+        return (
+            2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
+        )
 
     findings = []
     if mixed:
@@ -354,9 +410,15 @@ def _closing_findings(
     loops = [loop for loop in closure.loops if solid[loop.component]]
     caps = [loop for loop in loops if not loop.zero_area]
     if caps:
-        capped, flat = sum(loop.area for loop in caps), sum(loop.is_planar for loop in caps)
-        slight, share = capped * size < NEGLIGIBLE * volume, float(capped / area)
-        findings.append(finding(PATCH_HOLES_CAPPED, slight=slight, flat=flat, curved=len(caps) - flat, share=share))
+        capped = sum(loop.area for loop in caps)
+        flat = sum(loop.is_planar for loop in caps)
+        slight = capped * size < NEGLIGIBLE * volume
+        share = float(capped / area)
+        findings.append(
+            finding(
+                PATCH_HOLES_CAPPED, slight=slight, flat=flat, curved=len(caps) - flat, share=share
+            )
+        )
     crossing = sum(loop.self_intersecting for loop in loops)
     if crossing:
         findings.append(finding(PATCH_BOUNDARY_CROSSES_ITSELF, count=crossing))

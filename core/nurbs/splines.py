@@ -23,7 +23,12 @@ from ..verdict.tolerances import check_size
 from .findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 
 Face: TypeAlias = "Patch | FlatFace"
-SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (fixed axis, end, run forward), counter-clockwise
+SIDES = (
+    (1, 0, True),
+    (0, 1, True),
+    (1, 1, False),
+    (0, 0, False),
+)  # (fixed axis, end, run forward), counter-clockwise
 
 
 def _freeze_points(part: Curve | Patch, *shape: int) -> None:
@@ -100,10 +105,13 @@ class Curve:
         points = self.points - self.points[0]
         if self.weights is None:
             return np.einsum("ni,id->nd", slopes, points)
-        values, slopes = values * self.weights, slopes * self.weights
+        values = values * self.weights
+        slopes = slopes * self.weights
         bottom = values.sum(axis=1, keepdims=True)
         place = np.einsum("ni,id->nd", values, points) / bottom
-        return (np.einsum("ni,id->nd", slopes, points) - place * slopes.sum(axis=1, keepdims=True)) / bottom
+        return (
+            np.einsum("ni,id->nd", slopes, points) - place * slopes.sum(axis=1, keepdims=True)
+        ) / bottom
 
     def transform(self, matrix: ArrayLike) -> Curve:
         """Return the image of the curve under a (4, 4) affine map."""
@@ -178,7 +186,9 @@ class Patch:
         """Two flags: whether the weights are constant along s, and along t."""
         if self.weights is None:
             return True, True
-        return bool((self.weights == self.weights[:1]).all()), bool((self.weights == self.weights[:, :1]).all())
+        return bool((self.weights == self.weights[:1]).all()), bool(
+            (self.weights == self.weights[:, :1]).all()
+        )
 
     def transform(self, matrix: ArrayLike) -> Patch:
         """Return the image of the patch under a (4, 4) affine map."""
@@ -195,14 +205,19 @@ class Patch:
 
     def evaluate_grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
         """Return the (len(s), len(t), 3) points at all pairs of parameters from s and t."""
-        return self.apply_weights(*(space.collocation_matrix(values) for space, values in zip(self.spaces, (s, t))))
+        return self.apply_weights(
+            *(space.collocation_matrix(values) for space, values in zip(self.spaces, (s, t)))
+        )
 
     def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
         """Return the (m, n, 3) points given by tables (m, count_s) and (n, count_t) of basis function values."""
-        points, bottom = self.points, None
+        points = self.points
+        bottom = None
         if self.weights is not None:
             points = points * self.weights[..., None]
-            bottom = np.einsum("ai,bi->ab", np.einsum("ai,ij->aj", tables[0], self.weights), tables[1])
+            bottom = np.einsum(
+                "ai,bi->ab", np.einsum("ai,ij->aj", tables[0], self.weights), tables[1]
+            )
         top = np.einsum("ajd,bj->abd", np.einsum("ai,ijd->ajd", tables[0], points), tables[1])
         return top if bottom is None else top / bottom[..., None]
 

@@ -28,7 +28,9 @@ from .patch_topology import PatchTopology, find_topology
 from .solid import PatchIntegrals, assess, measure_patches, oriented_parts
 from .splines import Patch, patches_center, patches_size
 
-MAX_RULE_ERROR = 1e-10  # Relative to the largest possible moment: rules with larger errors are not used.
+MAX_RULE_ERROR = (
+    1e-10  # Relative to the largest possible moment: rules with larger errors are not used.
+)
 RULE_ERROR_GROWTH = 8.0  # Estimated growth of the rule's error as control points move.
 RATIONAL_GAUSS_POINTS = 16  # Gauss points in a span of a rational patch
 
@@ -48,23 +50,32 @@ class TrackedSolid:
         self._is_tracking = self.measure.method is not Procedure.OPEN
         if not self._is_tracking:
             return
-        volume, area = self.measure.volume, self.measure.area
+        volume = self.measure.volume
+        area = self.measure.area
         self._slope = area_slope(patches)
         self._fixed = _fixed_part(patches)
         self._evaluators = [IncrementalPatchMoments(patch, 3, volume.about) for patch in patches]
-        self._fluxes = [evaluator.moments(patch.points) for evaluator, patch in zip(self._evaluators, patches)]
+        self._fluxes = [
+            evaluator.moments(patch.points) for evaluator, patch in zip(self._evaluators, patches)
+        ]
         largest = _largest_moments(patches, volume.about, area.total)
-        self._error, self._area_error = volume.rounding_error / largest, area.rounding_error[:1] / area.total
+        self._error = volume.rounding_error / largest
+        self._area_error = area.rounding_error[:1] / area.total
         if any(patch.weights is not None for patch in patches):
             tables = self._assess(patches, self.measure.topology, stored).volume
             # The worst of all moments stands for each, because a symmetric body may have a single one right by chance.
             off = float((np.abs(tables.raw - volume.raw) / largest).max())
-            off = max([off] + [_rule_error_at_random(patch) for patch in patches if patch.weights is not None])
-            self._error, self._is_tracking = self._error + RULE_ERROR_GROWTH * off, off <= MAX_RULE_ERROR
+            off = max(
+                [off]
+                + [_rule_error_at_random(patch) for patch in patches if patch.weights is not None]
+            )
+            self._error = self._error + RULE_ERROR_GROWTH * off
+            self._is_tracking = off <= MAX_RULE_ERROR
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
         """Measure the patches in their current shape; return True if tables sufficed, False if all is measured anew."""
-        size, about = patches_size(patches), self.measure.volume.about
+        size = patches_size(patches)
+        about = self.measure.volume.about
         if not (
             self._is_tracking
             and _fixed_part(patches) == self._fixed
@@ -72,15 +83,21 @@ class TrackedSolid:
         ):
             self._measure_anew(patches, stored)
             return False
-        self._fluxes = [evaluator.moments(patch.points) for evaluator, patch in zip(self._evaluators, patches)]
-        measure = self._assess(patches, find_topology(patches, welding_tolerance(size, stored)), stored)
+        self._fluxes = [
+            evaluator.moments(patch.points) for evaluator, patch in zip(self._evaluators, patches)
+        ]
+        measure = self._assess(
+            patches, find_topology(patches, welding_tolerance(size, stored)), stored
+        )
         if measure.method is Procedure.OPEN:
             self._measure_anew(patches, stored)
             return False
         self.measure = measure
         return True
 
-    def _assess(self, patches: Sequence[Patch], topology: PatchTopology, stored: float) -> PatchIntegrals:
+    def _assess(
+        self, patches: Sequence[Patch], topology: PatchTopology, stored: float
+    ) -> PatchIntegrals:
         """Return the measurement of the present fluxes of all patches, with the decisions of `measure_patches`."""
         about = self.measure.volume.about
         total = sum(evaluator.area for evaluator in self._evaluators)
@@ -105,19 +122,25 @@ class TrackedSolid:
 
 def _fixed_part(patches: Sequence[Patch]) -> list[tuple[tuple[SplineSpace, SplineSpace], bytes]]:
     """Return the function spaces and the weights of patches, which must stay as they are."""
-    return [(patch.spaces, b"" if patch.weights is None else patch.weights.tobytes()) for patch in patches]
+    return [
+        (patch.spaces, b"" if patch.weights is None else patch.weights.tobytes())
+        for patch in patches
+    ]
 
 
 def _largest_moments(patches: Sequence[Patch], about: NDArray, area: float) -> NDArray[np.float64]:
     """Return (K,) upper bounds of the moments of a body."""
-    reach = max(float(np.sqrt(((patch.points - about) ** 2).sum(axis=2).max())) for patch in patches)
+    reach = max(
+        float(np.sqrt(((patch.points - about) ** 2).sum(axis=2).max())) for patch in patches
+    )
     return np.asarray(area * reach ** (monomials(3).sum(axis=1) + 1.0), np.float64)
 
 
 def _rule_error_at_random(patch: Patch) -> float:
     """Return the error of the tables' rule for a patch's weights and random points, relative to the largest moment."""
     points = np.random.default_rng(0).uniform(-1.0, 1.0, patch.points.shape)
-    perturbed, about = replace(patch, points=points), np.zeros(3)
+    perturbed = replace(patch, points=points)
+    about = np.zeros(3)
     evaluator = IncrementalPatchMoments(perturbed, 3, about)
     off = np.abs(evaluator.moments(points).raw - volume_moments([perturbed], 3, about)[0].raw)
     return float((off / _largest_moments([perturbed], about, evaluator.area)).max())
@@ -133,7 +156,9 @@ class IncrementalPatchMoments:
     """
 
     def __init__(self, patch: Patch, order: int, about: NDArray):
-        self.spaces, self.weights, self.about = patch.spaces, patch.weights, about
+        self.spaces = patch.spaces
+        self.weights = patch.weights
+        self.about = about
         along_s, along_t = (
             (exact_points(space.order, order) if self.weights is None else RATIONAL_GAUSS_POINTS,)
             for space in self.spaces
@@ -141,8 +166,11 @@ class IncrementalPatchMoments:
         self._rule = along_s, along_t
         self._flux = partial(flux_sums, order=order, area=True)
         self._divisor = monomials(order).sum(axis=1) + 3.0
-        self._points, self._anchor = np.full_like(patch.points, np.nan), about
-        self._sums = np.zeros((len(self._divisor) + 1, *(len(space.spans) for space in self.spaces)))
+        self._points = np.full_like(patch.points, np.nan)
+        self._anchor = about
+        self._sums = np.zeros(
+            (len(self._divisor) + 1, *(len(space.spans) for space in self.spaces))
+        )
         self.area = 0.0
 
     def moments(self, points: NDArray) -> Moments:
@@ -151,7 +179,8 @@ class IncrementalPatchMoments:
         self._points = points.copy()
         if moved.all():
             self._anchor = self._points[0, 0]
-        net, anchor = self._points - self._anchor, (self._anchor - self.about)[None]
+        net = self._points - self._anchor
+        anchor = (self._anchor - self.about)[None]
         net = net if self.weights is None else homogeneous(net, self.weights)
         s_spans, t_spans = (
             np.flatnonzero(moved.any(axis=1 - axis)[space.active_controls].any(axis=1))

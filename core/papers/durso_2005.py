@@ -42,7 +42,9 @@ THIRD_AS_PRINTED = (720, {**THIRD[1], "baa": 0, "bab": 4})
 FORMULAS = (ZEROTH, FIRST, SECOND, THIRD)
 
 
-def tensor(points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tuple[int, dict[str, int]]) -> NDArray:
+def tensor(
+    points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tuple[int, dict[str, int]]
+) -> NDArray:
     """Return M_t = ∫ x ⊗ … ⊗ x dV by one of the formulas of this module.
 
     Parameters
@@ -79,7 +81,11 @@ def tensor(points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tu
             continue  # without area, it bounds nothing
         height = dot(foot, normal)
         for a, b in zip(corners, [*corners[1:], corners[0]]):
-            letters = {"a": np.array(a, object), "b": np.array(b, object), "p": np.array(foot, object)}
+            letters = {
+                "a": np.array(a, object),
+                "b": np.array(b, object),
+                "p": np.array(foot, object),
+            }
             weight = dot(cross(a, b), normal) * height / square  # c_j (p⊥·n), with n not normalized
             for word, multiple in products.items():
                 term = np.array(weight * multiple, object)
@@ -90,7 +96,10 @@ def tensor(points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tu
 
 
 def moments(
-    points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int, apexes: Sequence[Vector] | None = None
+    points: Sequence[Vector],
+    faces: Sequence[Sequence[int]],
+    order: int,
+    apexes: Sequence[Vector] | None = None,
 ) -> list[Number]:
     """Return ∫ x^p y^q z^r dV to any order, by a fan over each face from an apex in its plane.
 

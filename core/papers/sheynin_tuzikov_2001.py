@@ -141,10 +141,15 @@ def _sum_over_faces(
     sums: list[Number] = [0] * len(_exponents_to(order))
     for face in faces:
         for j in range(1, len(face) - 1):
-            a, b, c = points[face[0]], points[face[j]], points[face[j + 1]]
+            a = points[face[0]]
+            b = points[face[j]]
+            c = points[face[j + 1]]
             factor = weight(a, b, c)
             if factor:
-                sums = [total + factor * sigma(m, a, b, c) for total, m in zip(sums, _exponents_to(order))]
+                sums = [
+                    total + factor * sigma(m, a, b, c)
+                    for total, m in zip(sums, _exponents_to(order))
+                ]
     return sums
 
 

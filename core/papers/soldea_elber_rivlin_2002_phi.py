@@ -99,7 +99,8 @@ def _integrals(space: SplineSpace, order: int) -> NDArray[np.float64]:
     low, high = space.intervals.T
     size = (high - low)[:, None]
     parameters = (low[:, None] + size * nodes).ravel()
-    values, slopes = space.collocation_matrix(parameters), space.collocation_matrix(parameters, 1)
+    values = space.collocation_matrix(parameters)
+    slopes = space.collocation_matrix(parameters, 1)
     operands = [slopes] + [values] * (2 + order)
     letters = "ijlmo"[: 3 + order]
     return np.einsum(

@@ -74,7 +74,9 @@ def signed_volume(points: Sequence[Vector], triangles: Sequence[tuple[int, int, 
 
 
 def mesh_moments(
-    points: Sequence[Sequence[Number]], shapes: Sequence[Sequence[int]], exponents: Sequence[tuple[int, ...]]
+    points: Sequence[Sequence[Number]],
+    shapes: Sequence[Sequence[int]],
+    exponents: Sequence[tuple[int, ...]],
 ) -> list[Number]:
     """Return ∫ x^p y^q (z^r) over the inside, by eq. 9.
 
@@ -106,7 +108,9 @@ def mesh_moments(
         corners = [points[i] for i in shape]
         size = measure(*corners)
         total = total + size
-        sums = [value + size * _elementary_mean(row, corners) for value, row in zip(sums, exponents)]
+        sums = [
+            value + size * _elementary_mean(row, corners) for value, row in zip(sums, exponents)
+        ]
     return [-value for value in sums] if total < 0 else sums
 
 

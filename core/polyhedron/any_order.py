@@ -45,7 +45,9 @@ from .any_order_kernel import UNDERFLOW_BOUND, AnyOrderKernel, Sums, absolute_su
 from .third_order import box_center, finite_box, nothing, quad_corners
 from .third_order_kernel import NO_VERTEX
 
-SCRATCH_NUMBERS = 1_400_000  # limit of a block's scratch; with smaller blocks, two threads wait for each other
+SCRATCH_NUMBERS = (
+    1_400_000  # limit of a block's scratch; with smaller blocks, two threads wait for each other
+)
 # Least faces in a block: numpy copies reused rows that are shorter than half its buffer of 8192.
 MIN_FACES_PER_BLOCK = 4608
 BLOCKS_PER_TASK = 8  # blocks that are handed to a thread at once
@@ -136,12 +138,15 @@ class StreamIntegrator:
         total.flush()
         if not total.faces:
             return nothing(self.order, self.center)
-        return self._moments(total, Measure.VOLUME), self._moments(total, Measure.AREA) if self.area else None
+        return self._moments(total, Measure.VOLUME), self._moments(
+            total, Measure.AREA
+        ) if self.area else None
 
     def _ordered_results(self, tasks: Iterator[_FaceBatch]) -> Iterator[tuple[int, list[Sums]]]:
         """Yield the results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
         first = list(islice(tasks, min(self.threads, 2)))
-        alone, tasks = len(first) < 2, chain(first, tasks)
+        alone = len(first) < 2
+        tasks = chain(first, tasks)
         del first  # the list holds pieces of a stream
         if alone:  # one thread, or one task: starting threads would take longer than the work
             yield from map(self._run, tasks)
@@ -169,7 +174,9 @@ class StreamIntegrator:
                 size = self._size(faces)
                 blocks = -(-len(faces) // size)
                 step = size * (
-                    BLOCKS_PER_TASK if self.threads == 1 else max(1, min(BLOCKS_PER_TASK, blocks // (4 * self.threads)))
+                    BLOCKS_PER_TASK
+                    if self.threads == 1
+                    else max(1, min(BLOCKS_PER_TASK, blocks // (4 * self.threads)))
                 )
                 for start in range(0, len(faces), step):
                     yield _FaceBatch(points, faces[start : start + step], size, half_ulp)
@@ -179,7 +186,9 @@ class StreamIntegrator:
         corners = faces.shape[1]
         # The kernel takes two triangles that share an edge as one face.
         ours = 2 if corners == 3 and quad_corners(faces[:2]) is not None else 1
-        most = ours * max(SCRATCH_NUMBERS // row_count(corners + ours - 1, self.order, 1), MIN_FACES_PER_BLOCK)
+        most = ours * max(
+            SCRATCH_NUMBERS // row_count(corners + ours - 1, self.order, 1), MIN_FACES_PER_BLOCK
+        )
         blocks = -(-len(faces) // (4 * most)) * 4
         blocks = max(1, min(blocks, len(faces) // (ours * MIN_FACES_PER_BLOCK)))
         return max(2, -(-len(faces) // (2 * blocks)) * 2)
@@ -205,7 +214,9 @@ class StreamIntegrator:
             raise ValueError(NO_VERTEX)
         levels = self.idle.pop() if self.idle else AnyOrderKernel(self.order, self.area)
         block_sums = [
-            levels.block_sums(task.points, self.center, 2.0**-self.exponent, task.half_ulp, corners, size)
+            levels.block_sums(
+                task.points, self.center, 2.0**-self.exponent, task.half_ulp, corners, size
+            )
             for corners, size in self._blocks(task)
         ]
         self.idle.append(levels)
@@ -228,7 +239,9 @@ class StreamIntegrator:
         factors = area_factors(self.order) / ((degree + 3.0) if of == Measure.VOLUME else 1.0)
         sizes = total.sizes[3 * row : 3 * row + 3]
         raw = (total.high[row] + total.low[row]) * factors
-        mean = 2.0 * ((degree + 3.0) if of == Measure.VOLUME else 1.0)  # ∫ |x^α| is at most weight reach^α / this
+        mean = 2.0 * (
+            (degree + 3.0) if of == Measure.VOLUME else 1.0
+        )  # ∫ |x^α| is at most weight reach^α / this
         rounding = U * (8.0 * degree + 228.0)
         error = (
             (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean
@@ -254,7 +267,8 @@ class StreamIntegrator:
         half_ulp = np.ldexp(self.half_ulp, -self.exponent)
         table = monomials(self.order)
         for degree in range(1, self.order + 1):
-            known, below = monomial_count(degree - 1), monomial_count(degree - 2)
+            known = monomial_count(degree - 1)
+            below = monomial_count(degree - 2)
             lower = np.append(swept[below:known], 0.0) / np.linalg.norm(half_ulp)
             for axis, quotients in enumerate(quotient_indices(degree, count_of_degree(degree - 1))):
                 moved[known : monomial_count(degree)] += (
@@ -272,15 +286,21 @@ def extend_small_moments(
     reach: NDArray,
 ) -> Moments:
     """Return moments of n bodies, `volume` (n, 20), to a higher order; reach: (n, 3) from their reference points."""
-    known, ends = volume.raw.shape[1], np.cumsum(counts)
+    known = volume.raw.shape[1]
+    ends = np.cumsum(counts)
     powers = monomials(order)[known:]
     degree = powers.sum(axis=1)
     factors = area_factors(order)[known:] / (degree + 3.0)
-    coordinates, sums, sizes = np.ascontiguousarray(points.T), [], []
+    coordinates = np.ascontiguousarray(points.T)
+    sums = []
+    sizes = []
     for part in batches(counts, TRIANGLES_PER_BLOCK):
-        rows, own = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]], counts[part]
+        rows = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]]
+        own = counts[part]
         corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
-        a, b, c = (corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]).transpose(1, 0, 2)
+        a, b, c = (corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]).transpose(
+            1, 0, 2
+        )
         det = dot(a, cross(b - a, c - a))
         starts = np.cumsum(own) - own
         sums.append(np.add.reduceat(_coefficients(a, b, c, order)[known:] * det, starts, axis=1).T)
@@ -302,21 +322,25 @@ def extend_small_moments(
 
 def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:
     """Return the (K, t) S_α of triangles with corners (3, t)."""
-    vectors, out = np.stack([a, c, b], axis=1), np.empty((monomial_count(order), a.shape[1]))
-    levels, terms = (
-        np.empty((2, count_of_degree(order), 3, a.shape[1])),
-        np.empty((count_of_degree(order - 1), *a.shape)),
-    )
+    vectors = np.stack([a, c, b], axis=1)
+    out = np.empty((monomial_count(order), a.shape[1]))
+    levels = np.empty((2, count_of_degree(order), 3, a.shape[1]))
+    terms = np.empty((count_of_degree(order - 1), *a.shape))
     levels[0, 0] = out[0] = 1.0  # C, D and S of degree 0
     for degree in range(1, order + 1):
-        below, count = count_of_degree(degree - 1), count_of_degree(degree)
-        known, grown = levels[1 - degree % 2, :below], levels[degree % 2, :count]
+        below = count_of_degree(degree - 1)
+        count = count_of_degree(degree)
+        known = levels[1 - degree % 2, :below]
+        grown = levels[degree % 2, :count]
         np.multiply(known, vectors[0], out=grown[:below])
         grown[below:] = 0.0
         for z, vector in enumerate(vectors[1:]):
             np.multiply(known, vector, out=terms[:below])
-            for rows in range(1, degree + 1):  # In each run of equal q + r, rows times y or z are the next run's.
-                source, target = rows * (rows - 1) // 2, rows * (rows + 1) // 2 + z
+            for rows in range(
+                1, degree + 1
+            ):  # In each run of equal q + r, rows times y or z are the next run's.
+                source = rows * (rows - 1) // 2
+                target = rows * (rows + 1) // 2 + z
                 grown[target : target + rows] += terms[source : source + rows]
         grown[:, 1] += grown[:, 0]
         grown[:, 2] += grown[:, 1]

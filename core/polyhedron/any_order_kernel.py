@@ -36,7 +36,9 @@ SLICES_PER_ROW = 16  # slices of a row that einsum adds up: a divisor of FACES_P
 DETERMINANT_ROUNDING = 9.0 * U
 # Underflow loses less than its root of a length, and less than `DETERMINANT_ROUNDING` times it of a doubled area.
 MIN_SQUARED_LENGTH = 1e-145
-UNDERFLOW_BOUND = 1e-220  # more than underflow can lose of one face whose coordinates are at most 256
+UNDERFLOW_BOUND = (
+    1e-220  # more than underflow can lose of one face whose coordinates are at most 256
+)
 
 
 @lru_cache
@@ -68,10 +70,18 @@ class Sums:
 @lru_cache
 def scratch_layout(count: int, order: int, weights: int) -> tuple[dict[str, tuple[int, ...]], ...]:
     """Return the row shapes of the arrays of `_Block`: lasting ones, and two groups that share memory."""
-    ends, fans, lower = count - 1, count - 2, count_of_degree(order - 1)
+    ends = count - 1
+    fans = count - 2
+    lower = count_of_degree(order - 1)
     return (
         {"heavy": (weights, 3, count), "tips": (weights, fans), "both": (weights,)},
-        {"index": (count,), "edges": (3, ends), "normals": (3, fans), "minus": (3, fans), "single": (3 * count,)},
+        {
+            "index": (count,),
+            "edges": (3, ends),
+            "normals": (3, fans),
+            "minus": (3, fans),
+            "single": (3 * count,),
+        },
         {"powers": (lower,), "levels": (ends, lower), "room": (2 * ends * (order - 1),)},
     )
 
@@ -80,7 +90,8 @@ def scratch_layout(count: int, order: int, weights: int) -> tuple[dict[str, tupl
 def row_count(count: int, order: int, weights: int) -> int:
     """Return the number of rows of a block, with one for the gap behind each array."""
     kept, weighing, summing = (
-        sum(prod(shape) + 1 for shape in group.values()) for group in scratch_layout(count, order, weights)
+        sum(prod(shape) + 1 for shape in group.values())
+        for group in scratch_layout(count, order, weights)
     )
     return kept + max(weighing, summing)
 
@@ -100,16 +111,22 @@ class _Block:
             for group in scratch_layout(count, order, weights)
         )
         arrays = {name: workspace.take(*shape) for name, shape in kept.items()}
-        for group, taken in zip(passing, workspace.overlay(*(list(group.values()) for group in passing))):
+        for group, taken in zip(
+            passing, workspace.overlay(*(list(group.values()) for group in passing))
+        ):
             arrays |= dict(zip(group, taken))
         self.k, self.order = k, order
         self.weighted_products, self.edges, self.powers, self.levels = (
             arrays[name] for name in ("heavy", "edges", "powers", "levels")
         )
-        self.corners, self.apex_vectors = self.weighted_products[-1], arrays["tips"]
+        self.corners = self.weighted_products[-1]
+        self.apex_vectors = arrays["tips"]
         self.both = arrays["both"] if count == 4 else self.apex_vectors[:, 0]
-        self.index, self.room = arrays["index"].view(np.intp), arrays["room"].reshape(-1)
-        self.single = arrays["single"].reshape(-1).view(np.float32)[: 3 * count * k].reshape(3, count, k)
+        self.index = arrays["index"].view(np.intp)
+        self.room = arrays["room"].reshape(-1)
+        self.single = (
+            arrays["single"].reshape(-1).view(np.float32)[: 3 * count * k].reshape(3, count, k)
+        )
         self.total = np.empty((weights, monomial_count(order)))
         self.chunks = np.empty((6 + weights + count - 1, k // FACES_PER_CHUNK))
         self.steps: list[Callable[[], object]] = []
@@ -121,15 +138,22 @@ class _Block:
 
     def _append_weights(self, normals: NDArray, minus: NDArray) -> None:
         """Append the calls for determinants, doubled areas, and the terms of their bounds."""
-        edges, corners, apex_vectors = self.edges, self.corners, self.apex_vectors
-        first, second = edges[:, :-1], edges[:, 1:]
+        edges = self.edges
+        corners = self.corners
+        apex_vectors = self.apex_vectors
+        first = edges[:, :-1]
+        second = edges[:, 1:]
         for x, y, z in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
             self._append_call(np.multiply, first[y], second[z], normals[x])
             self._append_call(np.multiply, first[z], second[y], minus[x])
         self._append_call(np.subtract, normals, minus, normals)
-        self._append_call(partial(np.einsum, out=apex_vectors[0]), "cfk,ck->fk", normals, corners[:, 0])
+        self._append_call(
+            partial(np.einsum, out=apex_vectors[0]), "cfk,ck->fk", normals, corners[:, 0]
+        )
         if len(apex_vectors) == 2:
-            self._append_call(partial(np.einsum, out=apex_vectors[1]), "cfk,cfk->fk", normals, normals)
+            self._append_call(
+                partial(np.einsum, out=apex_vectors[1]), "cfk,cfk->fk", normals, normals
+            )
             self._append_call(np.sqrt, apex_vectors[1], apex_vectors[1])
         if apex_vectors.shape[1] == 2:
             self._append_call(np.add.reduce, apex_vectors, 1, None, self.both)
@@ -138,31 +162,51 @@ class _Block:
         sizes = edges.reshape(-1)[: apex_vectors.size].reshape(apex_vectors.shape)
         self._append_call(np.abs, apex_vectors, sizes)
         row = 0
-        for function, values in ((np.maximum, corners), (np.minimum, corners), (np.add, sizes), (np.maximum, squares)):
+        for function, values in (
+            (np.maximum, corners),
+            (np.minimum, corners),
+            (np.add, sizes),
+            (np.maximum, squares),
+        ):
             split = values.reshape(len(values), -1, self.k // FACES_PER_CHUNK)
             self._append_call(function.reduce, split, 1, None, self.chunks[row : row + len(values)])
             row += len(values)
 
     def _append_sums(self) -> None:
         """Append the calls for the sums over the block, degree by degree."""
-        corners, levels, powers, apex_vectors = self.corners, self.levels, self.powers, self.apex_vectors
-        first, ends = corners[:, 0], corners[:, 1:]
+        corners = self.corners
+        levels = self.levels
+        powers = self.powers
+        apex_vectors = self.apex_vectors
+        first = corners[:, 0]
+        ends = corners[:, 1:]
         self._append_call(np.add.reduce, self.both, 1, None, self.total[:, 0])
         self._append_call(np.add, first, corners[:, 2], levels[1, :3])
-        self._append_call(np.add, corners[:, 1::2].transpose(1, 0, 2), levels[1, :3], levels[::2, :3])
+        self._append_call(
+            np.add, corners[:, 1::2].transpose(1, 0, 2), levels[1, :3], levels[::2, :3]
+        )
         self._append_dot("wfsk,frsk->wrk", apex_vectors, levels[::2, :3], self.total[:, 1:4])
         for degree in range(2, self.order):
-            count, known = count_of_degree(degree), monomial_count(degree - 1)
+            count = count_of_degree(degree)
+            known = monomial_count(degree - 1)
             self._append_raise(degree, ends[:, :, None])
-            _raise_powers(self._append_call, first if degree == 2 else powers, degree, first, powers)
+            _raise_powers(
+                self._append_call, first if degree == 2 else powers, degree, first, powers
+            )
             self._append_powers(degree)
             self._append_call(np.add, levels[::2, :count], levels[1, :count], levels[::2, :count])
-            self._append_dot("wfsk,frsk->wrk", apex_vectors, levels[::2, :count], self.total[:, known : known + count])
+            self._append_dot(
+                "wfsk,frsk->wrk",
+                apex_vectors,
+                levels[::2, :count],
+                self.total[:, known : known + count],
+            )
         self._append_last_degree()
 
     def _append_powers(self, degree: int) -> None:
         """Append the calls that add C of this degree to D."""
-        count, most = count_of_degree(degree), len(self.room) // self.k
+        count = count_of_degree(degree)
+        most = len(self.room) // self.k
         for start in range(0, count, most):
             part = slice(start, min(start + most, count))
             grown = self._room(part.stop - start)
@@ -171,8 +215,10 @@ class _Block:
 
     def _append_raise(self, degree: int, vectors: NDArray) -> None:
         """Append the calls that replace all levels L, one degree lower, by Σ_i v_i L_{α-e_i}, v (3, c-1, 1, k)."""
-        levels, below = self.levels, count_of_degree(degree - 1)
-        last, new = levels[:, below - degree : below], levels[:, below : below + degree + 1]
+        levels = self.levels
+        below = count_of_degree(degree - 1)
+        last = levels[:, below - degree : below]
+        new = levels[:, below : below + degree + 1]
         self._append_call(np.multiply, last, vectors[1], new[:, :-1])
         self._append_call(np.multiply, last[:, -1:], vectors[2], new[:, -1:])
         by_z = self._room(len(levels), degree - 1)
@@ -184,29 +230,46 @@ class _Block:
             while first > 1 and _first_row(end) - _first_row(first - 2) < self.order:
                 first -= 1
             products = self._room(2, len(levels), _first_row(end) - _first_row(first - 1))
-            self._append_call(np.multiply, levels[:, _first_row(first - 1) : _first_row(end)], vectors[1:], products)
+            self._append_call(
+                np.multiply,
+                levels[:, _first_row(first - 1) : _first_row(end)],
+                vectors[1:],
+                products,
+            )
             level_rows = levels[:, _first_row(first) if first > 1 else 0 : _first_row(end + 1)]
             self._append_call(np.multiply, level_rows, vectors[0], level_rows)
             for s in range(first, end + 1):
                 before = _first_row(s - 1) - _first_row(first - 1)
                 for axis in (0, 1):
                     level_rows = levels[:, _first_row(s) + axis : _first_row(s) + axis + s]
-                    self._append_call(np.add, level_rows, products[axis, :, before : before + s], level_rows)
+                    self._append_call(
+                        np.add, level_rows, products[axis, :, before : before + s], level_rows
+                    )
             end = first - 1
 
     def _append_last_degree(self) -> None:
         """Append the calls for sums of the last degree, of rows one degree lower and weighted coordinates."""
-        degree, weighted_products, powers = self.order, self.weighted_products, self.powers
-        count, below, known = count_of_degree(degree), count_of_degree(degree - 1), monomial_count(degree - 1)
+        degree = self.order
+        weighted_products = self.weighted_products
+        powers = self.powers
+        count = count_of_degree(degree)
+        below = count_of_degree(degree - 1)
+        known = monomial_count(degree - 1)
         # The last products replace the corners.
         for row, both, apex_vectors in zip(weighted_products, self.both, self.apex_vectors):
             self._append_call(np.multiply, self.corners[:, ::2], both, row[:, ::2])
             self._append_call(np.multiply, self.corners[:, 1::2], apex_vectors, row[:, 1::2])
-        sums, grown = np.zeros((len(weighted_products), 3, below + 1)), np.empty((len(weighted_products), count))
-        self._append_dot("wifsk,frsk->wirk", weighted_products[:, :, 1:], self.levels, sums[:, :, :-1])
+        sums = np.zeros((len(weighted_products), 3, below + 1))
+        grown = np.empty((len(weighted_products), count))
+        self._append_dot(
+            "wifsk,frsk->wirk", weighted_products[:, :, 1:], self.levels, sums[:, :, :-1]
+        )
         for axis, old, new in ((0, 0, 0), (1, below - degree, below), (2, below - 1, count - 1)):
             self._append_dot(
-                "wsk,rsk->wrk", weighted_products[:, axis, 0], powers[old:], grown[:, new : new + below - old]
+                "wsk,rsk->wrk",
+                weighted_products[:, axis, 0],
+                powers[old:],
+                grown[:, new : new + below - old],
             )
         self._append_call(_add_last, sums, grown, degree, self.total[:, known:])
 
@@ -228,7 +291,8 @@ class AnyOrderKernel:
     """The loop body to an order, at least 3, perhaps with areas, and its scratch. Not to be shared by threads."""
 
     def __init__(self, order: int, area: bool):
-        self.order, self.weights = order, 2 if area else 1
+        self.order = order
+        self.weights = 2 if area else 1
         self.workspace = Workspace(partial(_Block, order=order, weights=self.weights))
 
     def block_sums(
@@ -247,7 +311,9 @@ class AnyOrderKernel:
         """
         k = len(faces[0])
         shape = len(faces), -(-(size if k > 0.9 * size else k) // FACES_PER_CHUNK) * FACES_PER_CHUNK
-        block = self.workspace.block(shape, row_count(shape[0], self.order, self.weights) * shape[1])
+        block = self.workspace.block(
+            shape, row_count(shape[0], self.order, self.weights) * shape[1]
+        )
         self._gather_corners(block, points, faces, center, scale)
         for step in block.steps:
             step()
@@ -255,7 +321,11 @@ class AnyOrderKernel:
 
     @staticmethod
     def _gather_corners(
-        block: _Block, points: NDArray, faces: Sequence[NDArray] | NDArray, center: NDArray, scale: float
+        block: _Block,
+        points: NDArray,
+        faces: Sequence[NDArray] | NDArray,
+        center: NDArray,
+        scale: float,
     ) -> None:
         """Gather the corners' coordinates and compute the edges from the first corner."""
         k = len(faces[0])
@@ -276,15 +346,22 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
     The weights are |determinant| with its rounding, that rounding alone, the volume that moving vertices by half ulps
     sweeps; and with areas: doubled area with its rounding, that alone, and the area that moving the vertices adds.
     """
-    chunks, half_ulp = np.concatenate([part.chunks for part in parts], axis=1), parts[0].half_ulp
+    chunks = np.concatenate([part.chunks for part in parts], axis=1)
+    half_ulp = parts[0].half_ulp
     high, low, weight_sums, squares = np.split(chunks, (3, 6, 6 + weights))
     reach = np.maximum(high, -low) * (1.0 + 4.0 * U) + half_ulp[:, None]
-    edges, weight_sums = np.sqrt(squares + MIN_SQUARED_LENGTH) * (1.0 + 1e-9), weight_sums * (1.0 + 1e-9)
+    edges = np.sqrt(squares + MIN_SQUARED_LENGTH) * (1.0 + 1e-9)
+    weight_sums = weight_sums * (1.0 + 1e-9)
     # This bounds Σ |normal|, and the products that make up its components.
     terms = FACES_PER_CHUNK * (edges[:-1] * edges[1:]).sum(axis=0)
-    rounding, step = DETERMINANT_ROUNDING * terms, np.linalg.norm(half_ulp)
+    rounding = DETERMINANT_ROUNDING * terms
+    step = np.linalg.norm(half_ulp)
     double = weight_sums[1] + 3.0 * rounding if weights == 2 else terms
-    added = step * FACES_PER_CHUNK * ((edges[:-1] + edges[1:]).sum(axis=0) + 2.0 * (len(edges) - 1) * step)
+    added = (
+        step
+        * FACES_PER_CHUNK
+        * ((edges[:-1] + edges[1:]).sum(axis=0) + 2.0 * (len(edges) - 1) * step)
+    )
     uncertain = rounding * reach.sum(axis=0)
     seeds = [weight_sums[0] + uncertain, uncertain, step * (double / 2.0 + added)]
     if weights == 2:
@@ -299,7 +376,9 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
     return np.concatenate(by_degree).T
 
 
-def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
+def _raise_powers(
+    do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray
+) -> None:
     """Compute x^α of one degree from the degree below, perhaps in its place. do: calls, or records, each step."""
     count = count_of_degree(degree - 1)
     do(np.multiply, old[count - degree : count], vector[1], powers[count : count + degree])

@@ -114,7 +114,8 @@ def polyhedron_moments(
         check_order("area_order", area_order)
     if about is not None:
         about = float_array("about", about, 3, finite=True)
-    highest, boundary = order if area_order is None else max(order, area_order), BoundarySum()
+    highest = order if area_order is None else max(order, area_order)
+    boundary = BoundarySum()
     if isinstance(body, Surface):
         stream = iter([body])
     else:
@@ -128,8 +129,14 @@ def polyhedron_moments(
         stream = _summed(stream, boundary)
     if highest <= THIRD:
         area_moments = area_order is not None and area_order >= min(order, 1)
-        options = {"area": area_order is not None, "area_moments": area_moments, "exact": exact and order == THIRD}
-        volume, area = _sum_to_third_order(stream, threads, about, progress, planarity=planarity, **options)
+        options = {
+            "area": area_order is not None,
+            "area_moments": area_moments,
+            "exact": exact and order == THIRD,
+        }
+        volume, area = _sum_to_third_order(
+            stream, threads, about, progress, planarity=planarity, **options
+        )
         # Bounds are not negative, and an area's have one power of the reach less.
         if not isfinite(np.add.reduce(volume.rounding_error[: monomial_count(highest)])):
             raise MeasureError(MOMENTS_OVERFLOW, order=int(order))
@@ -220,20 +227,29 @@ def _triangles(points: NDArray[np.float64], triangles: NDArray[np.integer]) -> N
 
 def _quads(points: NDArray[np.float64], quads: NDArray[np.integer]) -> NDArray[np.float64]:
     a, b, c, d = (points.take(corner, axis=1) for corner in quads.T)
-    u, v, diagonal = b - a, d - a, c - a
+    u = b - a
+    v = d - a
+    diagonal = c - a
     # True if the normals of the two triangles along ac face away from each other, by Lagrange's identity.
     flipped = dot(u, v) * dot(diagonal, diagonal) > dot(u, diagonal) * dot(v, diagonal)
     if flipped.any():  # cut from b to d
-        a, b, c, d = (np.where(flipped, other, corner) for corner, other in ((a, b), (b, c), (c, d), (d, a)))
+        a, b, c, d = (
+            np.where(flipped, other, corner) for corner, other in ((a, b), (b, c), (c, d), (d, a))
+        )
     w = cross(a, c)
-    first, second = -dot(b, w), dot(d, w)
+    first = -dot(b, w)
+    second = dot(d, w)
     return _sums((first, a + b + c), (second, a + c + d))
 
 
 def _sums(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> NDArray[np.float64]:
     """Return the (4,) sums of volumes, and of volumes times sums of corners, (3, k)."""
     return sum(
-        [np.append(volumes.sum(), np.einsum("ij,j->i", corners, volumes)) for volumes, corners in parts], np.zeros(4)
+        [
+            np.append(volumes.sum(), np.einsum("ij,j->i", corners, volumes))
+            for volumes, corners in parts
+        ],
+        np.zeros(4),
     )
 
 
@@ -246,21 +262,29 @@ def area_of_images(surface: Surface, linear: NDArray[np.float64]) -> Moments:
     a, b, c = (surface.points[triangles[:, i]].T.astype(np.float64) for i in range(3))
     first, second = b - a, c - a
     plus, minus = (np.roll(first, -i, axis=0) * np.roll(second, i, axis=0) for i in (1, -1))
-    normals, size = plus - minus, (np.abs(plus) + np.abs(minus)).sum(axis=1)
-    above, below = linear[:, [1, 2, 0]], linear[:, [2, 0, 1]]
+    normals = plus - minus
+    size = (np.abs(plus) + np.abs(minus)).sum(axis=1)
+    above = linear[:, [1, 2, 0]]
+    below = linear[:, [2, 0, 1]]
     plus, minus = (
         above[:, :, second_axis] * below[:, :, third_axis]
         for second_axis, third_axis in (([1, 2, 0], [2, 0, 1]), ([2, 0, 1], [1, 2, 0]))
     )
     cofactors = plus - minus
-    step, sums = max(1, PRODUCTS_PER_BLOCK // len(linear)), []
+    step = max(1, PRODUCTS_PER_BLOCK // len(linear))
+    sums = []
     for start in range(0, len(triangles), step):
         images = cofactors @ normals[:, start : start + step]
         sums.append(np.sqrt(np.einsum("kif,kif->kf", images, images)).sum())
     total = float(sum(sums)) / 2.0
     # A normal is off by 4 u of its terms, a cofactor by 2 u of its; then three products and their sum.
-    rounded = (9.0 * np.abs(cofactors) + 2.0 * (np.abs(plus) + np.abs(minus))).sum(axis=(0, 1)) @ size / 2.0
-    h, edges = surface.coordinate_error, np.abs(np.concatenate([first, second], axis=1)).sum(axis=1)
+    rounded = (
+        (9.0 * np.abs(cofactors) + 2.0 * (np.abs(plus) + np.abs(minus))).sum(axis=(0, 1))
+        @ size
+        / 2.0
+    )
+    h = surface.coordinate_error
+    edges = np.abs(np.concatenate([first, second], axis=1)).sum(axis=1)
     moved = [
         2.0 * (edges[j] * h[k] + edges[k] * h[j]) + 8.0 * h[j] * h[k] * len(triangles)
         for j, k in ((1, 2), (2, 0), (0, 1))

@@ -64,7 +64,9 @@ class SimplexMoments:
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
     """Return all (K, n) exponents to an order, by degree, then by descending first exponents; read-only."""
-    exponents = [row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)]
+    exponents = [
+        row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)
+    ]
     table = np.array(exponents, np.int64).reshape(-1, dimension)
     table.flags.writeable = False
     return table
@@ -162,7 +164,11 @@ def _measure(
     low, high = used.min(axis=0), used.max(axis=0)
     if not all(map(isfinite, [*low, *high])):
         raise ValueError("coordinates must be finite")
-    center = low / 2.0 + high / 2.0 if about is None else float_array("about", about, dimension, finite=True)
+    center = (
+        low / 2.0 + high / 2.0
+        if about is None
+        else float_array("about", about, dimension, finite=True)
+    )
     reach = float(np.maximum(np.abs(high - center), np.abs(low - center)).max())
     exponent = int(np.frexp(reach)[1])  # the body is brought to size 1, which rounds nothing
 
@@ -180,7 +186,9 @@ def _measure(
     blocks = range(0, len(simplices), block)
     for start in blocks:
         vertices = simplices[start : start + block].T
-        corners = np.ascontiguousarray(points[vertices].transpose(0, 2, 1))  # (n corners, n coordinates, k)
+        corners = np.ascontiguousarray(
+            points[vertices].transpose(0, 2, 1)
+        )  # (n corners, n coordinates, k)
         edges = np.ldexp(corners[1:] - corners[:1], -exponent)
         corners = np.ldexp(corners - center[:, None], -exponent)
         weight, weight_size = _weights(corners, edges, enclosed)
@@ -192,12 +200,20 @@ def _measure(
     # Count the roundings of one product of coordinates: in each coordinate, product and sum of the recursion, in the
     # passes that only carry it on, in the minors on the way to the weight, and in the sum over all simplices.
     minors = sum(3 + size for size in range(1, dimension)) + 2 * dimension + 6
-    steps = degree * (dimension + 2) + dimension * dimension + minors + PAIRWISE_SUM_ROUNDINGS + len(blocks) + 4
+    steps = (
+        degree * (dimension + 2)
+        + dimension * dimension
+        + minors
+        + PAIRWISE_SUM_ROUNDINGS
+        + len(blocks)
+        + 4
+    )
     error = 1.01 * steps * U * size + len(simplices) * UNDERFLOW
     factor = factorial_ratios(indices, measure)
     power = (exponent * (degree + measure)).astype(np.int32)
     with np.errstate(over="ignore"):
-        raw, error = np.ldexp(raw * factor, power), np.ldexp(error * factor, power)
+        raw = np.ldexp(raw * factor, power)
+        error = np.ldexp(error * factor, power)
     if not np.isfinite([raw, error]).all():
         raise MeasureError(MOMENTS_OVERFLOW, order=int(order))
     return SimplexMoments(raw, center, order, error + np.finfo(np.float64).smallest_subnormal)
@@ -218,7 +234,9 @@ def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
     return table
 
 
-def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _weights(
+    corners: NDArray, edges: NDArray, enclosed: bool
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return (k,) det or |N| of each simplex, and (k,) the same expressions in absolute values."""
     normal, size = _normals(edges)
     nothing = np.zeros(edges.shape[2])
@@ -245,7 +263,9 @@ def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
         minors = grown
     every = tuple(range(dimension))
     components = [minors[every[:i] + every[i + 1 :]] for i in range(dimension)]
-    return [(-1) ** i * value for i, (value, _) in enumerate(components)], [size for _, size in components]
+    return [(-1) ** i * value for i, (value, _) in enumerate(components)], [
+        size for _, size in components
+    ]
 
 
 def _exponents_of_degree(dimension: int, degree: int) -> list[tuple[int, ...]]:
@@ -267,20 +287,28 @@ def _positions(dimension: int, order: int) -> dict[tuple[int, ...], int]:
 def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDArray]]]:
     """Return starts of degrees, and by degree and axis the indices, in the next degree, of products with the axis."""
     starts = [0] + [comb(n + dimension, dimension) for n in range(order + 1)]
-    positions, table = _positions(dimension, order), multi_indices(dimension, order).tolist()
+    positions = _positions(dimension, order)
+    table = multi_indices(dimension, order).tolist()
     raised = []
     for n in range(order):
         exponents = table[starts[n] : starts[n + 1]]
         raised.append(
             [
-                np.array([positions[*row[:k], row[k] + 1, *row[k + 1 :]] - starts[n + 1] for row in exponents])
+                np.array(
+                    [
+                        positions[*row[:k], row[k] + 1, *row[k + 1 :]] - starts[n + 1]
+                        for row in exponents
+                    ]
+                )
                 for k in range(dimension)
             ]
         )
     return starts, raised
 
 
-def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
+def facets_of(
+    points: ArrayLike, simplices: ArrayLike
+) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
     """Return the facets around full simplices, with signs that make the enclosed volume positive.
 
     Parameters
@@ -317,7 +345,9 @@ def simplex_arrays(
     """Return (m, n) points and (k, n + `more`) simplices as arrays."""
     points = float_array("points", points, "m", "n")
     check_filled("points", points.T)
-    return points, index_array("simplices", simplices, "k", points.shape[1] + more, count=len(points))
+    return points, index_array(
+        "simplices", simplices, "k", points.shape[1] + more, count=len(points)
+    )
 
 
 def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> bool:
@@ -331,7 +361,9 @@ def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = No
     return not np.bincount(which.reshape(-1), uses).any()
 
 
-def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> NDArray[np.intp]:
+def outer_facets(
+    points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None
+) -> NDArray[np.intp]:
     """Return the (j, n) facets that bound simplices on one side only; a pair of opposite facets cancels."""
     facets, corners, parity = _sorted_corners(points, simplices, signs)
     _, first, which = np.unique(corners, axis=0, return_index=True, return_inverse=True)

@@ -45,10 +45,22 @@ from .third_order_kernel import (
     combine_blocks,
     scratch_size,
 )
-from .third_order_small import AREA_FACTORS, AXIS_PAIRS, CONE_DIVISORS, DEGREE, error_bounds, small_moments
+from .third_order_small import (
+    AREA_FACTORS,
+    AXIS_PAIRS,
+    CONE_DIVISORS,
+    DEGREE,
+    error_bounds,
+    small_moments,
+)
 
-MAX_TRIANGLES_PER_BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
-SCRATCH_BYTES = 16, 6_000_000  # limit of all threads' scratch together: bytes for each triangle, and a constant
+MAX_TRIANGLES_PER_BLOCK = (
+    65536  # triangles at most: by then calls cost little, and more would leave the cache
+)
+SCRATCH_BYTES = (
+    16,
+    6_000_000,
+)  # limit of all threads' scratch together: bytes for each triangle, and a constant
 # Up to this number of triangles the third order is always exact, which takes half as long again.
 MAX_TRIANGLES_EXACT_THIRD = 100_000
 MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small_moments` is faster
@@ -87,7 +99,9 @@ def integrate(
     largest = max(reach.tolist())
     check_size(4.0 * largest)  # the diagonal of the box is shorter
     if largest and not 1.0 / MAX_UNSCALED_REACH < largest < MAX_UNSCALED_REACH:
-        return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area, area_moments, exact)
+        return _measure_rescaled(
+            surface, int(np.log2(largest)), threads, about, area, area_moments, exact
+        )
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
     if count <= MAX_SMALL_TRIANGLES:
         for faces in (surface.triangles, surface.quads):
@@ -107,18 +121,30 @@ def integrate(
             planarity.cones = float(cones[0, 0]), float(cones[0, 1])
         return volume.at(0), areas.at(0)
     # Two threads have a block each: the sums are the same with one, and with more where there is room for more.
-    room, each = SCRATCH_BYTES[0] * count + SCRATCH_BYTES[1], 8 * scratch_size(3, area, exact)
+    room = SCRATCH_BYTES[0] * count + SCRATCH_BYTES[1]
+    each = 8 * scratch_size(3, area, exact)
     size = max(2, min(MAX_TRIANGLES_PER_BLOCK, room // (2 * each), count) // 2 * 2)
     threads = max(1, min(threads, count // MIN_TRIANGLES_PER_THREAD, room // (each * size)))
     job = _Integration(
-        points, center, reach, surface.coordinate_error, count, area, area_moments, exact, planarity, size, threads
+        points,
+        center,
+        reach,
+        surface.coordinate_error,
+        count,
+        area,
+        area_moments,
+        exact,
+        planarity,
+        size,
+        threads,
     )
     return job.moments(combine_blocks(job.block_sums(job.blocks(surface))))
 
 
 def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:
     """Return zero moments of the volume and the area, for a surface without faces."""
-    zeros, about = np.zeros(monomial_count(order)), np.zeros(3) if about is None else about
+    zeros = np.zeros(monomial_count(order))
+    about = np.zeros(3) if about is None else about
     return Moments(zeros, about, Measure.VOLUME), Moments(zeros, about, Measure.AREA)
 
 
@@ -137,15 +163,29 @@ def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float
 
 
 def _measure_rescaled(
-    surface: Surface, exponent: int, threads: int, about: NDArray | None, area: bool, area_moments: bool, exact: bool
+    surface: Surface,
+    exponent: int,
+    threads: int,
+    about: NDArray | None,
+    area: bool,
+    area_moments: bool,
+    exact: bool,
 ) -> tuple[Moments, Moments]:
     """Return the moments by measuring a copy of about unit size, 2^exponent times smaller: scaling rounds nothing."""
     points = np.ldexp(surface.points.astype(np.float64), -exponent)
-    small = Surface(points, surface.all_triangles()[0], displacement=np.ldexp(surface.coordinate_error, -exponent))
+    small = Surface(
+        points,
+        surface.all_triangles()[0],
+        displacement=np.ldexp(surface.coordinate_error, -exponent),
+    )
     results = []
     about = None if about is None else np.ldexp(about, -exponent)
-    for moments in integrate(small, threads, about=about, area=area, area_moments=area_moments, exact=exact):
-        powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.measure == Measure.VOLUME else 2))
+    for moments in integrate(
+        small, threads, about=about, area=area, area_moments=area_moments, exact=exact
+    ):
+        powers = exponent * (
+            DEGREE[: len(moments.raw)] + (3 if moments.measure == Measure.VOLUME else 2)
+        )
         with np.errstate(over="ignore"):  # the caller refuses what becomes infinite
             results.append(
                 replace(
@@ -180,7 +220,9 @@ class _Integration:
 
     def blocks(self, surface: Surface) -> list[_Block]:
         """Return the faces in as few blocks as the memory allows, for any number of threads."""
-        triangles, half, size = surface.triangles, len(surface.triangles) // 2, self.size
+        triangles = surface.triangles
+        half = len(surface.triangles) // 2
+        size = self.size
         if _quad_corners_of(triangles[:1], triangles[half : half + 1]) is None:
             half = 0
         whole = (
@@ -202,19 +244,33 @@ class _Integration:
             parts = self._run_queue(queue)
         else:
             with ThreadPoolExecutor(threads) as pool:
-                parts = [part for of_thread in pool.map(self._run_queue, [queue] * threads) for part in of_thread]
+                parts = [
+                    part
+                    for of_thread in pool.map(self._run_queue, [queue] * threads)
+                    for part in of_thread
+                ]
         parts.sort(key=itemgetter(0))
         results = [block for _, of_thread, _ in parts for block in of_thread]
-        flipped = np.concatenate([NO_QUADS.T, *(block for *_, of_thread in parts for block in of_thread)], axis=1)
+        flipped = np.concatenate(
+            [NO_QUADS.T, *(block for *_, of_thread in parts for block in of_thread)], axis=1
+        )
         step = self.size // 2
         if flipped.size:
-            results += self.block_sums([([], [flipped[:, i : i + step]]) for i in range(0, flipped.shape[1], step)])
+            results += self.block_sums(
+                [([], [flipped[:, i : i + step]]) for i in range(0, flipped.shape[1], step)]
+            )
         return results
 
-    def _run_queue(self, queue: Iterator[tuple[int, _Block]]) -> list[tuple[int, list[BlockResult], list[NDArray]]]:
+    def _run_queue(
+        self, queue: Iterator[tuple[int, _Block]]
+    ) -> list[tuple[int, list[BlockResult], list[NDArray]]]:
         """Return for each block taken from the queue: its number, its sums, and quads that were left out."""
         faces = BlockAccumulator(
-            self.points, self.center, area=self.area, area_moments=self.area_moments, exact=self.exact
+            self.points,
+            self.center,
+            area=self.area,
+            area_moments=self.area_moments,
+            exact=self.exact,
         )
         parts = []
         for number, block in queue:
@@ -224,21 +280,29 @@ class _Integration:
         return parts
 
     def _add(self, faces: BlockAccumulator, starts: list[int], arrays: list[NDArray]) -> None:
-        first, halves, planarity = arrays[0], None, self.planarity
+        first = arrays[0]
+        halves = None
+        planarity = self.planarity
         if not starts:
             faces.add_faces(first)
             return
         if first.shape[1] == 4:
-            faces.add_faces(first.T, quads=True, observe=planarity and partial(planarity.add_quads, *starts))
+            faces.add_faces(
+                first.T, quads=True, observe=planarity and partial(planarity.add_quads, *starts)
+            )
             return
         if len(first) >= MIN_TRIANGLES_TO_PAIR:
             halves = quad_corners(first) if len(arrays) == 1 else _quad_corners_of(*arrays)
         if halves:
             planarity_rows = (starts, 1) if len(arrays) == 2 else ([starts[0], starts[0] + 1], 2)
-            faces.add_faces(halves, observe=planarity and partial(planarity.add_triangles, *planarity_rows))
+            faces.add_faces(
+                halves, observe=planarity and partial(planarity.add_triangles, *planarity_rows)
+            )
             return
         for start, part in zip(starts, arrays):
-            faces.add_faces(part.T, observe=planarity and partial(planarity.add_triangles, [start], 1))
+            faces.add_faces(
+                part.T, observe=planarity and partial(planarity.add_triangles, [start], 1)
+            )
 
     def moments(self, sums: BlockSums) -> tuple[Moments, Moments]:
         """Return volume and area, with their bounds."""
@@ -250,29 +314,47 @@ class _Integration:
         volume = Moments(raw, self.center, Measure.VOLUME, error, inputs[0])
         if not self.area:
             return volume, Moments(np.zeros(1), self.center, Measure.AREA)
-        raw = sums.areas / (DIVISORS / AREA_FACTORS) if self.area_moments else np.array([sizes[1] / 2.0])
+        raw = (
+            sums.areas / (DIVISORS / AREA_FACTORS)
+            if self.area_moments
+            else np.array([sizes[1] / 2.0])
+        )
         count = len(raw)
         error = rounding[1, :count] / 2.0 + 8.0 * U * np.abs(raw)
         return volume, Moments(raw, self.center, Measure.AREA, error, inputs[1, :count])
 
 
-def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
+def _error_bounds(
+    job: _Integration, sums: BlockSums
+) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
     """Return the sums of |determinants| and doubled areas; (2, 20) errors of Σ w E[f]; (2, 20) `input_error`."""
-    sizes, count = np.add.reduce(sums.sizes, axis=1), np.array([[np.add.reduce(sums.counts)]])
+    sizes = np.add.reduce(sums.sizes, axis=1)
+    count = np.array([[np.add.reduce(sums.counts)]])
     # einsum instead of a matrix product, after which the threads of some BLAS keep a core busy for a while.
     products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts)
     tau = np.array([[products[i, j] + products[j, i] for i, j in AXIS_PAIRS]])
     lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
-    edges = np.array([[np.add.reduce(lengths * sums.counts)]])  # bounds their sum, at the triangles' first corners
+    edges = np.array(
+        [[np.add.reduce(lengths * sums.counts)]]
+    )  # bounds their sum, at the triangles' first corners
     roundings = PAIRWISE_SUM_ROUNDINGS + sums.blocks
     bounds = error_bounds(
-        job.reach[None], job.half_ulp[None], tau, edges, sizes[None], count, float(roundings), job.area
+        job.reach[None],
+        job.half_ulp[None],
+        tau,
+        edges,
+        sizes[None],
+        count,
+        float(roundings),
+        job.area,
     )
     rounding, inputs = bounds[0][:, 0], bounds[1][:, 0]
     if not job.exact:  # then add the bound of the omitted third order
-        e, f = sums.base, sums.side + sums.base / 2.0
+        e = sums.base
+        f = sums.side + sums.base / 2.0
         rest = [
-            f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
+            f[i] * f[j] * f[k] / 10.0
+            + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
             for i, j, k in TRIPLES
         ]
         for which in range(2):
@@ -292,6 +374,9 @@ def _quad_corners_of(first: NDArray, second: NDArray) -> list[NDArray] | None:
     for i in range(3):
         for j in range(3):
             ends = ((i, j), (i - 1, (j + 1) % 3))
-            if all(first[0, a] == second[0, b] and np.array_equal(first[:, a], second[:, b]) for a, b in ends):
+            if all(
+                first[0, a] == second[0, b] and np.array_equal(first[:, a], second[:, b])
+                for a, b in ends
+            ):
                 return [first[:, i], first[:, (i + 1) % 3], first[:, i - 1], second[:, (j + 2) % 3]]
     return None

@@ -31,9 +31,15 @@ from ..mesh.surface import flipped_quads
 from .workspace import Workspace, gather
 
 SLICES_PER_ROW = 32  # slices of a row that einsum adds up
-COLUMNS_PER_CHUNK = 1024  # most columns with one common bound of their edges; a multiple of SLICES_PER_ROW
-MIN_FLIP_COSINE = 1e-6  # float32 may choose a quad's other diagonal if the cosine in float64 is below this
-FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
+COLUMNS_PER_CHUNK = (
+    1024  # most columns with one common bound of their edges; a multiple of SLICES_PER_ROW
+)
+MIN_FLIP_COSINE = (
+    1e-6  # float32 may choose a quad's other diagonal if the cosine in float64 is below this
+)
+FLOAT32_OVERFLOW = (
+    1e9  # edges from which the fourth powers in that decision leave the range of float32
+)
 FLOAT32_UNDERFLOW = 1e-36  # cosines below this may have underflowed there
 NO_VERTEX = "no such vertex"
 NO_SUM = np.zeros(())
@@ -43,7 +49,10 @@ PAIR_INDEX = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 # each xx, xy, ... and three of each xxx, xxy, ...
 SQUARE = np.array([[9 * i + 6 + j, 9 * j + 6 + i] for i in range(3) for j in range(i, 3)]).T
 CUBE = np.array(
-    [[9 * i + PAIR_INDEX[j, k], 9 * j + PAIR_INDEX[i, k], 9 * k + PAIR_INDEX[i, j]] for i, j, k in TRIPLES]
+    [
+        [9 * i + PAIR_INDEX[j, k], 9 * j + PAIR_INDEX[i, k], 9 * k + PAIR_INDEX[i, j]]
+        for i, j, k in TRIPLES
+    ]
 ).T
 
 
@@ -69,7 +78,12 @@ class BlockSums:
 def scratch_size(count: int, each: bool, exact: bool) -> int:
     """Return the count of numbers in the scratch for a face of `count` corners; each: as for `_BlockCalls`."""
     fans = count - 2
-    return 6 * count + 2 * fans + max(3 * count - 3 + 6 * (fans if each else 1), 16) + (9 * fans if exact else 0)
+    return (
+        6 * count
+        + 2 * fans
+        + max(3 * count - 3 + 6 * (fans if each else 1), 16)
+        + (9 * fans if exact else 0)
+    )
 
 
 class _BlockCalls:
@@ -101,30 +115,45 @@ class _BlockCalls:
         area_moments: bool,
         exact: bool,
     ):
-        fans, k = count - 2, chunks * width
+        fans = count - 2
+        k = chunks * width
         crosses = fans if each else 1
-        self.corners, self.weights = workspace.take(3, count, k), workspace.take(2, fans, k)
-        (index, single), (room,) = workspace.overlay([(count, k), (3 * count * k // 2,)], [(3 * count * k,)])
-        self.index, self.unsigned = index.view(np.intp), index.view(np.uintp)
+        self.corners = workspace.take(3, count, k)
+        self.weights = workspace.take(2, fans, k)
+        (index, single), (room,) = workspace.overlay(
+            [(count, k), (3 * count * k // 2,)], [(3 * count * k,)]
+        )
+        self.index = index.view(np.intp)
+        self.unsigned = index.view(np.uintp)
         self.single = single.view(np.float32).reshape(3, count, k)
-        weighted, heavy = room.reshape(3, count, k), room[: 6 * fans * k].reshape(6, fans, k)
+        weighted = room.reshape(3, count, k)
+        heavy = room[: 6 * fans * k].reshape(6, fans, k)
         (self.edges, self.normals, spare), (table, middle) = workspace.overlay(
             [(3, count - 1, k), (3, crosses, k), (3, crosses, k)], [(13, k), (3, k)]
         )
-        tips, local = (workspace.take(size, fans, k) for size in (3, 6)) if exact else (np.empty(0), np.empty(0))
+        tips, local = (
+            (workspace.take(size, fans, k) for size in (3, 6))
+            if exact
+            else (np.empty(0), np.empty(0))
+        )
 
         def chunked(array: NDArray) -> NDArray[np.float64]:
             return array.reshape(*array.shape[:-1], chunks, width)
 
-        corners, edges, normals = self.corners, self.edges, self.normals
-        apex, base, sides = corners[:, :1], edges[:, 1:2], edges[:, ::2]
+        corners = self.corners
+        edges = self.edges
+        normals = self.normals
+        apex = corners[:, :1]
+        base = edges[:, 1:2]
+        sides = edges[:, ::2]
         self.start = [partial(np.subtract, corners[:, 1:3], apex, edges[:, :2])]
         if fans == 2:
             self.start.append(partial(np.subtract, corners[:, 0], corners[:, 3], edges[:, 2]))
         self.start.append(partial(np.subtract, corners, center[:, None, None], corners))
         self.start += _cross_calls(*((sides, base) if each else (base, apex)), normals, spare)
         self.largest, self.least = (
-            partial(function.reduce, chunked(edges), axis=3) for function in (np.maximum, np.minimum)
+            partial(function.reduce, chunked(edges), axis=3)
+            for function in (np.maximum, np.minimum)
         )
 
         factors = (normals, apex[:, 0]) if each else (sides, normals[:, 0])
@@ -137,10 +166,15 @@ class _BlockCalls:
         self.cosine = self.weights[1, 0]
         if fans == 2 and each:
             self.room = spare[:, 0]
-            self.volume = partial(np.einsum, "dk,dk->k", sides[:, 0], normals[:, 1], out=self.room[2])
+            self.volume = partial(
+                np.einsum, "dk,dk->k", sides[:, 0], normals[:, 1], out=self.room[2]
+            )
         spare = spare.reshape(-1)[: fans * k].reshape(fans, k)
         self.weigh.append(partial(np.abs, self.weights[0], spare))
-        self.sizes = [partial(np.add.reduce, chunked(row), axis=2) for row in (spare, self.weights[1])[: 1 + area]]
+        self.sizes = [
+            partial(np.add.reduce, chunked(row), axis=2)
+            for row in (spare, self.weights[1])[: 1 + area]
+        ]
 
         self.prepare = _local_calls(sides, base, tips, local, heavy[:, :1]) if exact else []
         self.prepare.append(partial(np.add, corners[:, 0], corners[:, 2], middle))
@@ -167,8 +201,12 @@ class BlockAccumulator:
     area: True for doubled areas, area_moments: also for their moments. exact: True for the exact third order.
     """
 
-    def __init__(self, points: NDArray, center: NDArray, *, area: bool, area_moments: bool, exact: bool):
-        self.points, self.area, self.exact = points, area, exact
+    def __init__(
+        self, points: NDArray, center: NDArray, *, area: bool, area_moments: bool, exact: bool
+    ):
+        self.points = points
+        self.area = area
+        self.exact = exact
         self.workspace = Workspace(
             partial(_BlockCalls, center=center, area=area, area_moments=area_moments, exact=exact)
         )
@@ -176,7 +214,10 @@ class BlockAccumulator:
         self.results: list[BlockResult] = []
 
     def add_faces(
-        self, faces: Sequence[NDArray] | NDArray, quads: bool = False, observe: Callable | None = None
+        self,
+        faces: Sequence[NDArray] | NDArray,
+        quads: bool = False,
+        observe: Callable | None = None,
     ) -> None:
         """Add faces, the vertices a, b, c and perhaps d, (k,) each. ValueError if an index names no point.
 
@@ -186,7 +227,9 @@ class BlockAccumulator:
         """
         k = len(faces[0])
         shape = (len(faces), *chunk_shape(k), self.area or quads)
-        workspace = self.workspace.block(shape, scratch_size(len(faces), shape[3], self.exact) * shape[1] * shape[2])
+        workspace = self.workspace.block(
+            shape, scratch_size(len(faces), shape[3], self.exact) * shape[1] * shape[2]
+        )
         if isinstance(faces, np.ndarray):
             workspace.index[:, :k] = faces
         else:
@@ -199,16 +242,23 @@ class BlockAccumulator:
         gather(self.points, workspace.index, workspace.single, workspace.corners)
         for call in workspace.start:
             call()
-        largest, least = workspace.largest(), workspace.least()
+        largest = workspace.largest()
+        least = workspace.least()
         suspects = None
         if quads:
             suspects, flipped = self._find_flipped(workspace, np.maximum(largest, -least), k)
             workspace.normals[:, :, flipped] = 0.0
         for call in workspace.weigh:
             call()
-        sizes, sums = [size() for size in workspace.sizes], []
+        sizes = [size() for size in workspace.sizes]
+        sums = []
         if observe is not None and suspects is not None:
-            observe(workspace.weights[1, :, :k], workspace.volume()[:k], suspects, workspace.room[:2, :k])
+            observe(
+                workspace.weights[1, :, :k],
+                workspace.volume()[:k],
+                suspects,
+                workspace.room[:2, :k],
+            )
         elif observe is not None:
             observe(workspace.weights[1, :, :k])
         for call in workspace.prepare:
@@ -227,16 +277,22 @@ class BlockAccumulator:
         The two normals of such a quad face away from each other in float32. The result in float64 can differ only if
         the product is within float32's rounding of zero. The cut quads are appended to `flipped`.
         """
-        cosine = np.einsum("dk,dk->k", workspace.normals[:, 0], workspace.normals[:, 1], out=workspace.cosine)
+        cosine = np.einsum(
+            "dk,dk->k", workspace.normals[:, 0], workspace.normals[:, 1], out=workspace.cosine
+        )
         cosine[k:] = np.inf  # the filling of the block
         if self.points.dtype == np.float32:
             length = np.sqrt((largest**2).sum(axis=0))
-            margin = np.maximum(MIN_FLIP_COSINE * length[0] * length[1] ** 2 * length[2], FLOAT32_UNDERFLOW)
+            margin = np.maximum(
+                MIN_FLIP_COSINE * length[0] * length[1] ** 2 * length[2], FLOAT32_UNDERFLOW
+            )
             least = np.minimum.reduce(cosine.reshape(len(margin), -1), axis=1)
             if length.max() < FLOAT32_OVERFLOW and (least > margin).all():
                 return workspace.index[0, :0], workspace.index[0, :0]
             square = np.einsum("cik,cik->ik", workspace.edges, workspace.edges)
-            limit = np.maximum(MIN_FLIP_COSINE * square[1] * np.sqrt(square[0] * square[2]), FLOAT32_UNDERFLOW)
+            limit = np.maximum(
+                MIN_FLIP_COSINE * square[1] * np.sqrt(square[0] * square[2]), FLOAT32_UNDERFLOW
+            )
             limit[square.max(axis=0) > FLOAT32_OVERFLOW**2] = np.inf
             suspects = np.flatnonzero(cosine <= limit)
         else:  # float32 sees coordinates that were rounded first: all are suspects
@@ -252,12 +308,16 @@ def combine_blocks(results: Sequence[BlockResult]) -> BlockSums:
     """Return the sums over all these blocks together."""
     columns = []
     for k, largest, least, sizes, _ in results:
-        edges, width = np.maximum(largest, -least), chunk_shape(k)[1]
+        edges = np.maximum(largest, -least)
+        width = chunk_shape(k)[1]
         counts = np.minimum(k - width * np.arange(edges.shape[2]), width)
-        columns += [(edges[:, 2 * i], edges[:, 1], counts, *fan) for i, fan in enumerate(zip(*sizes))]
+        columns += [
+            (edges[:, 2 * i], edges[:, 1], counts, *fan) for i, fan in enumerate(zip(*sizes))
+        ]
     side, base, counts, *sizes = (np.concatenate(column, axis=-1) for column in zip(*columns))
     sums, *areas = (
-        to_monomial_sums(*(sum(of, NO_SUM) for of in zip(*parts))) for parts in zip(*(sums for *_, sums in results))
+        to_monomial_sums(*(sum(of, NO_SUM) for of in zip(*parts)))
+        for parts in zip(*(sums for *_, sums in results))
     )
     return BlockSums(
         sums,
@@ -270,11 +330,15 @@ def combine_blocks(results: Sequence[BlockResult]) -> BlockSums:
     )
 
 
-def to_monomial_sums(table_sums: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
+def to_monomial_sums(
+    table_sums: NDArray, products: NDArray, local: NDArray | None = None
+) -> NDArray[np.float64]:
     """Return (20,) `BlockSums.sums` from the sums of the table's rows, (13,), and from summed products of its rows."""
     mixed = 0.5 * np.add.reduce(products.take(SQUARE))
     third = 10.0 * np.add.reduce(products.take(CUBE))
-    total = 2.0 * np.concatenate([table_sums[12:], table_sums[6:9] + table_sums[9:12], table_sums[:6] + mixed, third])
+    total = 2.0 * np.concatenate(
+        [table_sums[12:], table_sums[6:9] + table_sums[9:12], table_sums[:6] + mixed, third]
+    )
     if local is not None:
         total[10:] += np.add.reduce(local.take(CUBE - CUBE // 9 * 3))  # in a table without x, y, z
     return total
@@ -314,11 +378,18 @@ def _local_calls(
     return [*calls, partial(np.add, local, squares, local)]
 
 
-def _weighted_calls(corners: NDArray, weights: NDArray, weighted: NDArray, table: NDArray) -> list[partial]:
+def _weighted_calls(
+    corners: NDArray, weights: NDArray, weighted: NDArray, table: NDArray
+) -> list[partial]:
     """Return the calls for the weighted corners, and for the table: half of H, of Z, of u q and of u."""
-    both, every, half = table[9:12], table[6:9], table[12]
+    both = table[9:12]
+    every = table[6:9]
+    half = table[12]
     if len(weights) == 2:
-        calls = [partial(np.add, weights[0], weights[1], half), partial(np.multiply, half, 0.5, half)]
+        calls = [
+            partial(np.add, weights[0], weights[1], half),
+            partial(np.multiply, half, 0.5, half),
+        ]
     else:
         calls = [partial(np.multiply, weights[0], 0.5, half)]
     calls += [

@@ -25,10 +25,16 @@ from .third_order_kernel import PAIR_INDEX, TRIPLES
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
 # Factors of each monomial, as indices of 1, x, y, z.
-MONOMIAL_FACTORS = np.sort([[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS])
+MONOMIAL_FACTORS = np.sort(
+    [[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS]
+)
 DIVISORS = np.array([6.0, 24.0, 120.0, 1080.0])[DEGREE]  # divide the sums below
-PRODUCT_ROUNDINGS = 8.0 * DEGREE  # errors of the products of weights and nodes, in units of rounding
-THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come to as much again at most
+PRODUCT_ROUNDINGS = (
+    8.0 * DEGREE
+)  # errors of the products of weights and nodes, in units of rounding
+THIRD_ORDER_SHARE = np.repeat(
+    [1.0, 2.0], 10
+)  # the third moments about the middles come to as much again at most
 CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
 TRIANGLES_PER_BLOCK = 2048  # triangles whose products stay in the cache
@@ -36,7 +42,10 @@ ROWS, COLUMNS = np.triu_indices(3)
 AXIS_PAIRS = (1, 2), (2, 0), (0, 1)
 # Indices of the three terms of each symmetric product in a table of x, y, z times xx, xy, xz, yy, yz, zz.
 CUBE = np.array(
-    [[6 * i + PAIR_INDEX[j, k], 6 * j + PAIR_INDEX[i, k], 6 * k + PAIR_INDEX[i, j]] for i, j, k in TRIPLES]
+    [
+        [6 * i + PAIR_INDEX[j, k], 6 * j + PAIR_INDEX[i, k], 6 * k + PAIR_INDEX[i, j]]
+        for i, j, k in TRIPLES
+    ]
 ).T
 
 
@@ -56,18 +65,26 @@ def small_moments(
     Triangles are sorted by body, at least one each. reach: (n, 3) largest distances of points from `center`. half_ulp:
     (n, 3) their shifts by storage. Without `area` the areas are zero, and the `input_error` is larger.
     """
-    coordinates, ends, sums = np.ascontiguousarray(points.T), np.cumsum(counts), []
+    coordinates = np.ascontiguousarray(points.T)
+    ends = np.cumsum(counts)
+    sums = []
     for part in batches(counts, TRIANGLES_PER_BLOCK):
         rows = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]]
         corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
         sums.append(_segment_sums(corners, counts[part], center[part], area, area_moments))
-    of_volume, of_area, side, base, sizes = sums[0] if len(sums) == 1 else map(np.concatenate, zip(*sums))
-    products, number = side[:, :, None] * base[:, None] * counts[:, None, None], counts[:, None]
+    of_volume, of_area, side, base, sizes = (
+        sums[0] if len(sums) == 1 else map(np.concatenate, zip(*sums))
+    )
+    products = side[:, :, None] * base[:, None] * counts[:, None, None]
+    number = counts[:, None]
     tau = np.array([products[:, i, j] + products[:, j, i] for i, j in AXIS_PAIRS]).T
-    lengths = np.sqrt(np.add.reduce(side * side, axis=1)) + np.sqrt(np.add.reduce(base * base, axis=1))
+    lengths = np.sqrt(np.add.reduce(side * side, axis=1)) + np.sqrt(
+        np.add.reduce(base * base, axis=1)
+    )
     edges = lengths[:, None] * number  # bound the sums at the triangles' first corners
     rounding, inputs = error_bounds(reach, half_ulp, tau, edges, sizes, number, 3.0 * number, area)
-    raw, cones = of_volume / DIVISORS, np.array([sizes[:, 0], of_volume[:, 0]]).T
+    raw = of_volume / DIVISORS
+    cones = np.array([sizes[:, 0], of_volume[:, 0]]).T
     error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
     volume = unchecked_moments(raw, center, Measure.VOLUME, error, inputs[0])
     if not area:
@@ -88,7 +105,8 @@ def _segment_sums(
     """
     starts = np.cumsum(counts) - counts
     edges = corners[:, 1:] - corners[:, :1]
-    above, below = edges.take(NEXT_AXIS, 0), edges.take(PREVIOUS_AXIS, 0)
+    above = edges.take(NEXT_AXIS, 0)
+    below = edges.take(PREVIOUS_AXIS, 0)
     normals = above[:, 0] * below[:, 1] - below[:, 0] * above[:, 1]
     nodes = np.empty((3, 4, corners.shape[2]))  # a, b, c and s
     middle = center.T[:, None] if len(counts) == 1 else np.repeat(center.T, counts, axis=1)[:, None]
@@ -113,7 +131,9 @@ def _segment_sums(
     largest = np.maximum.reduceat(np.abs(edges), starts, axis=2)
     return (
         np.add.reduceat(sums * det, starts, axis=1).T,
-        np.add.reduceat(sums * sizes[1], starts, axis=1).T if area_moments else np.empty((len(counts), 0)),
+        np.add.reduceat(sums * sizes[1], starts, axis=1).T
+        if area_moments
+        else np.empty((len(counts), 0)),
         largest[:, 0].T,
         largest[:, 1].T,
         np.add.reduceat(sizes, starts, axis=1).T,
@@ -136,12 +156,19 @@ def error_bounds(
     Σ |w|. counts: (n, 1) triangles. sum_roundings: of the sums, in units u.
     """
     moved_reach = reach + half_ulp
-    powers, displaced = monomial_bounds(reach), monomial_bounds(moved_reach)
-    weight = 9.0 * U * np.array([np.add.reduce(reach * tau, axis=1), np.add.reduce(tau, axis=1)])[:, :, None]
+    powers = monomial_bounds(reach)
+    displaced = monomial_bounds(moved_reach)
+    weight = (
+        9.0
+        * U
+        * np.array([np.add.reduce(reach * tau, axis=1), np.add.reduce(tau, axis=1)])[:, :, None]
+    )
     size = sizes.T[:, :, None] * (1.0 + 1e-9)
     # Then come their products with the nodes, the sums, and the loss by underflow.
     steps = PRODUCT_ROUNDINGS + sum_roundings
-    rounding = (weight + 1e-290 * counts + (U * (size + weight)) * steps) * powers * THIRD_ORDER_SHARE
+    rounding = (
+        (weight + 1e-290 * counts + (U * (size + weight)) * steps) * powers * THIRD_ORDER_SHARE
+    )
     inputs = np.zeros((2, len(reach), 20))
     if half_ulp.any():
         step = np.sqrt(np.add.reduce(half_ulp * half_ulp, axis=1))[:, None]
@@ -149,7 +176,9 @@ def error_bounds(
         # A closed surface sweeps this volume if float32 moves its points.
         swept = double / 2.0 + step * edges + 2.0 * step * step * counts
         tilted = step * (edges + 2.0 * step * counts)
-        share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # 1 for an axis without extent
+        share = half_ulp / np.where(
+            moved_reach > 0.0, moved_reach, 1.0
+        )  # 1 for an axis without extent
         inputs[0] = step * swept * displaced
         inputs[1] = displaced * (tilted + np.add.reduce(share[:, None] * EXPONENTS, axis=2) * swept)
     return rounding, inputs

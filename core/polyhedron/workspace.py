@@ -15,7 +15,9 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-ROW_PADDING = 8  # numbers between arrays: numpy < 2 leaves its vector loop where output ends at input's start
+ROW_PADDING = (
+    8  # numbers between arrays: numpy < 2 leaves its vector loop where output ends at input's start
+)
 MAX_ARRAYS = 16  # arrays of one shape, at a time
 
 Block = TypeVar("Block")
@@ -54,7 +56,9 @@ class Workspace(Generic[Block]):
 
     def overlay(self, *groups: Sequence[tuple[int, ...]]) -> list[list[NDArray[np.float64]]]:
         """Return arrays of the given shapes, by group; the groups share memory: only one is in use at a time."""
-        start, end, arrays = self._position, self._position, []
+        start = self._position
+        end = self._position
+        arrays = []
         for group in groups:
             self._position = start
             arrays.append([self.take(*shape) for shape in group])
@@ -63,9 +67,15 @@ class Workspace(Generic[Block]):
         return arrays
 
 
-def gather(points: NDArray, index: NDArray[np.intp], single: NDArray[np.float32], corners: NDArray[np.float64]) -> None:
+def gather(
+    points: NDArray,
+    index: NDArray[np.intp],
+    single: NDArray[np.float32],
+    corners: NDArray[np.float64],
+) -> None:
     """Gather coordinates into `corners`, (3, ...), float32 ones by way of `single`. index: checked; gets tripled."""
-    flat, target = points.reshape(-1), single if points.dtype == np.float32 else corners
+    flat = points.reshape(-1)
+    target = single if points.dtype == np.float32 else corners
     np.multiply(index, 3, index)
     for axis in range(3):  # the indices have been checked: "wrap" is the mode that costs least
         flat[axis:].take(index, None, target[axis], "wrap")

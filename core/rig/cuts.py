@@ -97,7 +97,9 @@ def _apexes(
     first, last = ends.reshape(2, -1)
     cut = connected_components(len(vertices), first, last)[0][first]
     # An edge counts once, however many bones meet there.
-    edges = np.unique(np.stack([np.minimum(start, stop), np.maximum(start, stop), cut], axis=1), axis=0)
+    edges = np.unique(
+        np.stack([np.minimum(start, stop), np.maximum(start, stop), cut], axis=1), axis=0
+    )
     begin, end = points[edges[:, 0]], points[edges[:, 1]]
     origin = points[vertices].mean(axis=0)  # far from the world's origin, digits would be lost
     length = np.maximum(np.linalg.norm(end - begin, axis=1), np.finfo(float).tiny)
@@ -140,10 +142,13 @@ def dominant_bones(
     faces, corners: (c,) the face, 0 to f - 1, and the vertex of each corner of the surface. points: (n, 3) in the
     bones' coordinates. bones: (b, 2, 3) the two ends of each bone.
     """
-    points, bones = points.astype(np.float64), bones.astype(np.float64)
+    points = points.astype(np.float64)
+    bones = bones.astype(np.float64)
     number = len(bones)
     size = np.bincount(faces)
-    center = np.stack([np.bincount(faces, points[corners, k]) / np.maximum(size, 1) for k in range(3)], axis=1)
+    center = np.stack(
+        [np.bincount(faces, points[corners, k]) / np.maximum(size, 1) for k in range(3)], axis=1
+    )
     face, bone, score = _scores(faces, corners, weights, number)
     result = np.full(len(size), -1)
     starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
@@ -170,7 +175,11 @@ def _scores(
     first = np.cumsum(per_vertex) - per_vertex
     repeats = per_vertex[corners]
     owner = np.repeat(np.arange(len(corners)), repeats)
-    entry = np.arange(len(owner)) - np.repeat(np.cumsum(repeats) - repeats, repeats) + first[corners][owner]
+    entry = (
+        np.arange(len(owner))
+        - np.repeat(np.cumsum(repeats) - repeats, repeats)
+        + first[corners][owner]
+    )
     key = faces[owner].astype(np.int64) * number + weights.bone[entry]
     pairs, place = np.unique(key, return_inverse=True)
     score = sums_by_index(place, weights.normalized()[entry])
@@ -179,7 +188,9 @@ def _scores(
     return face, bone, score[positive]
 
 
-def _nearest(face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray[np.float64]) -> NDArray[np.integer]:
+def _nearest(
+    face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray[np.float64]
+) -> NDArray[np.integer]:
     """Return for each of k rows the nearest bone of its face, the first of equally near ones. Rows are by face."""
     starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
     least = np.repeat(np.minimum.reduceat(away, starts), sizes)
@@ -190,7 +201,8 @@ def _nearest(face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray
 
 def _distances(points: NDArray[np.float64], segments: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return (k,) distances of (k, 3) points, each from its segment, (k, 2, 3)."""
-    start, way = segments[:, 0], segments[:, 1] - segments[:, 0]
+    start = segments[:, 0]
+    way = segments[:, 1] - segments[:, 0]
     away = points - start
     length = (way * way).sum(axis=1)
     share = np.clip((away * way).sum(axis=1) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)

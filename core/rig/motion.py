@@ -17,15 +17,25 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.rotations import polar_rotation, quaternion, rotation_matrix
 
-Flight = tuple[int, int]  # indices of the last frame on the ground, or of frame 0, and of the next frame on the ground
-Span = tuple[int, int, float, float]  # indices of the first and last frame; linear and angular momentum from nothing
+Flight = tuple[
+    int, int
+]  # indices of the last frame on the ground, or of frame 0, and of the next frame on the ground
+Span = tuple[
+    int, int, float, float
+]  # indices of the first and last frame; linear and angular momentum from nothing
 
-NODES, DEGREE = 9, 8  # of the polynomial through the frames around a velocity
-CLOSE, CLOSE_DEGREE = 0.02, 5  # seconds: closer frames are captured, turn less, and have noise that averages out
+# of the polynomial through the frames around a velocity
+NODES = 9
+DEGREE = 8
+# seconds: closer frames are captured, turn less, and have noise that averages out
+CLOSE = 0.02
+CLOSE_DEGREE = 5
 AVERAGED = 3  # velocities between frames that give the velocity at a frame
 UNEXPLAINED = 0.2  # of the weight: more force than that without a contact comes from nothing
 SMOOTHED = 0.1  # seconds over which noise of captured motion averages out
-TRIALS, CORRECTIONS = 12, 10  # iterations for a turn between two frames, and for all turns
+# iterations for a turn between two frames, and for all turns
+TRIALS = 12
+CORRECTIONS = 10
 CONSTANT = 1e-9  # relative change of the angular momentum
 
 
@@ -51,7 +61,8 @@ class Course:
 
     def turned(self, turns: NDArray[np.float64]) -> Course:
         """Return the body turned about its center by a (3, 3) rotation at each frame."""
-        center, each = self.center[:, None], turns[:, None]
+        center = self.center[:, None]
+        each = turns[:, None]
         centers = center + np.einsum("fij,fpj->fpi", turns, self.centers - center)
         spreads = each @ self.spreads @ each.swapaxes(-1, -2)
         return Course(self.step, self.masses, centers, spreads, each @ self.linear)
@@ -60,7 +71,9 @@ class Course:
 def find_flights(touching: ArrayLike) -> list[Flight]:
     """Return the flights, with the contact frames at their ends. touching: (f,) mask of the frames on the ground."""
     last = len(np.asarray(touching)) - 1
-    return [(max(start - 1, 0), min(end, last)) for start, end in _runs(~np.asarray(touching, bool))]
+    return [
+        (max(start - 1, 0), min(end, last)) for start, end in _runs(~np.asarray(touching, bool))
+    ]
 
 
 def _runs(true: NDArray[np.bool_]) -> list[tuple[int, int]]:
@@ -69,26 +82,42 @@ def _runs(true: NDArray[np.bool_]) -> list[tuple[int, int]]:
     return [(start, end) for start, end in edges.reshape(-1, 2).tolist()]
 
 
-def momenta_between(course: Course, first: int, last: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def momenta_between(
+    course: Course, first: int, last: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the motion in the middle between neighboring frames of a section without jumps, and (n, 3, 3) inertia.
 
     The motion is (n, 7): the center's velocity, the angular momentum about the center, and the kinetic energy.
     """
-    rows, count, step = slice(first, last + 1), last - first, course.step
-    masses, center = course.masses, course.center[rows]
+    rows = slice(first, last + 1)
+    count = last - first
+    step = course.step
+    masses = course.masses
+    center = course.center[rows]
     axes = _axes(course.linear[rows, int(masses.argmax())])
     back = rotation_matrix(axes).swapaxes(-1, -2)[:, None]
     degree = DEGREE if step > CLOSE else CLOSE_DEGREE
-    mean, rate = (_stencils(count + 1, np.arange(count) + 0.5, NODES, order, degree) for order in (False, True))
+    mean, rate = (
+        _stencils(count + 1, np.arange(count) + 0.5, NODES, order, degree)
+        for order in (False, True)
+    )
     arms = (back @ (course.centers[rows] - center[:, None])[..., None])[..., 0]
     linear = back @ course.linear[rows]
-    arm, spread = mean(arms), mean(back @ course.spreads[rows] @ back.swapaxes(-1, -2))
-    arm_rate, shape, turn = rate(arms) / step, mean(linear), mean(axes)
+    arm = mean(arms)
+    spread = mean(back @ course.spreads[rows] @ back.swapaxes(-1, -2))
+    arm_rate = rate(arms) / step
+    shape = mean(linear)
+    turn = mean(axes)
     shape[np.linalg.det(shape) == 0.0] = np.eye(3)  # a bone scaled to nothing has no spread either
     growth = (rate(linear) / step) @ np.linalg.inv(shape)
-    rotation, turn_rate = rotation_matrix(turn), rate(axes) / step
+    rotation = rotation_matrix(turn)
+    turn_rate = rate(axes) / step
     # Twice the vector of the rate times the conjugate is the angular velocity.
-    spin = turn[:, :1] * turn_rate[:, 1:] - turn_rate[:, :1] * turn[:, 1:] - np.cross(turn_rate[:, 1:], turn[:, 1:])
+    spin = (
+        turn[:, :1] * turn_rate[:, 1:]
+        - turn_rate[:, :1] * turn[:, 1:]
+        - np.cross(turn_rate[:, 1:], turn[:, 1:])
+    )
     spin = 2.0 * np.einsum("fji,fj->fi", rotation, spin) / (turn * turn).sum(axis=1)[:, None]
     second = spread.sum(axis=1) + np.einsum("p,fpi,fpj->fij", masses, arm, arm)
     inertia = np.trace(second, axis1=1, axis2=2)[:, None, None] * np.eye(3) - second
@@ -101,17 +130,24 @@ def momenta_between(course: Course, first: int, last: int) -> tuple[NDArray[np.f
     energy = masses.sum() * (velocity**2).sum(axis=1) + (spin * (angular + inner)).sum(axis=1)
     energy += np.einsum("p,fpi->f", masses, arm_rate**2) + (product * growth).sum(axis=(1, 2, 3))
     angular = np.einsum("fij,fj->fi", rotation, angular)
-    return np.column_stack([velocity, angular, energy / 2.0]), rotation @ inertia @ rotation.swapaxes(-1, -2)
+    return np.column_stack(
+        [velocity, angular, energy / 2.0]
+    ), rotation @ inertia @ rotation.swapaxes(-1, -2)
 
 
-def momenta(course: Course, flights: Sequence[Flight]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def momenta(
+    course: Course, flights: Sequence[Flight]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the (f, 7) motion at the frames and its rate; the ends of a flight have the motion of the flight."""
     now, change = np.zeros((2, len(course.centers), 7))
     ends = sorted({0, len(course.centers) - 1, *(end for flight in flights for end in flight)})
     for first, last in sorted(zip(ends, ends[1:]), key=lambda section: section in flights):
-        between, at = momenta_between(course, first, last)[0], np.arange(last - first + 1) - 0.5
+        between = momenta_between(course, first, last)[0]
+        at = np.arange(last - first + 1) - 0.5
         now[first : last + 1] = _stencils(last - first, at, AVERAGED)(between)
-        change[first : last + 1] = _stencils(last - first, at, AVERAGED, derivative=True)(between) / course.step
+        change[first : last + 1] = (
+            _stencils(last - first, at, AVERAGED, derivative=True)(between) / course.step
+        )
     return now, change
 
 
@@ -120,14 +156,17 @@ def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray
 
     A force above a fifth of the weight is unexplained, and a torque above this force times the radius of gyration.
     """
-    spans, mass = [], float(course.masses.sum())
+    spans = []
+    mass = float(course.masses.sum())
     limit = UNEXPLAINED * mass * float(np.linalg.norm(gravity))
     for first, last in flights:
         if last - first < 2:
             continue
         between, inertia = momenta_between(course, first, last)
         nodes = min(2 * max(1, round(SMOOTHED / course.step / 2.0)), last - first)
-        slope = _stencils(last - first, np.arange(last - first - 1) + 0.5, nodes, derivative=True, degree=1)
+        slope = _stencils(
+            last - first, np.arange(last - first - 1) + 0.5, nodes, derivative=True, degree=1
+        )
         change = slope(between) / course.step
         force = mass * np.linalg.norm(change[:, :3] - gravity, axis=1)
         torque = np.linalg.norm(change[:, 3:6], axis=1)
@@ -153,7 +192,9 @@ def zero_moment_points(
     return center + moment / upward[:, None]
 
 
-def ballistic_arc(start: NDArray, end: NDArray, frames: int, step: float, gravity: ArrayLike) -> NDArray[np.float64]:
+def ballistic_arc(
+    start: NDArray, end: NDArray, frames: int, step: float, gravity: ArrayLike
+) -> NDArray[np.float64]:
     """Return (frames + 1, 3) places of a free fall from one place to another."""
     share = np.arange(frames + 1)[:, None] / frames
     fall = np.asarray(gravity, np.float64) * (0.5 * (frames * step) ** 2)
@@ -165,17 +206,23 @@ def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
     strength = float(np.linalg.norm(gravity))
     heights = -(center - center[0]) @ np.asarray(gravity, np.float64) / strength
     top = float(heights.max())
-    return float(np.sqrt(2.0 * top / strength) + np.sqrt(2.0 * (top - heights[-1]) / strength)) / step
+    return (
+        float(np.sqrt(2.0 * top / strength) + np.sqrt(2.0 * (top - heights[-1]) / strength)) / step
+    )
 
 
-def turns_of_constant_spin(course: Course, first: int, last: int, share: float = 0.0) -> NDArray[np.float64]:
+def turns_of_constant_spin(
+    course: Course, first: int, last: int, share: float = 0.0
+) -> NDArray[np.float64]:
     """Return (last - first + 1, 3, 3) turns about the center that keep the angular momentum after the first frame.
 
     The turns are integrated from frame to frame, then corrected until the momentum of the turned body stays the same.
     share: share of the last frame's angle about the momentum that is taken back at all frames.
     """
-    (motion, inertia), step = momenta_between(course, first, last), course.step
-    angular, inverse = motion[:, 3:6], np.linalg.inv(inertia)
+    (motion, inertia) = momenta_between(course, first, last)
+    step = course.step
+    angular = motion[:, 3:6]
+    inverse = np.linalg.inv(inertia)
     kept = angular[0]
     turns = np.tile(np.eye(3), (last - first + 1, 1, 1))
     for index in range(last - first):
@@ -205,7 +252,9 @@ def _axes(linear: NDArray) -> NDArray[np.float64]:
     """Return (f, 4) quaternions of a part's axes; each has the sign that is nearer to the previous quaternion."""
     polar, _ = polar_rotation(linear)
     turns = quaternion(polar * np.sign(np.linalg.det(polar))[:, None, None])
-    turns[1:] *= np.cumprod(np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))[:, None]
+    turns[1:] *= np.cumprod(np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))[
+        :, None
+    ]
     return turns
 
 
@@ -221,7 +270,14 @@ class _stencils:
     degree: of a polynomial fitted to the nodes; by default the polynomial goes through all of them.
     """
 
-    def __init__(self, count: int, places: NDArray, nodes: int, derivative: bool = False, degree: int | None = None):
+    def __init__(
+        self,
+        count: int,
+        places: NDArray,
+        nodes: int,
+        derivative: bool = False,
+        degree: int | None = None,
+    ):
         nodes = min(nodes, count)
         degree = nodes - 1 if degree is None else min(degree, nodes - 1)
         self.starts = np.clip(np.ceil(places - nodes / 2.0), 0, count - nodes).astype(np.intp)
@@ -231,10 +287,15 @@ class _stencils:
         fit = np.linalg.pinv((np.arange(nodes) - middle)[:, None] ** powers)
         basis = offsets[:, None] ** powers
         if derivative:
-            basis = np.concatenate([np.zeros((len(offsets), 1)), basis[:, :-1] * powers[1:]], axis=1)
+            basis = np.concatenate(
+                [np.zeros((len(offsets), 1)), basis[:, :-1] * powers[1:]], axis=1
+            )
         self.weights = basis @ fit
 
     def __call__(self, values: NDArray) -> NDArray[np.float64]:
         """Return (k, ...) combinations."""
         weights = self.weights[self.kinds].reshape(len(self.starts), -1, *(1,) * (values.ndim - 1))
-        return np.sum([weights[:, node] * values[self.starts + node] for node in range(weights.shape[1])], axis=0)
+        return np.sum(
+            [weights[:, node] * values[self.starts + node] for node in range(weights.shape[1])],
+            axis=0,
+        )

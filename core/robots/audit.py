@@ -123,7 +123,11 @@ class _Piece:
         """Return the piece rotated so that the up axis of its mesh file becomes z."""
         if self.upright is None:
             return self
-        moments = None if self.moments is None else self.moments.transform(Pose(rotation=self.upright).matrix)
+        moments = (
+            None
+            if self.moments is None
+            else self.moments.transform(Pose(rotation=self.upright).matrix)
+        )
         return _Piece(self.points @ self.upright.T, moments)
 
 
@@ -146,10 +150,13 @@ class Auditor:
         try:
             return self._link(link)
         except Exception as error:
-            return LinkAudit(link, (*_read_entries(link), Entry(internal_error.finding_of(error), link.place)))
+            return LinkAudit(
+                link, (*_read_entries(link), Entry(internal_error.finding_of(error), link.place))
+            )
 
     def _link(self, link: StatedLink) -> LinkAudit:
-        entries, place = _read_entries(link), link.inertial_place
+        entries = _read_entries(link)
+        place = link.inertial_place
         if link.inertial is None:
             if link.moves and not entries:
                 entries.append(Entry(finding(INERTIAL_MISSING), link.place))
@@ -157,11 +164,16 @@ class Auditor:
         if not link.shapes and not link.inertial.mass and not link.inertial.tensor.any():
             return LinkAudit(link, (*entries, Entry(finding(INERTIAL_OF_FRAME), place)))
         pieces, unread = self._pieces(link.shapes)
-        incomplete = bool(unread or entries)  # entries of the reader: about shapes, as there is an inertial
+        incomplete = bool(
+            unread or entries
+        )  # entries of the reader: about shapes, as there is an inertial
         entries += unread
         found = _judge(link, link.inertial, pieces, incomplete)
         if any(piece.upright is not None for several in pieces.values() for _, piece in several):
-            turned = {role: [(one, piece.turned()) for one, piece in several] for role, several in pieces.items()}
+            turned = {
+                role: [(one, piece.turned()) for one, piece in several]
+                for role, several in pieces.items()
+            }
             other = _judge(link, link.inertial, turned, incomplete)
             if (other.is_impossible, 2.0 * other.apart) < (found.is_impossible, found.apart):
                 found = other
@@ -169,10 +181,17 @@ class Auditor:
                 pieces = turned
         entries += found.entries
         drawn, collision = (_reference(pieces.get(role, ())) for role in ("visual", "collision"))
-        effect, stated = None, found.repaired or link.inertial
-        if collision is not None and not incomplete and (found.repaired is not None or not found.is_impossible):
+        effect = None
+        stated = found.repaired or link.inertial
+        if (
+            collision is not None
+            and not incomplete
+            and (found.repaired is not None or not found.is_impossible)
+        ):
             effect = collision.effect(stated, None if drawn is None else drawn.volume)
-            if drawn is not None and collision.compare(stated) > max(DIFFERS, drawn.compare(stated)):
+            if drawn is not None and collision.compare(stated) > max(
+                DIFFERS, drawn.compare(stated)
+            ):
                 note = collision.describe_effect(stated, effect, "collision geometry")
                 entries.append(Entry(note, place, compares=True))
         return replace(found, entries=tuple(entries), colliders=effect)
@@ -200,7 +219,9 @@ class Auditor:
         roots = self.roots.at(Path(stated.beside).parent) if stated.beside else self.roots
         key = shape.surface, shape.file, shape.size, roots.base
         if key not in self._meshes:
-            surface, upright = (shape.surface, None) if shape.surface else read_mesh(roots.find(shape.file))
+            surface, upright = (
+                (shape.surface, None) if shape.surface else read_mesh(roots.find(shape.file))
+            )
             self._meshes[key] = _measured(surface.transform(np.diag(shape.size)), upright)
         return self._meshes[key]
 
@@ -210,20 +231,31 @@ def _read_entries(link: StatedLink) -> list[Entry]:
     entries = []
     for found in link.findings:
         values = {**link.place._asdict(), "column": 1, **found.values}
-        entries.append(Entry(found, Place(values["line"], values["column"], values.get("source", link.place.file))))
+        entries.append(
+            Entry(
+                found,
+                Place(values["line"], values["column"], values.get("source", link.place.file)),
+            )
+        )
     return entries
 
 
 def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete: bool) -> LinkAudit:
     """Judge an inertial by its geometry. incomplete: True if some shapes could not be read; then none are compared."""
     place = link.inertial_place
-    points = [one.shape.pose.apply(piece.points) for several in pieces.values() for one, piece in several]
+    points = [
+        one.shape.pose.apply(piece.points) for several in pieces.values() for one, piece in several
+    ]
     hull = Hull(np.concatenate(points)) if points and not incomplete else None
     reasons = impossible(stated, hull)
     if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in reasons):
-        return LinkAudit(link, tuple(Entry(one, place, compares=True) for one in reasons), is_impossible=True)
+        return LinkAudit(
+            link, tuple(Entry(one, place, compares=True) for one in reasons), is_impossible=True
+        )
     wrong = [one for one in reasons if one.code != INERTIAL_TRIANGLE_SLIGHTLY]
-    references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
+    references = (
+        [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
+    )
     is_outside = any(one.code == INERTIAL_CENTER_OUTSIDE for one in wrong)
     diagnoses = diagnose(stated, references, [] if incomplete else _turned(pieces), is_outside)
     changes = [one for one in diagnoses if one.is_change]
@@ -242,7 +274,9 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
     reference = references[0]
     geometry = reference.uniform(stated.mass)
     if left:
-        entries = [one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM]  # It adds nothing to errors.
+        entries = [
+            one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM
+        ]  # It adds nothing to errors.
         # Geometry that cannot hold the mass shows nothing about its place.
         light_or_heavy = diagnose_density(geometry, reference)
         guess = None if light_or_heavy else finding(AUDIT_UNIFORM_INSTEAD)
@@ -250,18 +284,25 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
         entries += [Entry(one, place, (), guess, "guess" if guess else "", True) for one in left]
         entries += [Entry(one.finding, place, compares=True) for one in light_or_heavy]
     apart = min(one.compare(stated) for one in references)
-    return LinkAudit(link, tuple(entries), repaired, stated.mass / reference.volume, geometry, apart, bool(wrong))
+    return LinkAudit(
+        link, tuple(entries), repaired, stated.mass / reference.volume, geometry, apart, bool(wrong)
+    )
 
 
-def _entries(place: Place, diagnoses: Sequence[Diagnosis], explained: Sequence[Finding]) -> list[Entry]:
+def _entries(
+    place: Place, diagnoses: Sequence[Diagnosis], explained: Sequence[Finding]
+) -> list[Entry]:
     """Return one entry for each diagnosis, with the reasons that it explains: the center's, or all other ones."""
-    entries, is_single = [], sum(one.is_change for one in diagnoses) == 1
+    entries = []
+    is_single = sum(one.is_change for one in diagnoses) == 1
     for index, one in enumerate(diagnoses):
         if not one.is_change:
             entries.append(Entry(one.finding, place, compares=True))
             continue
         reasons = [
-            reason for reason in explained if is_single or (index == 0) == (reason.code == INERTIAL_CENTER_OUTSIDE)
+            reason
+            for reason in explained
+            if is_single or (index == 0) == (reason.code == INERTIAL_CENTER_OUTSIDE)
         ]
         certainty = "certain" if one.is_certain else "likely"
         entries.append(Entry(one.finding, place, tuple(reasons), one.finding, certainty, True))
@@ -307,15 +348,26 @@ def _turned(pieces: Pieces) -> list[tuple[Finding, Reference]]:
                 turn = rotation_of_angles(*map(radians, stated.angles))
                 shape = replace(shape, pose=Pose(shape.pose.position, turn))
             turned.append((replace(stated, shape=shape), piece))
-        if any(any(stated.angles or ()) for stated, _ in found) and (reference := _reference(turned)) is not None:
-            result.append((finding(AUDIT_ANGLES, part="geometry", unit="degrees", wanted="radians"), reference))
+        if (
+            any(any(stated.angles or ()) for stated, _ in found)
+            and (reference := _reference(turned)) is not None
+        ):
+            result.append(
+                (
+                    finding(AUDIT_ANGLES, part="geometry", unit="degrees", wanted="radians"),
+                    reference,
+                )
+            )
     return result
 
 
 def _primitive(shape: Shape) -> _Piece:
     """Return a primitive in its own frame, with its moments and points that enclose it."""
     if shape.kind == "box":
-        points = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * shape.size
+        points = (
+            np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+            * shape.size
+        )
     elif shape.kind in ("sphere", "ellipsoid"):
         points = spread_directions(BALL) * shape.size * ROUND
     else:
@@ -330,9 +382,12 @@ def _primitive(shape: Shape) -> _Piece:
     return _Piece(points, primitive_moments(shape))
 
 
-def repaired_copy(description: Description, repairs: Sequence[tuple[StatedLink, StatedInertial]]) -> bytes:
+def repaired_copy(
+    description: Description, repairs: Sequence[tuple[StatedLink, StatedInertial]]
+) -> bytes:
     """Return the bytes of a description's file with replaced inertials, every other byte as it was."""
-    data, writer = description.source, FORMATS[description.format].writer_module
+    data = description.source
+    writer = FORMATS[description.format].writer_module
     places = [(link.span, link, inertial) for link, inertial in repairs if link.span is not None]
     for (start, end), link, inertial in sorted(places, key=lambda place: place[0], reverse=True):
         old = data[start:end].decode("utf-8", "surrogateescape")

@@ -37,17 +37,31 @@ from .findings import (
 from .model import Effect, compare
 from .stated import StatedInertial, rotation_of_angles
 
-AGREES, DIFFERS = 5e-3, 1e-2  # Relative differences: below the first equal; above the second not by rounded digits.
+# Relative differences: below the first equal; above the second not by rounded digits.
+AGREES = 5e-3
+DIFFERS = 1e-2
 ROUNDING = 1e-9  # Relative differences below are none, and do not choose between changes.
 INCH, POUND = 0.0254, 0.45359237
 LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, INCH, 1.0 / INCH)
-IMPERIAL_INERTIAS = (POUND * INCH**2, POUND * (12.0 * INCH) ** 2, POUND / 16.0 * INCH**2)  # lb·in², lb·ft², oz·in²
+IMPERIAL_INERTIAS = (
+    POUND * INCH**2,
+    POUND * (12.0 * INCH) ** 2,
+    POUND / 16.0 * INCH**2,
+)  # lb·in², lb·ft², oz·in²
 INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
-DENSITIES = (10.0, 30_000.0)  # kg/m³, possible range of a robot: from foam to above the heaviest metal.
-USUAL_DENSITIES = (100.0, 12_000.0)  # Typical range; a change that only the density shows must lead into it.
+DENSITIES = (
+    10.0,
+    30_000.0,
+)  # kg/m³, possible range of a robot: from foam to above the heaviest metal.
+USUAL_DENSITIES = (
+    100.0,
+    12_000.0,
+)  # Typical range; a change that only the density shows must lead into it.
 AXES = np.array(list(permutations(range(3))))[1:]
 PRODUCT_NAMES = ("xy", "xz", "yz")
-CENTER, PRODUCTS = "center of mass", "products of inertia"  # Parts of an inertial, as the findings name them.
+# Parts of an inertial, as the findings name them.
+CENTER = "center of mass"
+PRODUCTS = "products of inertia"
 CENTER_AXES = "axes of the center of mass"
 CENTERS = (CENTER, CENTER_AXES)
 LENGTHS = "lengths of the inertial, the inertia twice,"
@@ -69,7 +83,9 @@ class Reference:
 
     def compare(self, stated: StatedInertial) -> float:
         """Return the larger relative difference: of the centers, per radius of gyration, or of the inertia."""
-        turned = np.linalg.norm(stated.inertia / stated.mass - self.inertia) / np.linalg.norm(self.inertia)
+        turned = np.linalg.norm(stated.inertia / stated.mass - self.inertia) / np.linalg.norm(
+            self.inertia
+        )
         return max(self.compare_centers(stated), float(turned))
 
     def compare_centers(self, stated: StatedInertial) -> float:
@@ -81,7 +97,9 @@ class Reference:
         """Return the mass properties of this geometry, filled evenly with the stated mass, beside the stated ones."""
         second = stated.mass * (np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia)
         volume_ratio = None if drawn_volume is None else self.volume / drawn_volume
-        return compare(stated.principal(), stated.mass, self.center - stated.center, second, volume_ratio)
+        return compare(
+            stated.principal(), stated.mass, self.center - stated.center, second, volume_ratio
+        )
 
     def describe_effect(self, stated: StatedInertial, effect: Effect, part: str) -> Finding:
         """Return the note about an effect of this geometry. part: its name."""
@@ -152,9 +170,15 @@ def diagnose(
         if second is not None:
             return [first, second]
         if center_is_wrong:
-            alone, stated = [replace(first, is_certain=False)], first.repaired
+            alone = [replace(first, is_certain=False)]
+            stated = first.repaired
             break
-    return [*alone, Diagnosis(nearest.describe_effect(stated, nearest.effect(stated, nearest.volume), "geometry"))]
+    return [
+        *alone,
+        Diagnosis(
+            nearest.describe_effect(stated, nearest.effect(stated, nearest.volume), "geometry")
+        ),
+    ]
 
 
 def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Diagnosis | None:
@@ -168,7 +192,12 @@ def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Dia
             if now < AGREES and now < 0.1 * apart:
                 fits.append(repaired)
                 if best is None or max(now, ROUNDING) < 0.1 * best[0]:
-                    best = now, _with_density(Diagnosis(finding(code, **values), repaired), stated, reference)
+                    best = (
+                        now,
+                        _with_density(
+                            Diagnosis(finding(code, **values), repaired), stated, reference
+                        ),
+                    )
     if best is None:
         return None
     masses = [one.mass for one in fits]  # Inertials per kg agree, but the masses need not.
@@ -193,7 +222,8 @@ def diagnose_density(stated: StatedInertial, reference: Reference) -> list[Diagn
         return []
     for factor in (1e-3, 1e3):
         if USUAL_DENSITIES[0] <= density * factor <= USUAL_DENSITIES[1]:
-            mass, inertia = float(_times(stated.mass, factor)), _times(stated.inertia, factor)
+            mass = float(_times(stated.mass, factor))
+            inertia = _times(stated.inertia, factor)
             repaired = stated.along_link(inertia, mass=mass)
             change = finding(AUDIT_UNIT, part="mass and inertia", factor=factor, density=density)
             return [Diagnosis(change, repaired, is_certain=False)]
@@ -204,10 +234,16 @@ def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference
     """Return a diagnosis, or one of the mesh's lengths if the density shows that these are wrong instead."""
     if found.finding.values.get("part") != LENGTHS:
         return found
-    factor, density = found.finding.values["factor"], stated.mass / reference.volume
+    factor = found.finding.values["factor"]
+    density = stated.mass / reference.volume
     other = density * factor**3  # were the mesh scaled by 1/factor
-    if DENSITIES[0] <= other <= DENSITIES[1]:  # Both cannot be in the range: a cube of a factor exceeds it.
-        return Diagnosis(finding(AUDIT_UNIT, part="lengths of the mesh", factor=1.0 / factor), is_of_geometry=True)
+    if (
+        DENSITIES[0] <= other <= DENSITIES[1]
+    ):  # Both cannot be in the range: a cube of a factor exceeds it.
+        return Diagnosis(
+            finding(AUDIT_UNIT, part="lengths of the mesh", factor=1.0 / factor),
+            is_of_geometry=True,
+        )
     if factor == INCH:  # Programs that state inches state pounds.
         values = {"part": WHOLE_IMPERIAL, "factor": IMPERIAL_INERTIAS[0]}
         *_, repaired = (one for _, some, one in _pounds(stated) if some == values)
@@ -236,32 +272,58 @@ def _changes(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
 
 
 def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
-    inertia, center, mass = stated.inertia, stated.center, stated.mass
+    inertia = stated.inertia
+    center = stated.center
+    mass = stated.mass
     density = mass / reference.volume
     for factor in (1e-3, 1e3):
         heavy = density * factor
         if DENSITIES[0] <= heavy <= DENSITIES[1] and not DENSITIES[0] <= density <= DENSITIES[1]:
-            yield AUDIT_UNIT, {"part": "mass", "factor": factor}, replace(stated, mass=float(_times(mass, factor)))
+            yield (
+                AUDIT_UNIT,
+                {"part": "mass", "factor": factor},
+                replace(stated, mass=float(_times(mass, factor))),
+            )
     for factor in INERTIA_UNITS:
-        yield AUDIT_UNIT, {"part": "inertia", "factor": factor}, stated.along_link(_times(inertia, factor))
+        yield (
+            AUDIT_UNIT,
+            {"part": "inertia", "factor": factor},
+            stated.along_link(_times(inertia, factor)),
+        )
     for factor in LENGTH_UNITS:
-        yield AUDIT_UNIT, {"part": CENTER, "factor": factor}, replace(stated, center=_times(center, factor))
+        yield (
+            AUDIT_UNIT,
+            {"part": CENTER, "factor": factor},
+            replace(stated, center=_times(center, factor)),
+        )
     for factor in LENGTH_UNITS:
-        whole = stated.along_link(_times(_times(inertia, factor), factor), center=_times(center, factor))
+        whole = stated.along_link(
+            _times(_times(inertia, factor), factor), center=_times(center, factor)
+        )
         yield AUDIT_UNIT, {"part": LENGTHS, "factor": factor}, whole
     yield from _pounds(stated)
     for part, factor in (("mass", mass), ("density", density)):
-        yield AUDIT_INERTIA_OF_UNIT, {"part": part, "factor": factor}, stated.along_link(inertia * factor)
+        yield (
+            AUDIT_INERTIA_OF_UNIT,
+            {"part": part, "factor": factor},
+            stated.along_link(inertia * factor),
+        )
 
 
 def _pounds(stated: StatedInertial) -> Iterator[Change]:
     """Yield changes of pounds, and of inertias in them, to SI units."""
     mass = stated.mass * POUND
-    yield AUDIT_UNIT, {"part": "mass, which is in pounds,", "factor": POUND}, replace(stated, mass=mass)
+    yield (
+        AUDIT_UNIT,
+        {"part": "mass, which is in pounds,", "factor": POUND},
+        replace(stated, mass=mass),
+    )
     for factor in IMPERIAL_INERTIAS:
         tensor = stated.along_link(stated.inertia * factor)
         yield AUDIT_UNIT, {"part": "inertia", "factor": factor}, tensor
-        if factor == IMPERIAL_INERTIAS[0]:  # It comes with a mass in pounds, and often with a center in inches.
+        if (
+            factor == IMPERIAL_INERTIAS[0]
+        ):  # It comes with a mass in pounds, and often with a center in inches.
             yield AUDIT_UNIT, {"part": IMPERIAL, "factor": factor}, replace(tensor, mass=mass)
             whole = replace(tensor, mass=mass, center=stated.center * INCH)
             yield AUDIT_UNIT, {"part": WHOLE_IMPERIAL, "factor": factor}, whole
@@ -285,7 +347,10 @@ def _square(arm: NDArray) -> NDArray[np.float64]:
 def _frames(stated: StatedInertial) -> Iterator[Change]:
     """Yield changes of the inertial frame's rotation: other units or order, transposed, or left out."""
     if stated.angles is not None:
-        for unit, wanted, convert in (("degrees", "radians", radians), ("radians", "degrees", degrees)):
+        for unit, wanted, convert in (
+            ("degrees", "radians", radians),
+            ("radians", "degrees", degrees),
+        ):
             turned = rotation_of_angles(*map(convert, stated.angles))
             values = {"part": "inertial", "unit": unit, "wanted": wanted}
             yield AUDIT_ANGLES, values, replace(stated, rotation=turned)
@@ -294,12 +359,17 @@ def _frames(stated: StatedInertial) -> Iterator[Change]:
         for order, wanted in (((z, w, x, y), "w x y z"), ((x, y, z, w), "x y z w")):
             values = {"part": "quaternion of the inertial", "order": wanted}
             yield AUDIT_ORDER, values, replace(stated, rotation=rotation_matrix(order))
-    yield AUDIT_TRANSPOSED, {"part": "rotation of the inertial"}, replace(stated, rotation=stated.rotation.T)
+    yield (
+        AUDIT_TRANSPOSED,
+        {"part": "rotation of the inertial"},
+        replace(stated, rotation=stated.rotation.T),
+    )
     yield AUDIT_FRAME_NOT_MEANT, {}, replace(stated, rotation=np.eye(3))
 
 
 def _signs(stated: StatedInertial) -> Iterator[Change]:
-    rows, columns = np.array([0, 0, 1]), np.array([1, 2, 2])
+    rows = np.array([0, 0, 1])
+    columns = np.array([1, 2, 2])
     _, *some, all_of_them = product((1.0, -1.0), repeat=3)
     for signs in (all_of_them, *some):
         for along_link in (True, False):
@@ -312,13 +382,24 @@ def _signs(stated: StatedInertial) -> Iterator[Change]:
         names = [axis for axis, sign in zip("xyz", signs) if sign == -1.0]
         yield AUDIT_SIGN, {"part": CENTER, "axes": names}, _mapped(stated, np.diag(signs))[1]
     for axis in range(3):
-        yield AUDIT_MIRRORED, {"axis": "xyz"[axis]}, _mapped(stated, np.diag(1.0 - 2.0 * np.eye(3)[axis]))[2]
+        yield (
+            AUDIT_MIRRORED,
+            {"axis": "xyz"[axis]},
+            _mapped(stated, np.diag(1.0 - 2.0 * np.eye(3)[axis]))[2],
+        )
 
 
-def _mapped(stated: StatedInertial, linear: NDArray) -> tuple[StatedInertial, StatedInertial, StatedInertial]:
+def _mapped(
+    stated: StatedInertial, linear: NDArray
+) -> tuple[StatedInertial, StatedInertial, StatedInertial]:
     """Return an inertial with the inertia, the center, and both mapped by a (3, 3) orthogonal matrix."""
-    inertia, center = linear @ stated.inertia @ linear.T, linear @ stated.center
-    return stated.along_link(inertia), replace(stated, center=center), stated.along_link(inertia, center=center)
+    inertia = linear @ stated.inertia @ linear.T
+    center = linear @ stated.center
+    return (
+        stated.along_link(inertia),
+        replace(stated, center=center),
+        stated.along_link(inertia, center=center),
+    )
 
 
 def _orders(stated: StatedInertial) -> Iterator[Change]:
@@ -337,9 +418,13 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
         yield AUDIT_ORDER, {"part": "diagonal of the inertia", "order": axes}, changed
         changed = stated.along_link(diagonal + (swapped - other_diagonal))
         yield AUDIT_ORDER, {"part": PRODUCTS, "order": pairs}, changed
-    for axis, way in product(range(3), (1.0, -1.0)):  # A quarter turn, such as y up instead of z up.
+    for axis, way in product(
+        range(3), (1.0, -1.0)
+    ):  # A quarter turn, such as y up instead of z up.
         along = np.eye(3)[axis]
-        tensor, _, both = _mapped(stated, np.outer(along, along) + way * np.cross(along, np.eye(3)).T)
+        tensor, _, both = _mapped(
+            stated, np.outer(along, along) + way * np.cross(along, np.eye(3)).T
+        )
         yield AUDIT_TURNED, {"part": "inertial", "axis": "xyz"[axis]}, both
         yield AUDIT_TURNED, {"part": "inertia", "axis": "xyz"[axis]}, tensor
 
@@ -351,4 +436,8 @@ def _transposed(stated: StatedInertial) -> Iterator[Change]:
         for signs in ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)):
             rows = axes[:, order] * signs
             tensor = rows.T @ (moments[list(order)][:, None] * rows)
-            yield AUDIT_TRANSPOSED, {"part": "principal axes that make the tensor"}, stated.along_link(tensor)
+            yield (
+                AUDIT_TRANSPOSED,
+                {"part": "principal axes that make the tensor"},
+                stated.along_link(tensor),
+            )

@@ -69,7 +69,9 @@ GLTF_UNIT_SCALE = note(
     "about bodies that are scaled.",
 )
 ROBOT_LINKS_BARE = note(
-    "robot_links_bare", "{count} link has no geometry: {links}.", "{count} links have no geometry: {links}."
+    "robot_links_bare",
+    "{count} link has no geometry: {links}.",
+    "{count} links have no geometry: {links}.",
 )
 SDF_FRAMES_ADDED = note(
     "sdf_frames_added",
@@ -89,9 +91,12 @@ USD_INERTIA_TOO_SMALL = warning(
     "a stage in smaller units.",
 )
 XML_ENTITIES = error(
-    "xml_entities", "The file declares a document type, with which entities could be declared. Remove it."
+    "xml_entities",
+    "The file declares a document type, with which entities could be declared. Remove it.",
 )
-DESCRIPTION_INVALID = error("description_invalid", "The file is not {format}: line {line}, {error}.")
+DESCRIPTION_INVALID = error(
+    "description_invalid", "The file is not {format}: line {line}, {error}."
+)
 USD_NOT_TEXT = error(
     "usd_not_text",
     "{name} is binary USD or refers to other files, which only the Python module usd-core reads. Install it (pip "
@@ -102,14 +107,20 @@ XACRO_NOT_EXPANDED = error(
     "xacro cannot expand the file ({error}). Correct it, or expand it where all packages are: xacro {name} > "
     "robot.urdf.",
 )
-DESCRIPTION_UNKNOWN = error("description_unknown", "The file is no robot description. Its first element is {tag}.")
-INCLUDE_UNREADABLE = error("include_unreadable", "A file that it includes cannot be read: {name}. {cause}")
+DESCRIPTION_UNKNOWN = error(
+    "description_unknown", "The file is no robot description. Its first element is {tag}."
+)
+INCLUDE_UNREADABLE = error(
+    "include_unreadable", "A file that it includes cannot be read: {name}. {cause}"
+)
 INCLUDE_TWICE = error("include_twice", "It includes a file twice: {name}.")
 DESCRIPTION_NUMBER = warning(
     "description_number",
     "Line {line}: <{element}> has “{text}”, which the audit cannot use. Correct it; nothing is compared.",
 )
-MESH_ON_NETWORK = warning("mesh_on_network", "A file is on a network, and was not loaded: {name}. Download it.")
+MESH_ON_NETWORK = warning(
+    "mesh_on_network", "A file is on a network, and was not loaded: {name}. Download it."
+)
 MESH_MISSING = warning(
     "mesh_missing",
     "A file is missing: {name}. If it is in another package, name the folder of the package with --package-path.",
@@ -121,15 +132,21 @@ MESH_OUTSIDE = warning(
 )
 MESH_UNREADABLE = warning("mesh_unreadable", "A mesh cannot be read: {name}. {cause}")
 INERTIAL_MISSING = warning(
-    "inertial_missing", "No inertial. Readers differ: some take 1 kg, some none. Add mass and inertia."
+    "inertial_missing",
+    "No inertial. Readers differ: some take 1 kg, some none. Add mass and inertia.",
 )
-INERTIAL_NOT_FINITE = error("inertial_not_finite", "Mass, center or inertia is not a number, or is too large.")
+INERTIAL_NOT_FINITE = error(
+    "inertial_not_finite", "Mass, center or inertia is not a number, or is too large."
+)
 INERTIAL_OF_FRAME = note(
     "inertial_of_frame", "Zero mass, inertia and no geometry: a mere frame. Leave the inertial out."
 )
-INERTIAL_NOT_POSITIVE = error("inertial_not_positive", "Impossible: the {part:word} is {value:.6g} {unit}.")
+INERTIAL_NOT_POSITIVE = error(
+    "inertial_not_positive", "Impossible: the {part:word} is {value:.6g} {unit}."
+)
 INERTIAL_TRIANGLE = error(
-    "inertial_triangle", "Impossible: the largest principal moment exceeds the sum of the others by {excess:percent}."
+    "inertial_triangle",
+    "Impossible: the largest principal moment exceeds the sum of the others by {excess:percent}.",
 )
 INERTIAL_TRIANGLE_SLIGHTLY = warning(
     "inertial_triangle_slightly",
@@ -137,14 +154,16 @@ INERTIAL_TRIANGLE_SLIGHTLY = warning(
     "readers refuse it; state more digits.",
 )
 INERTIAL_CENTER_OUTSIDE = error(
-    "inertial_center_outside", "Impossible: the center of mass is {distance:length} outside of the geometry."
+    "inertial_center_outside",
+    "Impossible: the center of mass is {distance:length} outside of the geometry.",
 )
 INERTIAL_SPREAD_OUTSIDE = error(
     "inertial_spread_outside",
     "Impossible: with this inertia, mass lies outside of the geometry (variance {factor:.3g} times too large).",
 )
 AUDIT_UNIFORM_INSTEAD = warning(
-    "audit_uniform_instead", "State the inertial of the geometry, filled evenly with the stated mass."
+    "audit_uniform_instead",
+    "State the inertial of the geometry, filled evenly with the stated mass.",
 )
 AUDIT_NOT_UNIFORM = note(
     "audit_not_uniform",
@@ -158,18 +177,24 @@ AUDIT_UP_AXIS = warning(
     "Export the mesh with z up.",
 )
 AUDIT_DENSITY = warning("audit_density", "The density is {density:.3g} kg/m³. Check mass and mesh.")
-AUDIT_UNIT = warning("audit_unit", "Multiply the {part:word} by {factor:g}: inertial and geometry then agree.")
+AUDIT_UNIT = warning(
+    "audit_unit", "Multiply the {part:word} by {factor:g}: inertial and geometry then agree."
+)
 AUDIT_INERTIA_OF_UNIT = warning(
-    "audit_inertia_of_unit", "The inertia is that of {part:word} 1. Multiply it by the {part:word}, {factor:.6g}."
+    "audit_inertia_of_unit",
+    "The inertia is that of {part:word} 1. Multiply it by the {part:word}, {factor:.6g}.",
 )
 AUDIT_INERTIA_ELSEWHERE = warning(
-    "audit_inertia_elsewhere", "The inertia is about the origin of the {part:word}. State it about the center of mass."
+    "audit_inertia_elsewhere",
+    "The inertia is about the origin of the {part:word}. State it about the center of mass.",
 )
 AUDIT_INERTIA_SHIFTED_TWICE = warning(
     "audit_inertia_shifted_twice",
     "The inertia was shifted away from the center of mass with the wrong sign. Add the parallel-axis term.",
 )
-AUDIT_ANGLES = warning("audit_angles", "The angles of the {part:word} are in {unit:word}. State them in {wanted:word}.")
+AUDIT_ANGLES = warning(
+    "audit_angles", "The angles of the {part:word} are in {unit:word}. State them in {wanted:word}."
+)
 AUDIT_FRAME_NOT_MEANT = warning(
     "audit_frame_not_meant",
     "The inertia is along the axes of the link, though the inertial is rotated. Remove the rotation.",
@@ -179,6 +204,10 @@ AUDIT_SIGN = warning(
     "audit_sign",
     "Wrong sign: {part:word}, {axes}. Change it; products of inertia in a tensor are negative integrals, -∫xy dm.",
 )
-AUDIT_MIRRORED = warning("audit_mirrored", "The inertial is that of the mirror image along {axis}. Mirror it.")
+AUDIT_MIRRORED = warning(
+    "audit_mirrored", "The inertial is that of the mirror image along {axis}. Mirror it."
+)
 AUDIT_ORDER = warning("audit_order", "Wrong order: {part:word}. Put them in the order {order}.")
-AUDIT_TURNED = warning("audit_turned", "The {part:word} is turned by 90 degrees about {axis}. Turn it back.")
+AUDIT_TURNED = warning(
+    "audit_turned", "The {part:word} is turned by 90 degrees about {axis}. Turn it back."
+)

@@ -94,4 +94,6 @@ _TABLE = (
 )
 FORMATS = {entry.name: entry for entry in _TABLE}
 AUDITED = {entry.root: entry for entry in _TABLE if entry.reader}
-AUDITED_SUFFIXES = tuple(end for entry in AUDITED.values() for end in (entry.suffix, *entry.read_suffixes))
+AUDITED_SUFFIXES = tuple(
+    end for entry in AUDITED.values() for end in (entry.suffix, *entry.read_suffixes)
+)

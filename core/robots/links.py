@@ -64,9 +64,13 @@ def make_candidate(
     if not body.mass:
         return Candidate(name, None)
     frame = body.principal
-    inertial = Inertial.with_agreeing_axes(body.mass, body.center, body.inertia, frame.moments, frame.axes)
+    inertial = Inertial.with_agreeing_axes(
+        body.mass, body.center, body.inertia, frame.moments, frame.axes
+    )
     pose = Pose(measurement.location, rotation_matrix(quaternion(measurement.rotation)))
-    shapes = () if measurement.kind == "wire" else (Shape("mesh", sheet=measurement.kind == "shell"),)
+    shapes = (
+        () if measurement.kind == "wire" else (Shape("mesh", sheet=measurement.kind == "shell"),)
+    )
     return Candidate(name, Link(name, inertial, pose, shapes, np.array(scale), is_fixed), parents)
 
 
@@ -82,7 +86,9 @@ def assemble_robot(
                for one in candidates if one.link is not None}  # fmt: skip
     parents = {child: parent for child, parent in nearest.items() if parent is not None}
     loose = [one.name for one in connections if (one.first in links) != (one.second in links)]
-    edges, loops = _spanning_edges(links, parents, [one for one in connections if {one.first, one.second} <= {*links}])
+    edges, loops = _spanning_edges(
+        links, parents, [one for one in connections if {one.first, one.second} <= {*links}]
+    )
     joints, findings = _check_mimics(_directed_joints(links, edges))
     left_out = [one.name for one in candidates if one.link is None]
     if loose:
@@ -116,7 +122,8 @@ def _spanning_edges(
         return tops[0] != tops[1]
 
     between = {frozenset((one.first, one.second)): one for one in reversed(connections)}
-    edges, names = [], {one.name for one in connections}
+    edges = []
+    names = {one.name for one in connections}
     for child, parent in parents.items():
         edge = between.get(frozenset((parent, child)))
         if edge is None or links[child].is_fixed and links[parent].is_fixed:
@@ -138,7 +145,9 @@ def _spanning_edges(
 def _exchange(edge: Connection, links: Mapping[str, Link]) -> Connection:
     """Return the connection of the same positions as seen from its other side."""
     free = tuple(axis.reverse() for axis in reversed(edge.free))
-    return edge._replace(first=edge.second, second=edge.first, pose=edge.pose or links[edge.second].pose, free=free)
+    return edge._replace(
+        first=edge.second, second=edge.first, pose=edge.pose or links[edge.second].pose, free=free
+    )
 
 
 def _directed_joints(links: Mapping[str, Link], edges: Sequence[Connection]) -> list[Joint]:
@@ -156,7 +165,9 @@ def _directed_joints(links: Mapping[str, Link], edges: Sequence[Connection]) -> 
             path.append(above[path[-1]])
         return path
 
-    fixed = sorted((link.name for link in links.values() if link.is_fixed), key=lambda name: len(path_up(name)))
+    fixed = sorted(
+        (link.name for link in links.values() if link.is_fixed), key=lambda name: len(path_up(name))
+    )
     joints: dict[str, Joint] = {}
     visited: set[str] = set()
     for root in [*fixed, *(path_up(name)[-1] for name in links)]:
@@ -166,7 +177,8 @@ def _directed_joints(links: Mapping[str, Link], edges: Sequence[Connection]) -> 
             visited.add(parent)
             for edge in around[parent]:
                 edge = edge if edge.first == parent else _exchange(edge, links)
-                child, pose = edge.second, Pose()
+                child = edge.second
+                pose = Pose()
                 if child in visited:
                     continue
                 waiting.append(child)
@@ -178,7 +190,8 @@ def _directed_joints(links: Mapping[str, Link], edges: Sequence[Connection]) -> 
 
 def _check_mimics(joints: Iterable[Joint]) -> tuple[list[Joint], list[Finding]]:
     """Return the joints, with mimics that name other joints of one axis, and findings about mimics that do not."""
-    checked, findings = [*joints], []
+    checked = [*joints]
+    findings = []
     single = {joint.child: joint.name for joint in checked if len(joint.free) == 1}
     single |= {name: name for name in single.values()}
     for index, joint in enumerate(checked):
@@ -188,6 +201,10 @@ def _check_mimics(joints: Iterable[Joint]) -> tuple[list[Joint], list[Finding]]:
         leader = single.get(mimic.joint, joint.name)
         is_usable = leader != joint.name and joint.name in single
         if not is_usable:
-            findings.append(finding(JOINT_VALUE_UNUSABLE, joint=joint.name, key="joint_mimic", value=mimic.joint))
+            findings.append(
+                finding(
+                    JOINT_VALUE_UNUSABLE, joint=joint.name, key="joint_mimic", value=mimic.joint
+                )
+            )
         checked[index] = replace(joint, mimic=mimic._replace(joint=leader) if is_usable else None)
     return checked, findings

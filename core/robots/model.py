@@ -45,7 +45,8 @@ class Pose:
     def matrix(self) -> NDArray[np.float64]:
         """The (4, 4) map from the frame to the other one."""
         matrix = np.eye(4)
-        matrix[:3, :3], matrix[:3, 3] = self.rotation, self.position
+        matrix[:3, :3] = self.rotation
+        matrix[:3, 3] = self.position
         return matrix
 
     def inverse(self) -> Pose:
@@ -90,14 +91,20 @@ class Inertial:
 
     def share(self, part: float) -> Inertial:
         """Return the inertial of a body with a part of this one's density."""
-        return replace(self, mass=part * self.mass, inertia=part * self.inertia, moments=part * self.moments)
+        return replace(
+            self, mass=part * self.mass, inertia=part * self.inertia, moments=part * self.moments
+        )
 
     def place(self, pose: Pose) -> Inertial:
         """Return the inertial in another frame, in which the link has the given pose."""
         turn = pose.rotation
         inertia = turn @ self.inertia @ turn.T
         return Inertial(
-            self.mass, turn @ self.center + pose.position, (inertia + inertia.T) / 2.0, self.moments, turn @ self.axes
+            self.mass,
+            turn @ self.center + pose.position,
+            (inertia + inertia.T) / 2.0,
+            self.moments,
+            turn @ self.axes,
         )
 
 
@@ -205,7 +212,9 @@ class Robot:
         names = {link.name for link in self.links}
         if len(names) < len(self.links) or len(self._joint_by_child) < len(self.joints):
             raise ValueError("a name stands twice")
-        if not names.issuperset([name for joint in self.joints for name in (joint.parent, joint.child)]):
+        if not names.issuperset(
+            [name for joint in self.joints for name in (joint.parent, joint.child)]
+        ):
             raise ValueError("joint without link")
         if sum(1 for _ in self.ordered()) < len(self.links):
             raise ValueError("joints close a loop")
@@ -258,30 +267,40 @@ class Robot:
         if joint is None:
             return link.pose
         outer = self.link(joint.parent).pose
-        return Pose() if outer is link.pose else outer.inverse() @ link.pose  # Equal frames without rounding.
+        return (
+            Pose() if outer is link.pose else outer.inverse() @ link.pose
+        )  # Equal frames without rounding.
 
     def with_fixed_roots(self) -> Robot:
         """Return the robot with all its roots fixed to the world."""
         roots = {link.name for link in self.roots}
-        return replace(self, links=tuple(replace(one, is_fixed=one.name in roots) for one in self.links))
+        return replace(
+            self, links=tuple(replace(one, is_fixed=one.name in roots) for one in self.links)
+        )
 
     def at_joints(self) -> Robot:
         """Return the robot with each link's origin at its joint, its axes unturned, for formats that demand it."""
-        places = {joint.child: joint.pose.position for joint in self.joints if joint.pose.position.any()}
+        places = {
+            joint.child: joint.pose.position for joint in self.joints if joint.pose.position.any()
+        }
         links = []
         for link in self.links:
             if link.name in places:
-                place, back = Pose(places[link.name]), Pose(-places[link.name])
+                place = Pose(places[link.name])
+                back = Pose(-places[link.name])
                 shapes = tuple(replace(shape, pose=back @ shape.pose) for shape in link.shapes)
                 inertial = link.inertial and link.inertial.place(back)
                 link = replace(link, inertial=inertial, pose=link.pose @ place, shapes=shapes)
             links.append(link)
-        joints = tuple(replace(joint, pose=Pose(rotation=joint.pose.rotation)) for joint in self.joints)
+        joints = tuple(
+            replace(joint, pose=Pose(rotation=joint.pose.rotation)) for joint in self.joints
+        )
         return replace(self, links=tuple(links), joints=joints)
 
     def rigid_parts(self, link: Link) -> list[Link]:
         """Return a link and all links below it that are connected by fixed joints only, parents first."""
-        parts, waiting = [], [link]
+        parts = []
+        waiting = [link]
         while waiting:
             part = waiting.pop()
             parts.append(part)
@@ -292,7 +311,9 @@ class Robot:
     def rigid_inertial(self, link: Link) -> Inertial | None:
         """Return the inertial of a link with all links fixed to it, in the link's frame; None if all lack mass."""
         to_link = link.pose.inverse()
-        parts = [(part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None]
+        parts = [
+            (part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None
+        ]
         if len(parts) == 1 and parts[0][0] is link:
             return link.inertial
         if not parts:
@@ -332,16 +353,22 @@ class Effect:
 
     def as_record(self) -> dict[str, float | list[float | None] | None]:
         """Return the plain numbers by their keys in a record."""
-        return {key: list(value) if isinstance(value, tuple) else value for key, value in asdict(self).items()}
+        return {
+            key: list(value) if isinstance(value, tuple) else value
+            for key, value in asdict(self).items()
+        }
 
 
-def compare(own: Inertial, mass: float, shift: NDArray, second: NDArray, volume_ratio: float | None) -> Effect:
+def compare(
+    own: Inertial, mass: float, shift: NDArray, second: NDArray, volume_ratio: float | None
+) -> Effect:
     """Compare a body with another one of a mass, kg, whose center is shifted, (3,) m.
 
     second: (3, 3) ∫ x xᵀ dm of the other body about its center, kg·m².
     """
     spreads, axes = np.linalg.eigh(second)
-    spreads, axes = np.maximum(spreads[::-1], 0.0), axes[:, ::-1]
+    spreads = np.maximum(spreads[::-1], 0.0)
+    axes = axes[:, ::-1]
     moments = spreads.sum() - spreads
     inertia = second.trace() * np.eye(3) - second
     return Effect(
@@ -365,7 +392,8 @@ def _axes_turn(own: NDArray, own_axes: NDArray, moments: NDArray, axes: NDArray)
     Equal moments leave their axes free: then the angle between the third axes counts, or none if all are equal.
     """
     equal = [(np.diff(one) <= EQUAL_MOMENTS_RTOL * one[2]).tolist() for one in (own, moments)]
-    low, high = equal[0][0] or equal[1][0], equal[0][1] or equal[1][1]
+    low = equal[0][0] or equal[1][0]
+    high = equal[0][1] or equal[1][1]
     if low and high:
         return 0.0
     if low or high:

@@ -28,7 +28,9 @@ from .findings import (
 from .stated import StatedInertial
 
 ROUNDING = 1e-3  # Relative excess that numbers printed with few digits may cause.
-LEAST_MASS, LARGEST = 1e-60, 1e60  # SI units: products of two such numbers stay in the range of float64.
+# SI units: products of two such numbers stay in the range of float64.
+LEAST_MASS = 1e-60
+LARGEST = 1e60
 ZERO_RTOL = 1e-14  # Relative to the largest moment: zero after finding the principal axes.
 CENTER_RTOL = 1e-3  # Relative to the hull's size.
 SPREAD_RTOL = 5e-3
@@ -54,7 +56,8 @@ class Hull:
         exchange them until the plane through that nearest point has all points of the hull behind it.
         """
         shifted = self.points - point
-        chosen, shares = [int(np.argmin((shifted**2).sum(axis=1)))], np.ones(1)
+        chosen = [int(np.argmin((shifted**2).sum(axis=1)))]
+        shares = np.ones(1)
         bound = 0.0
         for _ in range(MAX_STEPS):
             nearest = shares @ shifted[chosen]
@@ -82,7 +85,9 @@ def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
         return [finding(INERTIAL_NOT_FINITE)]
     findings = []
     if not stated.mass > LEAST_MASS:
-        findings.append(finding(INERTIAL_NOT_POSITIVE, part="mass", value=float(stated.mass), unit="kg"))
+        findings.append(
+            finding(INERTIAL_NOT_POSITIVE, part="mass", value=float(stated.mass), unit="kg")
+        )
     if stated.mass or stated.inertia.any():  # A mere placeholder has one fault.
         findings += _impossible_tensor(stated.inertia)
     if hull is None:
@@ -101,14 +106,20 @@ def _impossible_tensor(inertia: NDArray) -> list[Finding]:
     moments = np.linalg.eigvalsh(inertia)
     if not moments[0] > ZERO_RTOL * moments[2]:
         moment = 0.0 if abs(moments[0]) <= ZERO_RTOL * abs(moments[2]) else float(moments[0])
-        return [finding(INERTIAL_NOT_POSITIVE, part="least principal moment", value=moment, unit="kg·m²")]
+        return [
+            finding(
+                INERTIAL_NOT_POSITIVE, part="least principal moment", value=moment, unit="kg·m²"
+            )
+        ]
     excess = float(moments[2] / (moments[0] + moments[1]) - 1.0)
     if excess > ROUNDING:
         return [finding(INERTIAL_TRIANGLE, moments=moments.tolist(), excess=excess)]
     return [finding(INERTIAL_TRIANGLE_SLIGHTLY, excess=excess)] if excess > 1e-12 else []
 
 
-def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tuple[list[int], NDArray[np.float64]]:
+def _nearest_shares(
+    points: NDArray, chosen: list[int], shares: NDArray
+) -> tuple[list[int], NDArray[np.float64]]:
     """Drop chosen points until the foot from zero on their plane is in their hull; return their indices and shares."""
     while True:
         corners = points[chosen]
@@ -119,7 +130,9 @@ def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tupl
         if (wanted > 0.0).all():
             return chosen, wanted
         falls = wanted <= 0.0
-        way = float((shares[falls] / np.maximum(shares[falls] - wanted[falls], np.finfo(float).tiny)).min())
+        way = float(
+            (shares[falls] / np.maximum(shares[falls] - wanted[falls], np.finfo(float).tiny)).min()
+        )
         shares = shares + way * (wanted - shares)
         kept = shares > 1e-14  # This drops at least one falling share, which is zero to rounding.
         chosen = [one for one, keep in zip(chosen, kept) if keep]
@@ -140,5 +153,7 @@ def _excess_spread(stated: StatedInertial, hull: Hull, is_outside: bool) -> list
     worst = int(np.argmax((variance - limit) / (limit + tolerance)))
     if variance[worst] > limit[worst] + tolerance[worst]:
         factor = float(variance[worst] / max(limit[worst], tolerance[worst]))
-        return [finding(INERTIAL_SPREAD_OUTSIDE, factor=factor, direction=directions[worst].tolist())]
+        return [
+            finding(INERTIAL_SPREAD_OUTSIDE, factor=factor, direction=directions[worst].tolist())
+        ]
     return []

@@ -45,7 +45,9 @@ def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
     if not along > across:
         return sqrt(5.0 * float(moments.mean()) / (2.0 * mass)), 0.0
     ratio = along / across
-    low, high = 0.0, ratio  # A capsule of this length would have a larger ratio.
+    # A capsule of this length would have a larger ratio.
+    low = 0.0
+    high = ratio
     for _ in range(BISECTIONS):
         t = (low + high) / 2.0
         wide, far = _capsule(t)
@@ -57,7 +59,9 @@ def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
 
 def equal_inertia_shape(inertial: Inertial, kind: str) -> Shape:
     """Return the "box", "ellipsoid" or "capsule" with a link's mass, center and inertia, in the link's frame."""
-    mass, moments, axes = inertial.mass, inertial.moments, inertial.axes
+    mass = inertial.mass
+    moments = inertial.moments
+    axes = inertial.axes
     if kind == "capsule":
         along_z = axes[:, [1, 2, 0]]  # the long axis last, and still a rotation
         return Shape("capsule", capsule_size(mass, moments), Pose(inertial.center, along_z))
@@ -99,12 +103,15 @@ def primitive_moments(shape: Shape) -> Moments:
         second = volume * axes * axes / 5.0
     else:
         radius, length = shape.size
-        volume, across = pi * radius**2 * length, pi * radius**4 * length / 4.0
+        volume = pi * radius**2 * length
+        across = pi * radius**4 * length / 4.0
         along = pi * radius**2 * length**3 / 12.0
         if shape.kind == "capsule":
             volume += 4.0 / 3.0 * pi * radius**3
             across += 4.0 / 15.0 * pi * radius**5
-            along += pi * radius**3 * (4.0 / 15.0 * radius**2 + length * radius / 2.0 + length**2 / 3.0)
+            along += (
+                pi * radius**3 * (4.0 / 15.0 * radius**2 + length * radius / 2.0 + length**2 / 3.0)
+            )
         second = np.array([across, across, along])
     raw = np.zeros(monomial_count(KNOWN_ORDER))
     raw[0] = volume

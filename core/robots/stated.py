@@ -18,7 +18,9 @@ from .model import Inertial, Shape
 # The names of the tensor's entries in URDF and SDF.
 ENTRIES = (("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2))
 Angles = tuple[float, float, float]
-LEAST, MOST = 1e-30, 1e30  # of lengths in m and scales: fifth powers and their products stay in the range of float64
+# of lengths in m and scales: fifth powers and their products stay in the range of float64
+LEAST = 1e-30
+MOST = 1e30
 
 
 class Place(NamedTuple):
@@ -56,7 +58,9 @@ class StatedInertial:
     def along_link(self, inertia: NDArray | None = None, **changes) -> StatedInertial:
         """Return a copy in a frame along the link's axes, with its own or a given inertia, and other changes."""
         tensor = self.inertia if inertia is None else inertia
-        return replace(self, tensor=tensor, rotation=np.eye(3), angles=None, quaternion=None, **changes)
+        return replace(
+            self, tensor=tensor, rotation=np.eye(3), angles=None, quaternion=None, **changes
+        )
 
     def principal(self) -> Inertial:
         """Return an inertial with principal moments and axes, no moment above the sum of the others."""
@@ -128,12 +132,15 @@ class Description:
 
 def rotation_about(axis: NDArray, angle: float) -> NDArray[np.float64]:
     """Return the (3, 3) rotation about a (3,) axis of any length."""
-    return rotation_matrix([np.cos(angle / 2.0), *(np.sin(angle / 2.0) / np.linalg.norm(axis) * axis)])
+    return rotation_matrix(
+        [np.cos(angle / 2.0), *(np.sin(angle / 2.0) / np.linalg.norm(axis) * axis)]
+    )
 
 
 def rotation_of_angles(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
     """Return the (3, 3) rotation Rz(yaw) Ry(pitch) Rx(roll), as in URDF and SDF, of angles in radians."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos([roll, pitch, yaw]), np.sin([roll, pitch, yaw])
+    (cr, cp, cy) = np.cos([roll, pitch, yaw])
+    (sr, sp, sy) = np.sin([roll, pitch, yaw])
     return np.array(
         [
             [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],

@@ -7,8 +7,12 @@ from ..verdict.finding import error, note, warning
 FILE_MISSING = error("file_missing", "No such file.")
 FILE_NOT_REGULAR = error("file_not_regular", "Not a regular file.")
 FILE_TYPE = error("file_type", "Unsupported file type. Supported: {suffixes}.")
-FILE_UNRECOGNIZED = error("file_unrecognized", "This is no {format} file, or its header is damaged. Export it again.")
-FILE_DAMAGED = error("file_damaged", "The file “{file}” is damaged: {cause}. Obtain it again, or export it again.")
+FILE_UNRECOGNIZED = error(
+    "file_unrecognized", "This is no {format} file, or its header is damaged. Export it again."
+)
+FILE_DAMAGED = error(
+    "file_damaged", "The file “{file}” is damaged: {cause}. Obtain it again, or export it again."
+)
 DAMAGE_CUT_SHORT = error("damage_cut_short", "it ends within its {part:word}")
 DAMAGE_SIZE = error("damage_size", "it has {bytes} bytes of data, and its sizes require {total}")
 DAMAGE_INCOMPLETE = error("damage_incomplete", "it is not a complete {kind:word} ({error})")
@@ -23,31 +27,48 @@ LIMITS_UNRECOGNIZED = error(
     "of {names}.",
 )
 HEADER_FIELD = error(
-    "header_field", "The {format} field “{field}” must be {wanted:word}, not “{text:.60s}”. Correct the header."
+    "header_field",
+    "The {format} field “{field}” must be {wanted:word}, not “{text:.60s}”. Correct the header.",
 )
-NAMED_FILE_MISSING = error("named_file_missing", "The file “{file:.80s}” is missing, which has the {content:word}.")
+NAMED_FILE_MISSING = error(
+    "named_file_missing", "The file “{file:.80s}” is missing, which has the {content:word}."
+)
 NRRD_DATA_FILE_OUTSIDE = error(
     "nrrd_data_file_outside",
     "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you trust the header, "
     "turn on Allow Outside, or use --allow-outside.",
 )
-OTHERS_LEFT_OUT = warning("others_left_out", "The {kind:word} “{name}” was measured; left out: {others}.")
+OTHERS_LEFT_OUT = warning(
+    "others_left_out", "The {kind:word} “{name}” was measured; left out: {others}."
+)
 RAW_WITHOUT_LAYOUT = error(
     "raw_without_layout",
     "A raw file does not describe its samples. Name it NAME_XxYxZ_TYPE.raw, such as head_128x128x54_uint16.raw, or add "
     "an NRRD header.",
 )
 SCAN_IN_SEVERAL_FILES = error(
-    "scan_in_several_files", "The samples are in another file or in several. Save them as one {suffix} file."
+    "scan_in_several_files",
+    "The samples are in another file or in several. Save them as one {suffix} file.",
 )
-SCAN_SIZE = error("scan_size", "A scan has three possible sizes, not {samples:size}. Save one volume of it.")
-SCAN_SAMPLE_TYPE = error("scan_sample_type", "Samples of type {type:.40s} are not supported real numbers.")
-SCAN_OUT_OF_MEMORY = error("scan_out_of_memory", "The samples do not fit into memory. Decompress the file.")
+SCAN_SIZE = error(
+    "scan_size", "A scan has three possible sizes, not {samples:size}. Save one volume of it."
+)
+SCAN_SAMPLE_TYPE = error(
+    "scan_sample_type", "Samples of type {type:.40s} are not supported real numbers."
+)
+SCAN_OUT_OF_MEMORY = error(
+    "scan_out_of_memory", "The samples do not fit into memory. Decompress the file."
+)
 SCAN_OWN_UNIT = warning(
-    "scan_own_unit", "The file has its own unit; the unit scale applies only to the given spacing and origin."
+    "scan_own_unit",
+    "The file has its own unit; the unit scale applies only to the given spacing and origin.",
 )
-SCAN_PLACEMENT_OVERRIDDEN = note("scan_placement_overridden", "Given values replace those of the header: {fields}.")
-SCAN_UNSTATED = warning("scan_unstated", "The file has no {part:word}: 1 was assumed. Use Set Spacing, or --{option}.")
+SCAN_PLACEMENT_OVERRIDDEN = note(
+    "scan_placement_overridden", "Given values replace those of the header: {fields}."
+)
+SCAN_UNSTATED = warning(
+    "scan_unstated", "The file has no {part:word}: 1 was assumed. Use Set Spacing, or --{option}."
+)
 POSITIONS_COUNT = error(
     "positions_count",
     "The positions along {axis} in “{file}” must be one row of numbers, {samples} as the scan has samples there, and "

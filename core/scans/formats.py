@@ -31,11 +31,17 @@ from .scan import Scan, wrong_field
 from .scan_files import DEFAULT_LIMITS, SUFFIXES, Limits, scan_suffix
 
 READERS: dict[str, Callable[[Path, Limits], Scan]] = dict(
-    zip(SUFFIXES, (read_npy, read_npz, read_nrrd, read_nrrd, read_nifti, read_nifti, read_named_raw), strict=True)
+    zip(
+        SUFFIXES,
+        (read_npy, read_npz, read_nrrd, read_nrrd, read_nifti, read_nifti, read_named_raw),
+        strict=True,
+    )
 )
 AXES = "xyz"
 CONTENTS = {"x": "positions along x", "y": "positions along y", "z": "positions along z"}
-Positions = tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, NDArray[np.float64] | None]
+Positions = tuple[
+    NDArray[np.float64] | None, NDArray[np.float64] | None, NDArray[np.float64] | None
+]
 EVEN: Positions = (None, None, None)
 
 
@@ -84,16 +90,25 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     except MemoryError as error:
         raise FileError(SCAN_OUT_OF_MEMORY) from error
     limits.check(path, "samples", scan.samples.size)
-    rows, scaling = scan.matrix[:3], (scan.slope, scan.intercept)
+    rows = scan.matrix[:3]
+    scaling = (scan.slope, scan.intercept)
     if not np.isfinite(rows).all() or not abs(np.linalg.det(rows[:, :3])) > 0.0:
-        raise wrong_field(scan_suffix(path), "spacing or directions", "finite, and not in one plane", *rows.ravel())
+        raise wrong_field(
+            scan_suffix(path),
+            "spacing or directions",
+            "finite, and not in one plane",
+            *rows.ravel(),
+        )
     if not np.isfinite(scaling).all():
         raise wrong_field(scan_suffix(path), "slope and intercept", "finite numbers", *scaling)
     return scan
 
 
 def sample_matrix(
-    scan: Scan, spacing: Sequence[float] | None, origin: Sequence[float] | None, unit_scale: float | None
+    scan: Scan,
+    spacing: Sequence[float] | None,
+    origin: Sequence[float] | None,
+    unit_scale: float | None,
 ) -> tuple[NDArray[np.float64], tuple[Finding, ...]]:
     """Return the matrix from sample indices of a scan to positions in meters, and findings.
 
@@ -132,7 +147,9 @@ def sample_matrix(
     if origin is not None:
         matrix[:3, 3] = float_array("origin", origin, 3) * given
     if scan.is_placed and (spacing is not None or origin is not None):
-        fields = [name for name, value in (("spacing", spacing), ("origin", origin)) if value is not None]
+        fields = [
+            name for name, value in (("spacing", spacing), ("origin", origin)) if value is not None
+        ]
         findings.append(finding(SCAN_PLACEMENT_OVERRIDDEN, fields=fields))
     if not scan.is_placed and spacing is None:
         findings.append(finding(SCAN_UNSTATED, part="spacing", option="spacing"))
@@ -150,7 +167,9 @@ def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float6
     array = map_array(path)
     if array.shape != (count,) or count < 2 or array.dtype.kind not in "iuf":
         size = " x ".join(map(str, array.shape))
-        raise FileError(POSITIONS_COUNT, **whose, samples=count, array="{} {}".format(size, array.dtype).strip())
+        raise FileError(
+            POSITIONS_COUNT, **whose, samples=count, array="{} {}".format(size, array.dtype).strip()
+        )
     row = np.array(array, np.float64)
     is_right = np.isfinite(row) & np.append(True, row[1:] > row[:-1])
     if not is_right.all():
@@ -160,11 +179,16 @@ def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float6
 
 def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) -> Positions:
     """Return the positions along each axis that has a file. Raises the errors of `read_positions`."""
-    x, y, z = (read_positions(files[axis], axis, count) if axis in files else None for axis, count in zip(AXES, shape))
+    x, y, z = (
+        read_positions(files[axis], axis, count) if axis in files else None
+        for axis, count in zip(AXES, shape)
+    )
     return x, y, z
 
 
-def place_samples(matrix: NDArray, positions: Positions, unit: float) -> tuple[NDArray[np.float64], Positions]:
+def place_samples(
+    matrix: NDArray, positions: Positions, unit: float
+) -> tuple[NDArray[np.float64], Positions]:
     """Put samples at positions along their axes' own directions; return the new (4, 4) matrix and the positions.
 
     `matrix` puts the regular sample (i, j, k) at matrix @ (i, j, k, 1). `positions` are (n,) coordinates along each of

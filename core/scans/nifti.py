@@ -19,7 +19,18 @@ from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samp
 from .scan_files import Limits
 
 HEADER = 348  # bytes
-TYPES = {2: "u1", 4: "i2", 8: "i4", 16: "f4", 64: "f8", 256: "i1", 512: "u2", 768: "u4", 1024: "i8", 1280: "u8"}
+TYPES = {
+    2: "u1",
+    4: "i2",
+    8: "i4",
+    16: "f4",
+    64: "f8",
+    256: "i1",
+    512: "u2",
+    768: "u4",
+    1024: "i8",
+    1280: "u8",
+}
 UNITS = {1: 1.0, 2: 1e-3, 3: 1e-6}
 ByteOrder: TypeAlias = Literal["<", ">"]
 BYTE_ORDERS: tuple[ByteOrder, ...] = ("<", ">")
@@ -85,7 +96,9 @@ def _sample_matrix(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
     spacing = np.abs(pixdim[1:4])
     if not all(0.0 < distance < math.inf for distance in spacing):
         if qform > 0 or any(pixdim[1:4]):
-            raise wrong_field("NIfTI", "pixdim", "three spacings that are not zero", *spacing.tolist())
+            raise wrong_field(
+                "NIfTI", "pixdim", "three spacings that are not zero", *spacing.tolist()
+            )
         return matrix, False
     if qform > 0:
         if not all(map(math.isfinite, (b, c, d, *offset))) or b * b + c * c + d * d > 1.0 + 1e-5:
@@ -93,7 +106,8 @@ def _sample_matrix(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
         a = math.sqrt(max(0.0, 1.0 - (b * b + c * c + d * d)))
         turn = rotation_matrix((a, b, c, d))
         turn[:, 2] *= -1.0 if pixdim[0] < 0.0 else 1.0
-        matrix[:3, :3], matrix[:3, 3] = turn * spacing, offset
+        matrix[:3, :3] = turn * spacing
+        matrix[:3, 3] = offset
         return matrix, True
     matrix[:3, :3] = np.diag(spacing)
     return matrix, True

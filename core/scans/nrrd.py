@@ -29,17 +29,49 @@ from .scan_files import Limits
 
 HEADER_BLOCK = 1 << 16  # bytes of a header that are read at a time
 MAX_AXES = 16
-_METERS = {"": 1.0, "deci": 0.1, "centi": 1e-2, "milli": 1e-3, "micro": 1e-6, "nano": 1e-9, "kilo": 1e3}
+_METERS = {
+    "": 1.0,
+    "deci": 0.1,
+    "centi": 1e-2,
+    "milli": 1e-3,
+    "micro": 1e-6,
+    "nano": 1e-9,
+    "kilo": 1e3,
+}
 UNITS = {
-    **{prefix + name: unit for prefix, unit in _METERS.items() for name in ("meter", "meters", "metre", "metres")},
+    **{
+        prefix + name: unit
+        for prefix, unit in _METERS.items()
+        for name in ("meter", "meters", "metre", "metres")
+    },
     **{"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "nm": 1e-9, "km": 1e3},
     **dict.fromkeys(("um", "\u00b5m", "\u03bcm", "micron", "microns"), 1e-6),
     **dict.fromkeys(("in", "inch", "inches"), 0.0254),
     **dict.fromkeys(("ft", "foot", "feet"), 0.3048),
 }
-TIMES = {"s", "sec", "second", "seconds", "ms", "millisecond", "milliseconds", "us", "\u00b5s", "ns", "hz"}
-SPACE_KINDS = {"domain", "space", "stub", "none", "???"}  # The samples along other axes are no places.
-SAME_EXTENT_RTOL = 1e-3  # of a spacing times the count of samples, and the difference of axis maximum and minimum
+TIMES = {
+    "s",
+    "sec",
+    "second",
+    "seconds",
+    "ms",
+    "millisecond",
+    "milliseconds",
+    "us",
+    "\u00b5s",
+    "ns",
+    "hz",
+}
+SPACE_KINDS = {
+    "domain",
+    "space",
+    "stub",
+    "none",
+    "???",
+}  # The samples along other axes are no places.
+SAME_EXTENT_RTOL = (
+    1e-3  # of a spacing times the count of samples, and the difference of axis maximum and minimum
+)
 TYPES = {
     name: dtype
     for dtype, names in {
@@ -62,7 +94,8 @@ _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
 
 def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
     """Return the fields by lower-case names, and the samples' offset, None if the file ends before. FileError."""
-    head, end = bytearray(), None
+    head = bytearray()
+    end = None
     with open(path, "rb") as file:
         while not end and (block := file.read(HEADER_BLOCK)):
             seen = max(0, len(head) - 3)
@@ -122,13 +155,17 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
     if line_skip:
         start = _skip_lines(source, start, line_skip, limits)
     if encoding == "raw":
-        samples = map_samples(source, dtype, shape, start + max(byte_skip, 0), from_end=byte_skip == -1)
+        samples = map_samples(
+            source, dtype, shape, start + max(byte_skip, 0), from_end=byte_skip == -1
+        )
     else:
         samples = unpack_samples(source, start, dtype, shape, byte_skip, limits)
     return Scan(samples, matrix, unit, placed)
 
 
-def _samples_start(path: Path, name: str | None, start: int | None, limits: Limits) -> tuple[Path, int]:
+def _samples_start(
+    path: Path, name: str | None, start: int | None, limits: Limits
+) -> tuple[Path, int]:
     """Return the file that has the samples, and their offset in it. name: of a separate file, None for this one."""
     if name is None:
         if start is None:
@@ -145,10 +182,14 @@ def _samples_start(path: Path, name: str | None, start: int | None, limits: Limi
 
 
 def _field(fields: dict[str, str], name: str, wanted: str) -> FileError:
-    return FileError(HEADER_FIELD, format="NRRD", field=name, wanted=wanted, text=fields.get(name, ""))
+    return FileError(
+        HEADER_FIELD, format="NRRD", field=name, wanted=wanted, text=fields.get(name, "")
+    )
 
 
-def _numbers(fields: dict[str, str], name: str, parse: Callable[[str], Any], default: str = "") -> list:
+def _numbers(
+    fields: dict[str, str], name: str, parse: Callable[[str], Any], default: str = ""
+) -> list:
     try:
         return [parse(word) for word in fields.get(name, default).split()]
     except (ValueError, OverflowError):
@@ -187,7 +228,11 @@ def _sample_matrix(
     if "space directions" in fields:
         directions = _vectors(fields, "space directions")
         vectors = [row for row in directions if row is not None]
-        if len(vectors) != 3 or len(directions) == len(fields["sizes"].split()) and None in directions[:3]:
+        if (
+            len(vectors) != 3
+            or len(directions) == len(fields["sizes"].split())
+            and None in directions[:3]
+        ):
             raise _field(fields, "space directions", "three vectors")
         matrix[:3, :3] = np.array(vectors).T
         if "space origin" in fields:
@@ -200,14 +245,21 @@ def _sample_matrix(
         matrix[:3, :3] = np.diag([1.0, 1.0, 1.0] if spacings is None else spacings)
     if units is not None and unit is None:
         if "space directions" in fields and field == "units":
-            return matrix, placed, None  # Units of the axes do not tell those of their directions' coordinates.
-        matrix[:3], unit = matrix[:3] * units[:, None], 1.0
+            return (
+                matrix,
+                placed,
+                None,
+            )  # Units of the axes do not tell those of their directions' coordinates.
+        matrix[:3] = matrix[:3] * units[:, None]
+        unit = 1.0
     return matrix, placed, unit
 
 
 def _units(fields: dict[str, str], field: str) -> tuple[NDArray[np.float64] | None, float | None]:
     """Return the (3,) units of three axes in meters, None if one is unknown; and the one unit if they are equal."""
-    words = [(quoted or word).strip() for quoted, word in _WORD.findall(fields.get(field, "").lower())]
+    words = [
+        (quoted or word).strip() for quoted, word in _WORD.findall(fields.get(field, "").lower())
+    ]
     if field == "units" and TIMES.intersection(words[:3]):
         raise _field(fields, field, "units of length")
     units = [UNITS.get(word) for word in words[:3]]
@@ -216,7 +268,9 @@ def _units(fields: dict[str, str], field: str) -> tuple[NDArray[np.float64] | No
     return np.array(units, np.float64), units[0] if len(set(units)) == 1 else None
 
 
-def _even_axes(fields: dict[str, str], shape: tuple[int, int, int]) -> tuple[list[float] | None, list[float]]:
+def _even_axes(
+    fields: dict[str, str], shape: tuple[int, int, int]
+) -> tuple[list[float] | None, list[float]]:
     """Return the spacing along each axis, None if the header states none, and the position of the first sample.
 
     A spacing that is not stated follows from the axis' minimum and maximum: they are the outer faces of the first and
@@ -231,10 +285,19 @@ def _even_axes(fields: dict[str, str], shape: tuple[int, int, int]) -> tuple[lis
     if not {"cell", "node", "none", "???"}.issuperset(centers):
         raise _field(fields, field, "cell or node for each axis")
     unfit = _field(fields, "spacings", "three spacings that are not zero")
-    if 0.0 in stated or any(map(math.isinf, stated)) or fields.get("spacings") and len(fields["spacings"].split()) < 3:
+    if (
+        0.0 in stated
+        or any(map(math.isinf, stated))
+        or fields.get("spacings")
+        and len(fields["spacings"].split()) < 3
+    ):
         raise unfit
-    spacings, origin, are_stated = [], [], "spacings" in fields
-    for spacing, low, high, thickness, center, count in zip(stated, lows, highs, thicknesses, centers, shape):
+    spacings = []
+    origin = []
+    are_stated = "spacings" in fields
+    for spacing, low, high, thickness, center, count in zip(
+        stated, lows, highs, thicknesses, centers, shape
+    ):
         steps = count - (center == "node")
         if math.isnan(spacing):
             spacing = (high - low) / steps if steps else math.nan
@@ -266,7 +329,8 @@ def _per_axis(fields: dict[str, str], name: str) -> list[float]:
 
 def _vectors(fields: dict[str, str], name: str) -> list[list[float] | None]:
     """Parse vectors in parentheses, and “none” between them as None, in time linear in the text."""
-    vectors, rest = [], fields[name].strip()
+    vectors = []
+    rest = fields[name].strip()
     for _ in range(MAX_AXES):
         vector, end, rest = rest.partition("none" if rest.startswith("none") else ")")
         vectors.append(_vector(vector + end, name))
@@ -280,7 +344,11 @@ def _vector(text: str, name: str) -> list[float] | None:
     if text == "none":
         return None
     try:
-        row = [parse_number(word.strip()) for word in text[1:-1].split(",", 3)] if text[0] + text[-1] == "()" else []
+        row = (
+            [parse_number(word.strip()) for word in text[1:-1].split(",", 3)]
+            if text[0] + text[-1] == "()"
+            else []
+        )
     except ValueError:
         row = []
     if len(row) != 3 or not np.isfinite(row).all():

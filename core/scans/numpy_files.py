@@ -16,7 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, finding
-from .findings import DAMAGE_INCOMPLETE, OTHERS_LEFT_OUT, RAW_WITHOUT_LAYOUT, SCAN_SAMPLE_TYPE, SCAN_SIZE
+from .findings import (
+    DAMAGE_INCOMPLETE,
+    OTHERS_LEFT_OUT,
+    RAW_WITHOUT_LAYOUT,
+    SCAN_SAMPLE_TYPE,
+    SCAN_SIZE,
+)
 from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
 from .scan_files import DEFAULT_LIMITS, SAMPLE_TYPES, Limits
 
@@ -48,8 +54,12 @@ def read_npz(path: Path, limits: Limits) -> Scan:
             raise FileError(SCAN_SIZE, samples=next(map(list, shapes.values()), []))
         name = "density" if "density" in volumes else volumes[0]
         others = [volume for volume in volumes if volume != name]
-        findings = (finding(OTHERS_LEFT_OUT, kind="array", name=name, others=others),) if others else ()
-        return Scan(real_samples(_unpack(archive, path, name, limits)), np.eye(4), findings=findings)
+        findings = (
+            (finding(OTHERS_LEFT_OUT, kind="array", name=name, others=others),) if others else ()
+        )
+        return Scan(
+            real_samples(_unpack(archive, path, name, limits)), np.eye(4), findings=findings
+        )
 
 
 def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, NDArray]:
@@ -59,9 +69,15 @@ def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, N
 
 
 @contextmanager
-def _archive(path: Path, limits: Limits) -> Iterator[tuple[zipfile.ZipFile, dict[str, tuple[int, ...]]]]:
+def _archive(
+    path: Path, limits: Limits
+) -> Iterator[tuple[zipfile.ZipFile, dict[str, tuple[int, ...]]]]:
     """Yield an open archive, and the shapes of its arrays by name. Exceptions in the block become FileErrors."""
-    with open(path, "rb") as file, _damage(path, "archive of NumPy arrays"), zipfile.ZipFile(file) as archive:
+    with (
+        open(path, "rb") as file,
+        _damage(path, "archive of NumPy arrays"),
+        zipfile.ZipFile(file) as archive,
+    ):
         entries = archive.infolist()
         limits.check(path, "entries", len(entries))
         if any(ENTRY in entry.comment + entry.extra for entry in entries):
@@ -78,7 +94,11 @@ def _damage(path: Path, kind: str) -> Iterator[None]:
     except (MemoryError, FileError):
         raise
     except Exception as error:  # NumPy evaluates a damaged header, which may raise anything
-        reason = str(error).rstrip(".") if isinstance(error, zipfile.BadZipFile) else type(error).__name__
+        reason = (
+            str(error).rstrip(".")
+            if isinstance(error, zipfile.BadZipFile)
+            else type(error).__name__
+        )
         raise damaged(path, DAMAGE_INCOMPLETE, kind=kind, error=reason) from error
 
 
@@ -101,15 +121,26 @@ def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, 
     with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # has `peek`
         _check_array_header(file.peek(12))
         version = np.lib.format.read_magic(file)
-        read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+        read = (
+            np.lib.format.read_array_header_1_0
+            if version == (1, 0)
+            else np.lib.format.read_array_header_2_0
+        )
         shape, _, dtype = read(file)
-        if not dtype.hasobject and file.tell() + dtype.itemsize * math.prod(shape) != entry.file_size:
+        if (
+            not dtype.hasobject
+            and file.tell() + dtype.itemsize * math.prod(shape) != entry.file_size
+        ):
             raise ValueError("length of entry")
     return shape
 
 
 def read_raw(
-    path: str | Path, shape: Sequence[int], dtype: str, big_endian: bool = False, limits: Limits = DEFAULT_LIMITS
+    path: str | Path,
+    shape: Sequence[int],
+    dtype: str,
+    big_endian: bool = False,
+    limits: Limits = DEFAULT_LIMITS,
 ) -> Scan:
     """Read samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of SAMPLE_TYPES."""
     if dtype not in SAMPLE_TYPES:
@@ -122,7 +153,11 @@ def read_raw(
 
 def read_named_raw(path: Path, limits: Limits) -> Scan:
     """Read a raw file that is called NAME_XxYxZ_TYPE.raw, like the Open SciVis collection."""
-    layout = re.search(r"_(\d+)x(\d+)x(\d+)_({:s})\.raw$".format("|".join(SAMPLE_TYPES)), path.name, re.IGNORECASE)
+    layout = re.search(
+        r"_(\d+)x(\d+)x(\d+)_({:s})\.raw$".format("|".join(SAMPLE_TYPES)), path.name, re.IGNORECASE
+    )
     if not layout:
         raise FileError(RAW_WITHOUT_LAYOUT)
-    return read_raw(path, [int(size[:20]) for size in layout.groups()[:3]], layout[4].lower(), limits=limits)
+    return read_raw(
+        path, [int(size[:20]) for size in layout.groups()[:3]], layout[4].lower(), limits=limits
+    )

@@ -72,7 +72,9 @@ class Scan:
 def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
     """Return three positive sizes; further sizes must be 1. FileError if they are not possible."""
     sizes = tuple(int(size) for size in sizes)
-    dimensions = max((number for number, size in enumerate(sizes, 1) if number <= 3 or size != 1), default=0)
+    dimensions = max(
+        (number for number, size in enumerate(sizes, 1) if number <= 3 or size != 1), default=0
+    )
     if dimensions != 3:
         raise FileError(SCAN_SIZE, samples=list(sizes))
     x, y, z = sizes[:3]
@@ -97,7 +99,13 @@ def damaged(path: Path, code: str, **values: Any) -> FileError:
 
 def wrong_field(format: str, name: str, wanted: str, *values: float) -> FileError:
     """Return the error for numbers of a header's field."""
-    return FileError(HEADER_FIELD, format=format, field=name, wanted=wanted, text=" ".join(map("{:g}".format, values)))
+    return FileError(
+        HEADER_FIELD,
+        format=format,
+        field=name,
+        wanted=wanted,
+        text=" ".join(map("{:g}".format, values)),
+    )
 
 
 def check_length(path: Path, held: int, wanted: int) -> None:
@@ -110,7 +118,8 @@ def map_samples(
     path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False
 ) -> NDArray:
     """Return a memory map of samples, x fastest, from byte `offset` on, or at the end of the file if `from_end`."""
-    size, byte_count = path.stat().st_size, dtype.itemsize * math.prod(shape)
+    size = path.stat().st_size
+    byte_count = dtype.itemsize * math.prod(shape)
     if from_end:
         offset = max(offset, size - byte_count)
     check_length(path, max(0, size - offset), byte_count)
@@ -122,11 +131,13 @@ def unpack_samples(
 ) -> NDArray:
     """Return samples, x fastest, gzipped from byte `start` on, without the first `skip` bytes; check all checksums."""
     byte_count = dtype.itemsize * math.prod(shape)
-    total, room = skip + byte_count, MAX_GZIP_RATIO * path.stat().st_size
+    total = skip + byte_count
+    room = MAX_GZIP_RATIO * path.stat().st_size
     if total > room:
         raise damaged(path, DAMAGE_SIZE, bytes=max(0, room - skip), total=byte_count)
     limits.check(path, "unpacked_bytes", total)
-    unpacked, done = np.empty(total, np.uint8), 0
+    unpacked = np.empty(total, np.uint8)
+    done = 0
     for block in gzip_blocks(path, start):
         part = np.frombuffer(block, np.uint8)[: total - done]
         unpacked[done : done + len(part)] = part
@@ -145,19 +156,28 @@ def gzip_blocks(path: Path, start: int) -> Iterator[bytes]:
     """
     with open(path, "rb") as file:
         file.seek(start)
-        waiting, first = file.read(PACKED), True
+        waiting = file.read(PACKED)
+        first = True
         while waiting or first:
-            member = zlib.decompressobj(zlib.MAX_WBITS | 16)  # with the head and the checksums of gzip
+            member = zlib.decompressobj(
+                zlib.MAX_WBITS | 16
+            )  # with the head and the checksums of gzip
             while not member.eof:
                 try:
                     block = member.decompress(waiting, BLOCK)
                 except zlib.error as error:
                     reason = str(error).rpartition(": ")[2]
-                    raise damaged(path, DAMAGE_INCOMPLETE, kind="gzip stream", error=reason) from error
+                    raise damaged(
+                        path, DAMAGE_INCOMPLETE, kind="gzip stream", error=reason
+                    ) from error
                 if not (block or waiting or member.eof):
                     raise damaged(path, DAMAGE_CUT_SHORT, part="compressed part")
                 yield block
-                waiting = member.unused_data if member.eof else member.unconsumed_tail or file.read(PACKED)
+                waiting = (
+                    member.unused_data
+                    if member.eof
+                    else member.unconsumed_tail or file.read(PACKED)
+                )
             first = False
             waiting = waiting.lstrip(b"\0")
             while not waiting and (more := file.read(PACKED)):

@@ -15,7 +15,15 @@ from ..verdict.finding import FileError, QueryError
 from ..verdict.number_text import parse_number
 from .findings import FILE_EXCEEDS_LIMIT, LIMITS_UNRECOGNIZED
 
-SUFFIXES = (".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz", ".raw")  # No suffix ends with another one.
+SUFFIXES = (
+    ".npy",
+    ".npz",
+    ".nrrd",
+    ".nhdr",
+    ".nii",
+    ".nii.gz",
+    ".raw",
+)  # No suffix ends with another one.
 SAMPLE_TYPES = (
     *("uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64"),
     *("float32", "float64"),
@@ -58,7 +66,14 @@ class Limits:
         limit = getattr(self, name)
         if count > limit:
             wanted = max(int(count), 2 * limit)
-            raise FileError(FILE_EXCEEDS_LIMIT, file=path.name, name=name, count=int(count), limit=limit, next=wanted)
+            raise FileError(
+                FILE_EXCEEDS_LIMIT,
+                file=path.name,
+                name=name,
+                count=int(count),
+                limit=limit,
+                next=wanted,
+            )
 
 
 DEFAULT_LIMITS = Limits()

@@ -5,11 +5,17 @@
 from ..verdict.finding import error
 
 LIBRARY_LINE = error(
-    "library_line", "{file}: line {line} is not a body_moments document. Write the library with --format jsonl."
+    "library_line",
+    "{file}: line {line} is not a body_moments document. Write the library with --format jsonl.",
 )
 RECORD_WITHOUT_SHAPE = error(
-    "record_without_shape", "{name}: no signature, as the body has no shape; see the findings of its record."
+    "record_without_shape",
+    "{name}: no signature, as the body has no shape; see the findings of its record.",
 )
-RECORD_WITHOUT_SIGNATURE = error("record_without_signature", "{name}: no signature. Measure with --signature.")
-SIGNATURE_UNRECOGNIZED = error("signature_unrecognized", "The signature was not written by --signature.")
+RECORD_WITHOUT_SIGNATURE = error(
+    "record_without_signature", "{name}: no signature. Measure with --signature."
+)
+SIGNATURE_UNRECOGNIZED = error(
+    "signature_unrecognized", "The signature was not written by --signature."
+)
 SIGNATURE_INCOMPLETE = error("signature_incomplete", "The signature is incomplete.")

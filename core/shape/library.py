@@ -101,13 +101,20 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
         except (ValueError, KeyError, TypeError, RecursionError) as error:
             raise FileError(LIBRARY_LINE, file=path.name, line=number) from error
         for record in records:
-            name, file = str(record.get("name")), str(document.get("file") or "")
+            name = str(record.get("name"))
+            file = str(document.get("file") or "")
             try:
-                entries.append(Entry(name, file, Signature.from_record(record.get("signature") or {})))
+                entries.append(
+                    Entry(name, file, Signature.from_record(record.get("signature") or {}))
+                )
             except FileError:
                 shapeless = "signature" in record and record["signature"] is None
                 label = _label(file, name)
-                missing.append(finding(RECORD_WITHOUT_SHAPE if shapeless else RECORD_WITHOUT_SIGNATURE, name=label))
+                missing.append(
+                    finding(
+                        RECORD_WITHOUT_SHAPE if shapeless else RECORD_WITHOUT_SIGNATURE, name=label
+                    )
+                )
     return entries, missing
 
 

@@ -25,13 +25,17 @@ from .symmetries import Symmetry, axis_rotation
 MAX_CORNERS = 4096  # farthest corners that are compared with each other
 MAX_CANDIDATES = 1 << 17
 PAIRS_PER_BLOCK = 1 << 22  # pairs of corners compared at once
-SKEW = np.array([0.5377, 0.6213, 0.5699])  # corners are sorted along this direction, across no usual edge
+SKEW = np.array(
+    [0.5377, 0.6213, 0.5699]
+)  # corners are sorted along this direction, across no usual edge
 MAX_TRIES = 64  # corners of nearly equal height along it that are compared
 FIRST_IMAGES = 12  # images of so many corners refute most candidates
 FIRST_SAMPLES = 64  # so many corners refute most of the other candidates
 SAMPLES = 128  # corners, farthest corners and triangles that are compared if the tolerance is large
 MAX_BETWEEN = 2048  # triangles between other corners that are compared; of more, evenly many
-BETWEEN = np.array([[0.5, 0.5, 0.0], [0.7, 0.3, 0.0], [0.3, 0.3, 0.4]])  # weights of corners that give points between
+BETWEEN = np.array(
+    [[0.5, 0.5, 0.0], [0.7, 0.3, 0.0], [0.3, 0.3, 0.4]]
+)  # weights of corners that give points between
 CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
 
 
@@ -44,7 +48,8 @@ class PlacedTriangles:
     def __init__(self, points: NDArray, triangles: NDArray, near: float, far: float):
         is_used = np.zeros(len(points), bool)
         is_used[triangles] = True
-        self.points, self.triangles = points[is_used], (np.cumsum(is_used) - 1)[triangles]
+        self.points = points[is_used]
+        self.triangles = (np.cumsum(is_used) - 1)[triangles]
         self.near, self.far = near, far
         height = self.points @ SKEW
         self._order = np.argsort(height, kind="stable")
@@ -57,11 +62,15 @@ class PlacedTriangles:
 
     @cached_property
     def _tree(self) -> Bvh:
-        whole = sort_components(self.points, self.triangles, np.zeros(len(self.triangles), np.intp), 1)
+        whole = sort_components(
+            self.points, self.triangles, np.zeros(len(self.triangles), np.intp), 1
+        )
         return Bvh(self.points, whole, np.ones(1, bool))
 
     def _distances(self, points: NDArray, within: float) -> NDArray[np.float64]:
-        return self._tree.distances(points - self._tree.origin, np.zeros(len(points), np.intp), within)
+        return self._tree.distances(
+            points - self._tree.origin, np.zeros(len(points), np.intp), within
+        )
 
     @cached_property
     def _samples(self) -> NDArray[np.float64]:
@@ -73,7 +82,9 @@ class PlacedTriangles:
     def holds(self, operation: NDArray, tolerance: float) -> bool:
         """Return whether images of a sample of the surface are within a tolerance of it."""
         images = self._samples @ operation.T
-        return all(np.isfinite(self._distances(part, tolerance)).all() for part in (images[::10], images))
+        return all(
+            np.isfinite(self._distances(part, tolerance)).all() for part in (images[::10], images)
+        )
 
     def groups(self) -> list[NDArray[np.float64]] | None:
         """Return the (k, 3, 3) operations of the group, then of larger possible ones; None if there are too many.
@@ -85,14 +96,17 @@ class PlacedTriangles:
             return None
         levels = np.full(len(operations), np.nan)
         held = np.zeros(len(operations), bool)
-        held[0], generators = True, []
+        held[0] = True
+        generators = []
         for i in range(1, len(operations)):
             if held[i] or not np.isnan(levels[i]):
                 continue
             levels[i] = self._misfit(operations[i])
             if levels[i] <= self.near:
                 trial = _closed(operations, held, [*generators, i], levels == np.inf)
-                held, generators = (held, generators) if trial is None else (trial, [*generators, i])
+                held, generators = (
+                    (held, generators) if trial is None else (trial, [*generators, i])
+                )
             elif levels[i] == np.inf:
                 own = operations[held]
                 alike = _nearest((own[:, None] @ operations[i] @ own).reshape(-1, 3, 3), operations)
@@ -111,13 +125,19 @@ class PlacedTriangles:
         height = self.points @ axis
         radius = lengths(self.points - np.outer(height, axis))[:, 0]
         outer = radius.argmax()
-        is_ring = (radius >= radius[outer] - 2.0 * self.far) & (np.abs(height - height[outer]) <= 2.0 * self.far)
+        is_ring = (radius >= radius[outer] - 2.0 * self.far) & (
+            np.abs(height - height[outer]) <= 2.0 * self.far
+        )
         count = len(self._distinct(np.flatnonzero(is_ring)))
         return count if self._misfit(axis_rotation(axis, 2.0 * np.pi / count)) <= self.near else 1
 
     def is_round(self, found: Symmetry, tolerance: float) -> bool:
         """Return whether turns about the axes of revolution hold within the tolerance."""
-        turns = [axis_rotation(axis, angle) for axis in found.revolution_axes for angle in (1.0, 0.1, 0.01)]
+        turns = [
+            axis_rotation(axis, angle)
+            for axis in found.revolution_axes
+            for angle in (1.0, 0.1, 0.01)
+        ]
         return all(self.holds(turn, tolerance) for turn in turns)
 
     def _candidates(self) -> NDArray[np.float64] | None:
@@ -126,13 +146,15 @@ class PlacedTriangles:
         outer = self._distinct(np.flatnonzero(radius >= radius.max() - 2.0 * self.far))
         if len(outer) > MAX_CORNERS:
             return None
-        first, partners = outer[0] / np.linalg.norm(outer[0]), outer
+        first = outer[0] / np.linalg.norm(outer[0])
+        partners = outer
         across = lengths(partners - np.outer(partners @ first, first))[:, 0]
         if across.max() <= 0.1 * radius.max():  # all on one line
             partners = self.points
             across = lengths(partners - np.outer(partners @ first, first))[:, 0]
         second = partners[across.argmax()]
-        along, across = second @ first, across.max()
+        along = second @ first
+        across = across.max()
         images = [np.eye(3)[None]]
         start = _frames(first[None], second[None])[0]
         step = max(1, PAIRS_PER_BLOCK // len(partners))
@@ -142,7 +164,8 @@ class PlacedTriangles:
             height = ways @ partners.T
             apart = np.sqrt(np.maximum(squares - height**2, 0.0))
             way, partner = np.nonzero(
-                (np.abs(height - along) <= 4.0 * self.far) & (np.abs(apart - across) <= 4.0 * self.far)
+                (np.abs(height - along) <= 4.0 * self.far)
+                & (np.abs(apart - across) <= 4.0 * self.far)
             )
             frames = _frames(ways[way], partners[partner])
             images += [frames @ start.T, frames * [1.0, 1.0, -1.0] @ start.T]
@@ -152,13 +175,19 @@ class PlacedTriangles:
         worst = np.zeros(len(operations))
         for i in self._witnesses[:: max(1, len(self._witnesses) // FIRST_IMAGES)]:
             worst = np.maximum(worst, self._distances(operations @ self.points[i], self.far))
-            operations, worst = operations[np.isfinite(worst)], worst[np.isfinite(worst)]
+            operations = operations[np.isfinite(worst)]
+            worst = worst[np.isfinite(worst)]
         worst[0] = -1.0  # the identity
         proper = np.linalg.det(operations) > 0.0
         order = np.lexsort([-operations.trace(axis1=1, axis2=2), ~proper])
-        operations, worst, kept, left = operations[order], worst[order], [], np.arange(len(order))
+        operations = operations[order]
+        worst = worst[order]
+        kept = []
+        left = np.arange(len(order))
         while len(left):
-            alike = np.einsum("nij,ij->n", operations[left], operations[left[0]]) > 3.0 - CLEAR_PRODUCT
+            alike = (
+                np.einsum("nij,ij->n", operations[left], operations[left[0]]) > 3.0 - CLEAR_PRODUCT
+            )
             kept.append(left[alike][worst[left[alike]].argmin()])
             left = left[~alike]
         return operations[kept]
@@ -176,7 +205,9 @@ class PlacedTriangles:
             distances = self._distances(images[left], self.far)
             if not np.isfinite(distances).all():
                 worst = left[np.argmax(distances)]
-                self._witnesses = np.append(self._witnesses[-FIRST_SAMPLES:], worst if rows is None else rows[worst])
+                self._witnesses = np.append(
+                    self._witnesses[-FIRST_SAMPLES:], worst if rows is None else rows[worst]
+                )
                 return np.inf
         level = float(distances.max(initial=0.0))
         if level > self.near:
@@ -190,8 +221,10 @@ class PlacedTriangles:
 
     def _match(self, images: NDArray) -> NDArray[np.intp]:
         """Return (n,) the first corner near each of (n, 3) points, -1 if there is none."""
-        found, height = np.full(len(images), -1), images @ SKEW
-        at, left = np.searchsorted(self._height, height - self.near), np.arange(len(images))
+        found = np.full(len(images), -1)
+        height = images @ SKEW
+        at = np.searchsorted(self._height, height - self.near)
+        left = np.arange(len(images))
         for _ in range(MAX_TRIES):
             left = left[at[left] < len(self._order)]
             left = left[self._height[at[left]] <= height[left] + self.near]
@@ -207,12 +240,15 @@ class PlacedTriangles:
     @cached_property
     def _creases(self) -> tuple[NDArray[np.intp], NDArray[np.int64]]:
         """(k, 3) corners of triangles with a crease at the first two corners, and the creases' sorted codes."""
-        place, count = self._first[self.triangles], len(self.triangles)
+        place = self._first[self.triangles]
+        count = len(self.triangles)
         code = np.concatenate([self._edge_codes(place[:, [i, i - 1]]) for i in range(3)])
         order = np.argsort(code, kind="stable")
         starts = np.flatnonzero(np.diff(code[order], prepend=-1))
         pair = starts[np.diff(starts, append=len(code)) == 2]
-        (side, triangle), (other_side, other) = (np.divmod(order[k], count) for k in (pair, pair + 1))
+        (side, triangle), (other_side, other) = (
+            np.divmod(order[k], count) for k in (pair, pair + 1)
+        )
         a, b, c = (self.points[self.triangles[triangle, (side + i) % 3]] for i in range(3))
         normal = cross_rows(b - a, c - a)
         normal /= np.maximum(lengths(normal), np.finfo(float).tiny)
@@ -228,7 +264,8 @@ class PlacedTriangles:
 
     def _edge_codes(self, corners: NDArray[np.intp]) -> NDArray[np.int64]:
         """Return (k,) numbers of edges by (k, 2) numbers of corners, negative for edges with a corner -1."""
-        low, high = np.minimum(*corners.T), np.maximum(*corners.T)
+        low = np.minimum(*corners.T)
+        high = np.maximum(*corners.T)
         return np.where(low < 0, -1, low * len(self.points) + high)
 
 
@@ -242,7 +279,8 @@ def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
 def _nearest(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
     """Return (k,) indices of the first operation that each product equals up to noise, -1 if there is none."""
     found = np.empty(len(products), np.intp)
-    flat, step = operations.reshape(-1, 9).T, max(1, PAIRS_PER_BLOCK // max(1, len(operations)))
+    flat = operations.reshape(-1, 9).T
+    step = max(1, PAIRS_PER_BLOCK // max(1, len(operations)))
     for begin in range(0, len(products), step):
         alike = products[begin : begin + step].reshape(-1, 9) @ flat
         best = alike.argmax(axis=1)
@@ -257,7 +295,9 @@ def _closed(
 
     Coset by coset: a generator takes a coset of the masked group to a coset.
     """
-    own, cosets, mask = operations[mask], [np.eye(3)], mask.copy()
+    own = operations[mask]
+    cosets = [np.eye(3)]
+    mask = mask.copy()
     for coset in cosets:  # the list grows meanwhile
         for product in _nearest(operations[generators] @ coset, operations).tolist():
             if product < 0:

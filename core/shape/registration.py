@@ -46,7 +46,9 @@ MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
 FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
 
 Distance = Callable[[NDArray], NDArray]
-Holds = Callable[[NDArray], bool]  # True if a (3, 3) map, in the plane's axes, takes the shape to itself
+Holds = Callable[
+    [NDArray], bool
+]  # True if a (3, 3) map, in the plane's axes, takes the shape to itself
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,14 +95,20 @@ def _best_match(maps: Callable[[bool], NDArray], residual: Residual, size: float
 def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np.float64]:
     """Return the (k, 3, 3) rotations from a frame of the source to the frames of the target and their half turns."""
     frames = (target.frames[:, None] * HALF_TURN_SIGNS[:, None, :]).reshape(-1, 3, 3)
-    frames = np.array([complete_free_axes(frame, undetermined_axes(target.revolution_axes), first) for frame in frames])
+    frames = np.array(
+        [
+            complete_free_axes(frame, undetermined_axes(target.revolution_axes), first)
+            for frame in frames
+        ]
+    )
     return distinct_arrays(frames @ first.T, 1e-9)
 
 
 def _best_map(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
     """Return that of (k, 3, 3) maps with the least residual, else the smallest turn, and its distances."""
     least = np.array([residual(way, FIRST_COMPARED).max() for way in candidates])
-    worst, distances = np.full(len(candidates), np.inf), {}
+    worst = np.full(len(candidates), np.inf)
+    distances = {}
     for i in np.argsort(least, kind="stable"):
         if least[i] > worst.min() + EQUAL_RESIDUAL_RTOL * size:
             break
@@ -128,7 +136,9 @@ def match_flat(
     return _best_match(maps, residual, size)
 
 
-def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, holds: Holds) -> Symmetry:
+def flat_symmetry(
+    zernike: NDArray, order: int, points: NDArray, axes: NDArray, holds: Holds
+) -> Symmetry:
     """Find the rotations about its centroid and the mirror lines of a flat shape: Cn or Cnv, C∞v if it is round.
 
     Rotations are about the normal, mirror planes across the plane. `zernike` is the `disc_zernike` to `order`, `points`
@@ -142,7 +152,9 @@ def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, 
     fold = next(
         n
         for n in range(MAX_AXIS_ORDER, 0, -1)
-        if all(holds(turn) for turn in turns_about_normal(2.0 * np.pi / n * np.arange(1, n // 2 + 1)))
+        if all(
+            holds(turn) for turn in turns_about_normal(2.0 * np.pi / n * np.arange(1, n // 2 + 1))
+        )
     )
     operations = turns_about_normal(2.0 * np.pi / fold * np.arange(fold))
     mirror = next(filter(holds, _mirrors(zernike, points)), None)
@@ -203,7 +215,9 @@ def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
 
     def derivative(angle: NDArray, times: int) -> NDArray:
         powers = (-1j * np.arange(order + 1)) ** times
-        return (weights * powers * np.exp(-1j * np.multiply.outer(angle, np.arange(order + 1)))).real.sum(axis=1)
+        return (
+            weights * powers * np.exp(-1j * np.multiply.outer(angle, np.arange(order + 1)))
+        ).real.sum(axis=1)
 
     angles = 2.0 * np.pi / ANGLES * np.arange(ANGLES)
     overlap = derivative(angles, 0)
@@ -211,7 +225,8 @@ def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
     peaks = peaks[np.argsort(-overlap[peaks], kind="stable")][:MAX_CANDIDATES]
     angles = angles[peaks]
     for _ in range(NEWTON_STEPS):
-        slope, bend = derivative(angles, 1), derivative(angles, 2)
+        slope = derivative(angles, 1)
+        bend = derivative(angles, 2)
         step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), 0.0)
         angles = angles + np.clip(step, -np.pi / ANGLES, np.pi / ANGLES)
     return np.asarray(angles, np.float64)

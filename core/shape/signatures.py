@@ -93,7 +93,9 @@ class Signature:
             arrays = [np.array(record[name], np.float64).reshape(-1) for name in ARRAYS]
             invariants, zernike, fourier, chirality = arrays
             dimension = record.get("dimension", 3)
-            result = cls(float(record["size"]), invariants, zernike, fourier, chirality, dimension=dimension)
+            result = cls(
+                float(record["size"]), invariants, zernike, fourier, chirality, dimension=dimension
+            )
             lengths = _lengths(dimension)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError(SIGNATURE_UNRECOGNIZED) from error
@@ -190,18 +192,28 @@ def signatures(moments: Moments, radius: NDArray[np.float64]) -> list[Signature]
 
 
 def _numbers(
-    raw: NDArray, moments: Moments, size: PerBody, radius: PerBody, zernike: Multiplets | None = None
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], PerBody]:
+    raw: NDArray,
+    moments: Moments,
+    size: PerBody,
+    radius: PerBody,
+    zernike: Multiplets | None = None,
+) -> tuple[
+    NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], PerBody
+]:
     """Return invariants, descriptors, power, chirality and error from moments (K, …), with the last axes of `raw`."""
-    total, order = raw[0], min(moments.order, MAX_ORDER_BY_MOMENTS)
+    total = raw[0]
+    order = min(moments.order, MAX_ORDER_BY_MOMENTS)
     degree = along_first(monomials(moments.order).sum(axis=1), raw)
     low = len(monomials(INVARIANT_ORDER))
-    harmonic = harmonic_moments((raw / size**degree / total)[:low] * sqrt(4.0 * pi), INVARIANT_ORDER)
+    harmonic = harmonic_moments(
+        (raw / size**degree / total)[:low] * sqrt(4.0 * pi), INVARIANT_ORDER
+    )
     error = 0.0
     if zernike is None:
         dimension = 3 if moments.measure != Measure.AREA else 2
         scaled = raw / radius ** (degree + dimension)
-        zernike, error = zernike_moments(scaled, order), descriptor_error(scaled, order)
+        zernike = zernike_moments(scaled, order)
+        error = descriptor_error(scaled, order)
     power = np.empty((0, *raw.shape[1:]))
     if moments.measure == Measure.VOLUME:
         volume = zernike[0, 0].real[0] * 4.0 * pi / 3.0
@@ -249,12 +261,13 @@ def similarity(a: Signature, b: Signature) -> Likeness:
         )
         / 2.0
     )
-    same, opposite = np.linalg.norm(a.chirality - b.chirality), np.linalg.norm(a.chirality + b.chirality)
+    same = np.linalg.norm(a.chirality - b.chirality)
+    opposite = np.linalg.norm(a.chirality + b.chirality)
     hand = max(np.linalg.norm(a.chirality), np.linalg.norm(b.chirality))
     mirrored = False if hand <= MIN_CHIRALITY else None
-    if hand > MIN_CHIRALITY + shape * CHIRALITY_NOISE_FACTOR and min(same, opposite) < CLEAR_CHIRALITY_SHARE * max(
+    if hand > MIN_CHIRALITY + shape * CHIRALITY_NOISE_FACTOR and min(
         same, opposite
-    ):
+    ) < CLEAR_CHIRALITY_SHARE * max(same, opposite):
         mirrored = bool(opposite < same)
     return Likeness(float(shape), b.size / a.size, float(same), mirrored)
 
@@ -270,7 +283,9 @@ def _invariants(harmonic: Multiplets) -> NDArray[np.float64]:
     return np.array(scalars + products + _couplings(harmonic, _even_triples()))
 
 
-def _couplings(harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]) -> list[NDArray[np.float64]]:
+def _couplings(
+    harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]
+) -> list[NDArray[np.float64]]:
     return [couple(*(harmonic[key] for key in triple)) for triple in triples]
 
 
@@ -281,7 +296,11 @@ def _multiplets(order: int) -> list[Key]:
 
 @lru_cache
 def _pairs() -> list[tuple[Key, Key]]:
-    return [(a, b) for a, b in combinations_with_replacement(_multiplets(INVARIANT_ORDER), 2) if a[1] == b[1]]
+    return [
+        (a, b)
+        for a, b in combinations_with_replacement(_multiplets(INVARIANT_ORDER), 2)
+        if a[1] == b[1]
+    ]
 
 
 @lru_cache
@@ -293,7 +312,11 @@ def _even_triples() -> list[tuple[Key, Key, Key]]:
 @lru_cache
 def _chiral_triples() -> list[tuple[Key, Key, Key]]:
     """Return triples of three different multiplets: with two alike, an odd coupling is zero."""
-    return [t for t in combinations(_multiplets(CHIRAL_ORDER), 3) if _can_couple(t) and sum(l for _, l in t) % 2]
+    return [
+        t
+        for t in combinations(_multiplets(CHIRAL_ORDER), 3)
+        if _can_couple(t) and sum(l for _, l in t) % 2
+    ]
 
 
 def _can_couple(triple: tuple[Key, Key, Key]) -> bool:
@@ -310,14 +333,20 @@ def _turning(order: int) -> list[Key]:
 
 @lru_cache
 def _flat_pairs() -> list[tuple[Key, Key]]:
-    return [pair for pair in combinations_with_replacement(_turning(INVARIANT_ORDER), 2) if _sum(pair, 1) == 0]
+    return [
+        pair
+        for pair in combinations_with_replacement(_turning(INVARIANT_ORDER), 2)
+        if _sum(pair, 1) == 0
+    ]
 
 
 @lru_cache
 def _flat_triples() -> list[tuple[Key, Key, Key]]:
     """Return triples of moments: two, and a third with p - q equal to the sum of theirs."""
     pairs = combinations_with_replacement(_turning(COUPLED_ORDER), 2)
-    return [(a, b, d) for a, b in pairs for d in _turning(INVARIANT_ORDER) if _sum((a, b, d), 2) == 0]
+    return [
+        (a, b, d) for a, b in pairs for d in _turning(INVARIANT_ORDER) if _sum((a, b, d), 2) == 0
+    ]
 
 
 def _sum(keys: tuple[Key, ...], plus: int) -> int:

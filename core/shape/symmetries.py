@@ -28,7 +28,15 @@ from ..numerics.arrays import distinct_arrays
 EQUAL_OPERATION_ATOL = 1e-4  # matrices of one operation, known to noise, are equal to this
 
 # For groups by moments to sixth order, the lower groups whose bodies have the same moments to that order.
-UNDECIDED = {"Oh": "O", "Ih": "I", "D6h": "C6h, D6", "C6v": "C6", "D5h": "C5h", "D5d": "S10", "D4d": "S8"}
+UNDECIDED = {
+    "Oh": "O",
+    "Ih": "I",
+    "D6h": "C6h, D6",
+    "C6v": "C6",
+    "D5h": "C5h",
+    "D5d": "S10",
+    "D4d": "S8",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +58,9 @@ class Symmetry:
         if len(self.revolution_axes) == 3:
             return "K"
         if len(self.revolution_axes):
-            return "D∞h" if _reverses_axis(self.operations, self.revolution_axes[0]).any() else "C∞v"
+            return (
+                "D∞h" if _reverses_axis(self.operations, self.revolution_axes[0]).any() else "C∞v"
+            )
         return _schoenflies(self)
 
     @property
@@ -59,9 +69,13 @@ class Symmetry:
         proper = self.operations[np.linalg.det(self.operations) > 0.0]
         turns = proper[np.trace(proper, axis1=1, axis2=2) < 3.0 - EQUAL_OPERATION_ATOL]
         directions = _distinct_lines(
-            np.array([np.linalg.eigh(rotation + rotation.T)[1][:, 2] for rotation in turns]).reshape(-1, 3)
+            np.array(
+                [np.linalg.eigh(rotation + rotation.T)[1][:, 2] for rotation in turns]
+            ).reshape(-1, 3)
         )
-        return sorted(((axis, 1 + int(same.sum())) for axis, same in directions), key=lambda pair: -pair[1])
+        return sorted(
+            ((axis, 1 + int(same.sum())) for axis, same in directions), key=lambda pair: -pair[1]
+        )
 
     @property
     def planes(self) -> list[NDArray]:
@@ -69,16 +83,23 @@ class Symmetry:
         flips = (np.linalg.det(self.operations) < 0.0) & (
             np.abs(np.trace(self.operations, axis1=1, axis2=2) - 1.0) < EQUAL_OPERATION_ATOL
         )
-        return [np.linalg.eigh(reflection + reflection.T)[1][:, 0] for reflection in self.operations[flips]]
+        return [
+            np.linalg.eigh(reflection + reflection.T)[1][:, 0]
+            for reflection in self.operations[flips]
+        ]
 
     @property
     def has_center(self) -> bool:
         """True if inversion in the center is one of the operations."""
-        return bool((np.abs(self.operations + np.eye(3)).max(axis=(1, 2)) < EQUAL_OPERATION_ATOL).any())
+        return bool(
+            (np.abs(self.operations + np.eye(3)).max(axis=(1, 2)) < EQUAL_OPERATION_ATOL).any()
+        )
 
 
 def symmetry(
-    moments: Moments, noise: float = NOISE_LEVEL, axial: Callable[[NDArray], AxialHarmonics] | None = None
+    moments: Moments,
+    noise: float = NOISE_LEVEL,
+    axial: Callable[[NDArray], AxialHarmonics] | None = None,
 ) -> Symmetry:
     """Find the symmetries that moments allow.
 
@@ -108,16 +129,15 @@ def symmetry(
     """
     check_type("moments", moments, Moments)
     central = moments.about_center()
-    alike, mirrored = equivalent_frames(central, noise), equivalent_frames(invert_through_point(central), noise)
+    alike = equivalent_frames(central, noise)
+    mirrored = equivalent_frames(invert_through_point(central), noise)
     order = moments.order
     is_known = max(alike.tilt, mirrored.tilt) <= MAX_TILT
     if axial is not None and is_known and len(alike.revolution_axes) == 1:
         harmonics = axial(axis_last(alike))
         order = harmonics.order
-        alike, mirrored = (
-            turn_by_harmonics(alike, harmonics, noise),
-            turn_by_harmonics(mirrored, harmonics.inverted(), noise),
-        )
+        alike = turn_by_harmonics(alike, harmonics, noise)
+        mirrored = turn_by_harmonics(mirrored, harmonics.inverted(), noise)
     first = alike.frames[0]
     operations = [frame @ first.T for frame in alike.frames]
     if (np.abs(alike.values - mirrored.values) <= alike.noise).all():
@@ -156,7 +176,9 @@ def _distinct_lines(vectors: NDArray) -> list[tuple[NDArray, NDArray]]:
 
 
 def _schoenflies(symmetry_found: Symmetry) -> str:
-    axes, planes, center = symmetry_found.axes, symmetry_found.planes, symmetry_found.has_center
+    axes = symmetry_found.axes
+    planes = symmetry_found.planes
+    center = symmetry_found.has_center
     proper = int((np.linalg.det(symmetry_found.operations) > 0.0).sum())
     improper = len(symmetry_found.operations) - proper
     if not axes:

@@ -35,7 +35,12 @@ from numpy.typing import NDArray
 from ..moments.complex_form import complex_moments
 from ..moments.exponents import monomials
 from ..moments.moments import Moments, U
-from ..moments.solid_harmonics import Multiplets, along_first, harmonic_moments, with_negative_orders
+from ..moments.solid_harmonics import (
+    Multiplets,
+    along_first,
+    harmonic_moments,
+    with_negative_orders,
+)
 from ..numerics.quadrature import triangle_rule
 
 MAX_ORDER_BY_MOMENTS = 20  # the highest order that raw moments in float64 give
@@ -50,21 +55,33 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
     harmonic = harmonic_moments(raw, order)
     return {
         (n, l): sqrt(3.0 / (4.0 * pi))
-        * sum((sqrt(2 * n + 3) * float(c) * harmonic[l + 2 * i, l] for i, c in enumerate(_radial(n, l))), NO_SUM)
+        * sum(
+            (
+                sqrt(2 * n + 3) * float(c) * harmonic[l + 2 * i, l]
+                for i, c in enumerate(_radial(n, l))
+            ),
+            NO_SUM,
+        )
         for n, l in degrees(order)
     }
 
 
 def descriptor_error(raw: NDArray, order: int) -> NDArray[np.float64]:
     """Estimate (…) the descriptors' error: their change if raw moments (K, …) change by a few roundings."""
-    moved = raw * along_first(1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)), raw)
-    before, after = (descriptors(zernike_moments(raw_moments, order)) for raw_moments in (raw, moved))
+    moved = raw * along_first(
+        1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)), raw
+    )
+    before, after = (
+        descriptors(zernike_moments(raw_moments, order)) for raw_moments in (raw, moved)
+    )
     return np.abs(after - before).max(axis=0)
 
 
 def descriptors(moments: Multiplets) -> NDArray[np.float64]:
     """Return (D, …) ‖Ω_nl‖ in the order of `degrees`."""
-    return np.array([np.linalg.norm(multiplet, axis=0) for _, multiplet in sorted(moments.items())], np.float64)
+    return np.array(
+        [np.linalg.norm(multiplet, axis=0) for _, multiplet in sorted(moments.items())], np.float64
+    )
 
 
 def degrees(order: int) -> list[tuple[int, int]]:
@@ -79,7 +96,9 @@ def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multi
     nodes of a triangle: one for the smallest, order²/4 for a triangle as large as the ball.
     """
     corners = [points[triangles[:, i]] for i in range(3)]
-    size = np.sqrt(np.max([((corners[i] - corners[i - 1]) ** 2).sum(axis=1) for i in range(3)], axis=0))
+    size = np.sqrt(
+        np.max([((corners[i] - corners[i - 1]) ** 2).sum(axis=1) for i in range(3)], axis=0)
+    )
     nodes = _nodes(size, order)
     total = {key: np.zeros(key[1] + 1, complex) for key in degrees(order)}
     for needed in np.unique(nodes):
@@ -98,7 +117,9 @@ def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
     """Return the number of Gauss points on a line for each triangle, by its size and the polynomials' oscillation."""
     exact = ceil((order + 2) / 2)
     needed = np.full(len(size), exact)
-    phase = (order + 2.0) * size / 2.0  # a polynomial of degree n on the ball turns by at most about n radians
+    phase = (
+        (order + 2.0) * size / 2.0
+    )  # a polynomial of degree n on the ball turns by at most about n radians
     for g in range(exact - 1, 0, -1):
         # Gauss's rule: the error of e^(ix) over [-phase/2, phase/2] is (phase/2)^2g / (2g)! in size.
         needed[(phase / 2.0) ** (2 * g) / factorial(2 * g) < QUADRATURE_RTOL] = g
@@ -120,8 +141,10 @@ def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> No
 def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex128]]]:
     """Yield l and (l+1, k) r^l Y_lm at (k, 3) points for m = 0..l, l = 0..order, by recursion upward in l."""
     r2 = (x * x).sum(axis=1)
-    plus, z = x[:, 0] + 1j * x[:, 1], x[:, 2]
-    before, now = None, np.full((1, len(x)), 1.0 / sqrt(4.0 * pi), complex)
+    plus = x[:, 0] + 1j * x[:, 1]
+    z = x[:, 2]
+    before = None
+    now = np.full((1, len(x)), 1.0 / sqrt(4.0 * pi), complex)
     yield 0, now
     for l in range(1, order + 1):
         m = np.arange(l)
@@ -129,10 +152,13 @@ def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex1
         up = a * z * now
         if before is not None:
             m = m[:-1]
-            b = np.sqrt((2 * l + 1) * ((l - 1.0) ** 2 - m * m) / ((2 * l - 3) * (l * l - m * m)))[:, None]
+            b = np.sqrt((2 * l + 1) * ((l - 1.0) ** 2 - m * m) / ((2 * l - 3) * (l * l - m * m)))[
+                :, None
+            ]
             up[:-1] -= b * r2 * before
         top = -sqrt((2 * l + 1) / (2.0 * l)) * plus * now[-1]
-        before, now = now, np.concatenate([up, top[None]])
+        before = now
+        now = np.concatenate([up, top[None]])
         yield l, now
 
 
@@ -142,25 +168,35 @@ def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
     for k in count(1):
         yield now
         if k == 1:
-            before, now = now, (-beta + (beta + 2.0) * x) / 2.0
+            before = now
+            now = (-beta + (beta + 2.0) * x) / 2.0
             continue
         doubled = 2.0 * k + beta
         scale = 2.0 * k * (k + beta) * (doubled - 2.0)
         first = (doubled - 1.0) * (doubled * (doubled - 2.0) * x - beta * beta)
-        before, now = now, (first * now - 2.0 * (k - 1.0) * (k + beta - 1.0) * doubled * before) / scale
+        before, now = (
+            now,
+            (first * now - 2.0 * (k - 1.0) * (k + beta - 1.0) * doubled * before) / scale,
+        )
 
 
-def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def radial_power(
+    moments: Multiplets, wave_numbers: NDArray
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the (k, …) means of |F(q)|² over all directions of q, and a bound of the change by the missing orders.
 
     moments: of a body in the unit ball, (2l+1, …). wave_numbers: (k,) |q|, in units of the ball's inverse radius.
     """
-    order, first = max(n for n, _ in moments), moments[0, 0]
+    order = max(n for n, _ in moments)
+    first = moments[0, 0]
     bessel = _spherical_bessel(np.asarray(wave_numbers, np.float64), order + 40)  # j_{n+1}(q)/q
     power = np.zeros((bessel.shape[1], *first.shape[1:]))
     for l in range(order + 1):
         amplitude = sum(
-            (-1.0) ** ((n - l) // 2) * sqrt(2 * n + 3) * along_first(bessel[n], first) * moments[n, l][:, None]
+            (-1.0) ** ((n - l) // 2)
+            * sqrt(2 * n + 3)
+            * along_first(bessel[n], first)
+            * moments[n, l][:, None]
             for n in range(l, order + 1, 2)
         )
         power += (np.abs(amplitude) ** 2).sum(axis=0)
@@ -180,7 +216,8 @@ def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
     q = np.maximum(q, 1e-8)  # j_1(q)/q is 1/3 from there down
     top = order + 20 + int(2.0 * q.max())
     table = np.zeros((order + 3, len(q)))
-    above, now = np.zeros_like(q), np.full_like(q, 1e-250)
+    above = np.zeros_like(q)
+    now = np.full_like(q, 1e-250)
     for n in range(top, -1, -1):
         if n < len(table):
             table[n] = now
@@ -189,7 +226,8 @@ def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
             large = np.abs(now) > 1e200
             for values in (table, above, now):
                 values[..., large] *= 1e-200
-    j0, j1 = np.sin(q) / q, np.sin(q) / q**2 - np.cos(q) / q
+    j0 = np.sin(q) / q
+    j1 = np.sin(q) / q**2 - np.cos(q) / q
     from_zero = np.abs(table[0]) > np.abs(table[1])
     factor = np.where(from_zero, j0, j1) / np.where(from_zero, table[0], table[1])
     return (table * factor)[1 : order + 2] / q
@@ -198,8 +236,10 @@ def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
 @lru_cache
 def _radial(n: int, l: int) -> tuple[Fraction, ...]:
     """Return the coefficients of r^(l+2i), i = 0..k, in R_nl, without the root of 2n+3."""
-    k, beta = (n - l) // 2, Fraction(2 * l + 1, 2)
-    row, factor = [], Fraction((-1) ** k)
+    k = (n - l) // 2
+    beta = Fraction(2 * l + 1, 2)
+    row = []
+    factor = Fraction((-1) ** k)
     for i in range(k):
         factor *= (beta + 1 + i) / (i + 1)
     for i in range(k + 1):
@@ -219,7 +259,10 @@ def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:
     return np.array(
         [
             sqrt((n + 1) / pi)
-            * sum(factor * c[(s + m) // 2, (s - m) // 2].conjugate() for s, factor in _disc_radial(n, m))
+            * sum(
+                factor * c[(s + m) // 2, (s - m) // 2].conjugate()
+                for s, factor in _disc_radial(n, m)
+            )
             for n, m in degrees(moments.order)
         ]
     )

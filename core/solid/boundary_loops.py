@@ -19,12 +19,17 @@ from ..numerics.arrays import cross_rows, lengths, segment_ranges, unique_pairs
 from ..numerics.graph import connected_components
 
 MAX_GAP_ASPECT = 1e-3  # width by length, at most, of a gap that counts as none
-MAX_END_PAIRS = 4_000_000  # Limit of meeting ends; beyond, ends are joined in the order of their numbers.
+MAX_END_PAIRS = (
+    4_000_000  # Limit of meeting ends; beyond, ends are joined in the order of their numbers.
+)
 
 
-def side_ends(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
+def side_ends(
+    triangles: NDArray[np.integer], sides: NDArray[np.integer]
+) -> tuple[NDArray, NDArray]:
     """Return the start and end vertices of sides; side 3t + i runs from corner i of triangle t to the next corner."""
-    triangle, corner = sides // 3, sides % 3
+    triangle = sides // 3
+    corner = sides % 3
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
 
 
@@ -33,7 +38,9 @@ def vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> 
     return np.sort(np.stack(side_ends(triangles, sides), axis=1))
 
 
-def distinct_vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
+def distinct_vertex_pairs(
+    triangles: NDArray[np.integer], sides: NDArray[np.integer]
+) -> NDArray[np.intp]:
     """Return (k, 2) sides as pairs of vertices, the lower first, sorted, each once."""
     return unique_pairs(vertex_pairs(triangles, sides))
 
@@ -59,19 +66,22 @@ def join_sides(
     degree = stops - first
 
     simple = first[degree == 2]
-    left, right = [order[simple]], [order[simple + 1]]
+    left = [order[simple]]
+    right = [order[simple + 1]]
     branching = first[degree > 2], degree[degree > 2]
     if len(branching[0]):
         first_end, second_end = _candidate_pairs(order, *branching)
         if directed:
             fits = (first_end < count) != (second_end < count)
-            first_end, second_end = first_end[fits], second_end[fits]
+            first_end = first_end[fits]
+            second_end = second_end[fits]
         score = np.einsum("ij,ij->i", direction[first_end], direction[second_end])
         best = np.lexsort([second_end, first_end, -score])
         first_end, second_end = _greedy_matching(first_end[best], second_end[best], 2 * count)
         left.append(first_end)
         right.append(second_end)
-    left, right = np.concatenate(left), np.concatenate(right)
+    left = np.concatenate(left)
+    right = np.concatenate(right)
     follows = (left < count) != (right < count)
     return left % count, right % count, follows
 
@@ -109,7 +119,8 @@ def _greedy_matching(first_end: NDArray, second_end: NDArray, ends: int) -> tupl
         used = np.zeros(ends, bool)
         used[first_end[taken]] = used[second_end[taken]] = True
         free = ~(used[first_end] | used[second_end])
-        first_end, second_end = first_end[free], second_end[free]
+        first_end = first_end[free]
+        second_end = second_end[free]
     return np.concatenate(left), np.concatenate(right)
 
 
@@ -132,7 +143,9 @@ class BoundaryLoops:
 
     def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return an (l,) mask of holes; loops narrower than `tolerance`, one number or (l,), are gaps."""
-        return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
+        return self.cone_area > self.perimeter * np.minimum(
+            tolerance, MAX_GAP_ASPECT * self.perimeter
+        )
 
     def of_each(self, side_values: NDArray) -> NDArray:
         """Return the (l,) values of the loops' first sides. side_values: (r,)."""
@@ -154,23 +167,30 @@ class OwnedLoops:
     @classmethod
     def of_sides(cls, points: NDArray, start: NDArray, stop: NDArray, owner: NDArray) -> OwnedLoops:
         """Find the loops of r sides, given by the (r,) points that they run from and to. owner: (r,) of each side."""
-        begin, end = points[start].astype(np.float64), points[stop].astype(np.float64)
-        first, second = owner * len(points) + start, owner * len(points) + stop
+        begin = points[start].astype(np.float64)
+        end = points[stop].astype(np.float64)
+        first = owner * len(points) + start
+        second = owner * len(points) + stop
         loops = find_loops(begin, end, join_sides(begin, end, first, second, directed=True))
         return cls(points, start, stop, loops, loops.of_each(owner))
 
     def cones(self) -> tuple[NDArray[np.floating], NDArray[np.integer], NDArray[np.intp]]:
         """Return the loops' centroids, and the caps: (k, 3) triangles to them from (k,) sides."""
-        loops, centroids = self.loops, len(self.points) + np.arange(len(self.owner))
+        loops = self.loops
+        centroids = len(self.points) + np.arange(len(self.owner))
         apex = np.where(np.bincount(loops.of_side) == 3, loops.of_each(self.start), centroids)
         triangles = np.stack([self.stop, self.start, apex[loops.of_side]], axis=1)
         kept = np.flatnonzero(has_distinct_vertices(triangles))
         return loops.centroid.astype(self.points.dtype), triangles[kept], kept
 
-    def count_caps(self, tolerance: NDArray[np.float64], counted: NDArray[np.bool_]) -> NDArray[np.float64]:
+    def count_caps(
+        self, tolerance: NDArray[np.float64], counted: NDArray[np.bool_]
+    ) -> NDArray[np.float64]:
         """Return (o, 3) flat caps, curved caps, and their area, of owners with these tolerances that are `counted`."""
-        loops, within = self.loops, tolerance[self.owner]
-        is_flat, is_hole = loops.out_of_plane <= within, loops.has_area(within) & counted[self.owner]
+        loops = self.loops
+        within = tolerance[self.owner]
+        is_flat = loops.out_of_plane <= within
+        is_hole = loops.has_area(within) & counted[self.owner]
         columns = is_flat, ~is_flat, np.where(is_flat, loops.planar_area, loops.cone_area)
         counts = [np.bincount(self.owner, column * is_hole, len(counted)) for column in columns]
         return np.stack(counts, axis=1, dtype=np.float64)
@@ -190,7 +210,9 @@ def find_loops(
     joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))
     complete = np.bincount(of_side, joined != 2) == 0
     origin = np.empty((number, 3))
-    origin[of_side[::-1]] = begin[::-1]  # about the loop's first vertex: a coordinate that all share stays exact
+    origin[of_side[::-1]] = begin[
+        ::-1
+    ]  # about the loop's first vertex: a coordinate that all share stays exact
     a, b = begin - origin[of_side], end - origin[of_side]
     length = lengths(b - a)[:, 0]
     perimeter = np.asarray(np.bincount(of_side, length), np.float64)

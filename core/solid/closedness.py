@@ -85,7 +85,9 @@ def check_surface(surface: Surface) -> CheckedSurface:
             points=surface.points[used],
             triangles=number[surface.triangles],
             quads=number[surface.quads],
-            corner_vertices=None if surface.corner_vertices is None else number[surface.corner_vertices],
+            corner_vertices=None
+            if surface.corner_vertices is None
+            else number[surface.corner_vertices],
         )
     low, high = surface.box
     with np.errstate(invalid="ignore", over="ignore"):
@@ -94,7 +96,9 @@ def check_surface(surface: Surface) -> CheckedSurface:
         misplaced = np.flatnonzero(~np.isfinite(surface.points).all(axis=1))
         if len(misplaced):
             elements = misplaced if vertices is None else vertices[misplaced]
-            raise MeasureError(NON_FINITE_VERTICES, elements=elements, count=len(misplaced), total=total)
+            raise MeasureError(
+                NON_FINITE_VERTICES, elements=elements, count=len(misplaced), total=total
+            )
     if not max(size, float(np.abs([low, high]).max())) < MAX_COORDINATE:
         raise MeasureError(OBJECT_TOO_LARGE)
     check_size(*(high - low).tolist())
@@ -137,7 +141,8 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
     if found is None:
         return None
     component, component_count = found
-    triangles, face = surface.triangles[:0], component[:0]
+    triangles = surface.triangles[:0]
+    face = component[:0]
     if component_count > 1:
         triangles, face = surface.all_triangles()
     return RepairedMesh(
@@ -162,5 +167,7 @@ def _components_of_closed(surface: Surface) -> tuple[NDArray[np.intp], int] | No
         return None
     if len(surface.triangles) and len(surface.quads):
         return None
-    across = faces_across_sides(surface.triangles if len(surface.triangles) else surface.quads, len(surface.points))
+    across = faces_across_sides(
+        surface.triangles if len(surface.triangles) else surface.quads, len(surface.points)
+    )
     return None if across is None else connected_neighbors(across)

@@ -5,7 +5,8 @@
 from ..verdict.finding import error, note, repair, warning
 
 INVALID_FACES = error(
-    "invalid_faces", "Faces use vertices that do not exist. Run mesh.validate() in the Python Console."
+    "invalid_faces",
+    "Faces use vertices that do not exist. Run mesh.validate() in the Python Console.",
 )
 NON_FINITE_VERTICES = error(
     "non_finite_vertices",
@@ -72,7 +73,8 @@ COMPONENTS_NESTED = warning(
     "Count as Union.",
 )
 COMPONENTS_OVERLAP = warning(
-    "components_overlap", "{count} components overlap; the shared space counts twice. Set Overlaps to Count as Union."
+    "components_overlap",
+    "{count} components overlap; the shared space counts twice. Set Overlaps to Count as Union.",
 )
 OVERLAP_UNCHECKED = warning(
     "overlap_unchecked",
@@ -84,7 +86,9 @@ FLAT_COMPONENTS = warning(
     "{count} of {total} components is flat and has no volume. Delete it, or set Kind to Shell.",
     "{count} of {total} components are flat and have no volume. Delete them, or set Kind to Shell.",
 )
-FLAT_SURFACE = warning("flat_surface", "The surface is flat and encloses no volume. Set Kind to Shell.")
+FLAT_SURFACE = warning(
+    "flat_surface", "The surface is flat and encloses no volume. Set Kind to Shell."
+)
 SELF_INTERSECTING = warning(
     "self_intersecting",
     "The surface intersects itself and regions count as negative. Set Overlaps to Count as Union, or repair the mesh.",

@@ -27,7 +27,12 @@ from .boundary_loops import (
     side_ends,
     vertex_pairs,
 )
-from .findings import DUPLICATE_FACES_COUNTED, NON_MANIFOLD_COMPONENTS, ONE_SIDED_COMPONENTS, T_JUNCTIONS
+from .findings import (
+    DUPLICATE_FACES_COUNTED,
+    NON_MANIFOLD_COMPONENTS,
+    ONE_SIDED_COMPONENTS,
+    T_JUNCTIONS,
+)
 from .repaired_mesh import NO_INDICES, FoldedLoops, RepairedMesh, ZeroAreaLoops, copy_with
 from .weld_open_parts import is_duplicated
 
@@ -39,7 +44,8 @@ def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Find the boundary loops without area, across which the surface closes in space."""
     side = mesh.state.edges.boundary_sides()
     start, stop = side_ends(mesh.triangles, side)
-    begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
+    begin = mesh.points[start].astype(np.float64)
+    end = mesh.points[stop].astype(np.float64)
     links = join_sides(begin, end, start, stop, directed=False)
     loops = find_loops(begin, end, links)
     closed = loops.complete & ~loops.has_area(tolerance)
@@ -58,23 +64,38 @@ def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Find the faces of each part to turn so that all agree, and group parts into components."""
-    edges, gaps, count = mesh.state.edges, mesh.state.gaps, len(mesh.triangles)
-    pairs, walls = edges.manifold_side_pairs(), wall_links(mesh.points, edges, mesh.triangles, mesh.face)
+    edges = mesh.state.edges
+    gaps = mesh.state.gaps
+    count = len(mesh.triangles)
+    pairs = edges.manifold_side_pairs()
+    walls = wall_links(mesh.points, edges, mesh.triangles, mesh.face)
     first, second = (np.concatenate(sides) for sides in zip(pairs, walls))
     misoriented = edges.upward[first] == edges.upward[second]
     a = np.concatenate([first, gaps.first]) // 3
     b = np.concatenate([second, gaps.second]) // 3
     disagree = np.concatenate([misoriented, gaps.misoriented])
-    area = np.linalg.norm(normals(mesh.points, mesh.triangles), axis=1) if disagree.any() else np.zeros(count)
+    area = (
+        np.linalg.norm(normals(mesh.points, mesh.triangles), axis=1)
+        if disagree.any()
+        else np.zeros(count)
+    )
     flipped, twisted = consistent_orientation(count, a, b, disagree, area)
-    component, number = group_components(edges, *connected_components(count, a, b), _edges_along(mesh))
+    component, number = group_components(
+        edges, *connected_components(count, a, b), _edges_along(mesh)
+    )
     is_open = np.zeros(number, bool)
     is_open[component[twisted]] = True
     report = copy_with(mesh.report, components=number)
     if misoriented.any():
-        sides = distinct_vertex_pairs(mesh.state.given, np.concatenate([first[misoriented], second[misoriented]]))
+        sides = distinct_vertex_pairs(
+            mesh.state.given, np.concatenate([first[misoriented], second[misoriented]])
+        )
         elements = copy_with(report.defective_elements, inconsistent_edges=sides)
-        report = copy_with(report, inconsistent_edges=int(np.count_nonzero(misoriented)), defective_elements=elements)
+        report = copy_with(
+            report,
+            inconsistent_edges=int(np.count_nonzero(misoriented)),
+            defective_elements=elements,
+        )
     return replace(
         mesh,
         findings=_without_walls(mesh, np.concatenate(walls)),
@@ -90,7 +111,8 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Finding, ...]:
     """Return the findings without counting copies of faces that are walls of two bodies. sides: the sides at walls."""
-    walls, findings = np.unique(mesh.face[sides // 3]), []
+    walls = np.unique(mesh.face[sides // 3])
+    findings = []
     for item in mesh.findings:
         if item.code.startswith(DUPLICATE_FACES_COUNTED):
             left = np.setdiff1d(np.asarray(item.elements), walls)
@@ -120,18 +142,24 @@ def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> Repaired
 
 def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Fill the gaps without area, and report the remaining boundary."""
-    edges, gaps, folded, given = mesh.state.edges, mesh.state.gaps, mesh.state.folded, mesh.state.given
+    edges = mesh.state.edges
+    gaps = mesh.state.gaps
+    folded = mesh.state.folded
+    given = mesh.state.given
     closed_already = np.zeros(edges.of_side.shape, bool)
     closed_already[folded.sides] = True
     number = folded.number + len(np.unique(gaps.loop[~closed_already[gaps.sides]]))
     if number:
         sides = np.concatenate([gaps.sides, np.flatnonzero(closed_already)])
-        mesh = mesh.with_findings(finding(T_JUNCTIONS, distinct_vertex_pairs(given, sides), count=number))
+        mesh = mesh.with_findings(
+            finding(T_JUNCTIONS, distinct_vertex_pairs(given, sides), count=number)
+        )
     boundary = edges.first[(edges.count == 1) & ~_edges_along(mesh)]
     boundary = boundary[~closed_already[boundary]]
     if len(boundary):
         mesh = mesh.with_report(
-            boundary_edges=len(boundary), elements={"boundary_edges": distinct_vertex_pairs(given, boundary)}
+            boundary_edges=len(boundary),
+            elements={"boundary_edges": distinct_vertex_pairs(given, boundary)},
         )
 
     boundary = mesh.state.component_edges.boundary_sides()
@@ -175,21 +203,30 @@ def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Turn the disagreeing faces. This changes the numbers of sides."""
     if not mesh.flipped.any():
         return mesh
-    return copy_with(mesh, triangles=np.where(mesh.flipped[:, None], mesh.triangles[:, ::-1], mesh.triangles))
+    return copy_with(
+        mesh, triangles=np.where(mesh.flipped[:, None], mesh.triangles[:, ::-1], mesh.triangles)
+    )
 
 
 def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Report the components that cannot be closed, with the reasons."""
-    elements, findings = mesh.report.defective_elements, []
+    elements = mesh.report.defective_elements
+    findings = []
     count = int(np.count_nonzero(mesh.state.one_sided))
     if count:
-        findings.append(finding(ONE_SIDED_COMPONENTS, elements.inconsistent_edges, count=count, total=mesh.number))
+        findings.append(
+            finding(
+                ONE_SIDED_COMPONENTS, elements.inconsistent_edges, count=count, total=mesh.number
+            )
+        )
     count = int(np.count_nonzero(mesh.open)) - count
     if count:
         edges = np.concatenate([elements.non_manifold_edges, elements.boundary_edges])
         findings.append(finding(NON_MANIFOLD_COMPONENTS, edges, count=count, total=mesh.number))
     closed = not (mesh.open.any() or mesh.caps.any())
-    return copy_with(mesh, findings=(*mesh.findings, *findings), report=copy_with(mesh.report, closed=closed))
+    return copy_with(
+        mesh, findings=(*mesh.findings, *findings), report=copy_with(mesh.report, closed=closed)
+    )
 
 
 def _edges_along(mesh: RepairedMesh) -> NDArray[np.bool_]:
@@ -226,7 +263,10 @@ def _find_folded_loops(
 
 
 def wall_links(
-    points: NDArray[np.floating], edges: Edges, triangles: NDArray[np.integer], face: NDArray[np.integer]
+    points: NDArray[np.floating],
+    edges: Edges,
+    triangles: NDArray[np.integer],
+    face: NDArray[np.integer],
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return (k,) and (k,) the sides that belong together at walls between bodies. face: (t,) of each triangle.
 
@@ -256,12 +296,15 @@ def wall_links(
         np.concatenate([pairs[0] // 3, layers[:, 0] // 3]),
         np.concatenate([pairs[1] // 3, layers[:, 1] // 3]),
     )
-    for columns in np.array([[0, 1], [2, 3]]):  # A column keeps its body and its layer along the whole border.
+    for columns in np.array(
+        [[0, 1], [2, 3]]
+    ):  # A column keeps its body and its layer along the whole border.
         swap = np.diff(part[border[:, columns] // 3])[:, 0] < 0
         border[np.ix_(swap, columns)] = border[np.ix_(swap, columns[::-1])]
     # A wall is between two bodies only, the same along its border.
     wall = np.unique(part[border[:, 2:] // 3], axis=0, return_inverse=True)[1].ravel()
-    lower, upper = part[border[:, 0] // 3], part[border[:, 1] // 3]
+    lower = part[border[:, 0] // 3]
+    upper = part[border[:, 1] // 3]
     first = np.empty(int(wall.max()) + 1, np.intp)
     first[wall] = np.arange(len(wall))
     one_pair = (lower == lower[first[wall]]) & (upper == upper[first[wall]]) & (lower != upper)
@@ -272,18 +315,26 @@ def wall_links(
     straight = agree[:, 0, 0] + agree[:, 1, 1] - agree[:, 0, 1] - agree[:, 1, 0]
     swapped = sums_by_index(wall, straight)[wall] < 0.0
     border[swapped] = border[swapped][:, [0, 1, 3, 2]]
-    links = np.concatenate([layers, border[:, [0, 2]], border[:, [1, 3]]]) if len(border) else layers[:0]
+    links = (
+        np.concatenate([layers, border[:, [0, 2]], border[:, [1, 3]]])
+        if len(border)
+        else layers[:0]
+    )
     return links[:, 0], links[:, 1]
 
 
-def _layer_links(edges: Edges, within: NDArray[np.intp], wall: NDArray[np.intp]) -> NDArray[np.intp]:
+def _layer_links(
+    edges: Edges, within: NDArray[np.intp], wall: NDArray[np.intp]
+) -> NDArray[np.intp]:
     """Return the (k, 2) sides that are joined within walls.
 
     The order of a face's copies is accidental: each copy is joined to the neighbor with which it agrees. within: (e, 4)
     sides on edges between two faces of a wall, by layers; wall: (t,) as of `_layers`.
     """
     crossed = wall[within[:, 1] // 3] != wall[within[:, 3] // 3]
-    within = np.where(crossed[:, None], within[:, [0, 1, 3, 2]], within)  # Corners of one face, then the other, twice.
+    within = np.where(
+        crossed[:, None], within[:, [0, 1, 3, 2]], within
+    )  # Corners of one face, then the other, twice.
     up = edges.upward[within]
     straight = (up[:, 0] != up[:, 1]).astype(int) + (up[:, 2] != up[:, 3])
     across = (up[:, 0] != up[:, 3]).astype(int) + (up[:, 2] != up[:, 1])
@@ -315,10 +366,13 @@ def _layers(
     np.add.at(border, piece[crowded // 3], hash_uint64(edges.of_side[crowded].astype(np.uint64)))
     candidate = np.flatnonzero(flat & (np.bincount(piece, layer > 0, number) == 0) & (border != 0))
     _, kind, times = np.unique(border[candidate], return_inverse=True, return_counts=True)
-    candidate, kind = candidate[times[kind] == 2], kind[times[kind] == 2]
+    candidate = candidate[times[kind] == 2]
+    kind = kind[times[kind] == 2]
     order = np.argsort(kind).reshape(-1, 2)
-    first, other = candidate[order[:, 0]], candidate[order[:, 1]]
-    piece_layer, partner = np.zeros(number, np.intp), np.arange(number)
+    first = candidate[order[:, 0]]
+    other = candidate[order[:, 1]]
+    piece_layer = np.zeros(number, np.intp)
+    partner = np.arange(number)
     piece_layer[first], piece_layer[other], partner[other] = 1, 2, first
     by_piece = piece_layer[piece] > 0
     return np.where(by_piece, piece_layer[piece], layer), np.where(

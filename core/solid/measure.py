@@ -44,7 +44,9 @@ from .weld_open_parts import (
     without_faces,
 )
 
-MAX_WELDED_SHARE = 0.1  # Share of the volume: a weld that may change more closes no gap left by rounding.
+MAX_WELDED_SHARE = (
+    0.1  # Share of the volume: a weld that may change more closes no gap left by rounding.
+)
 STEPS: tuple[Callable[[RepairedMesh, float], RepairedMesh], ...] = (
     weld_equal_positions,  # in parts with odd edges: one face, or three
     weld_near_positions,  # along the edges that are then still odd
@@ -100,10 +102,14 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
 def measure_left_over(stack: SolidStack, i: int, surface: Surface) -> SolidIntegrals:
     """Measure a surface that its stack left over as number `i`, as `measure_solid` does, from the stack's integrals."""
     checked = check_surface(surface)
-    return _measure_given(checked, stack.given(i, surface) or integrate_and_prove(checked, False, 1), False, 1)
+    return _measure_given(
+        checked, stack.given(i, surface) or integrate_and_prove(checked, False, 1), False, 1
+    )
 
 
-def _measure_given(checked: CheckedSurface, given: GivenIntegrals, shell: bool, threads: int) -> SolidIntegrals:
+def _measure_given(
+    checked: CheckedSurface, given: GivenIntegrals, shell: bool, threads: int
+) -> SolidIntegrals:
     mesh = given.proven or repair_surface(checked.surface, checked.tolerance)
     solid = _measure_repaired(checked, given, mesh, shell, threads)
     moved = mesh.max_displacement * solid.area.total
@@ -124,7 +130,9 @@ def _measure_repaired(
     return _judge(checked, given, orient_components(checked, given, mesh, threads), shell)
 
 
-def _judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool) -> SolidIntegrals:
+def _judge(
+    checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool
+) -> SolidIntegrals:
     """Return the judged body. A shell is not searched for self-intersections; its copies of faces are reported."""
     if not shell:
         return judge(checked, given, oriented, find_self_intersection(checked, given, oriented))
@@ -134,7 +142,9 @@ def _judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSol
     if len(copies) == len(found.duplicate_faces):
         return solid
     defects = replace(found, duplicate_faces=copies)
-    return replace(solid, health=replace(solid.health, duplicate_faces=len(copies), defective_elements=defects))
+    return replace(
+        solid, health=replace(solid.health, duplicate_faces=len(copies), defective_elements=defects)
+    )
 
 
 def repair_surface(surface: Surface, tolerance: float, weld_near: bool = True) -> RepairedMesh:

@@ -14,7 +14,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.bvh import Bvh, SortedComponents, intersecting_pairs, overlapping_box_pairs, sort_components
+from ..mesh.bvh import (
+    Bvh,
+    SortedComponents,
+    intersecting_pairs,
+    overlapping_box_pairs,
+    sort_components,
+)
 from ..numerics.arrays import cross_rows, lengths, segment_ranges
 
 NO_PAIRS = np.empty((0, 2), np.intp)
@@ -24,8 +30,16 @@ MAX_COMPONENT_PAIRS = 100_000
 # Points under the skin of a component of few faces, tested for being surrounded twice.
 MAX_OVERLAP_SAMPLES = 4096
 FIRST_SAMPLES = 8  # The first of so many samples decides for most pairs that intersect.
-SAMPLES_PER_PAIR = 256, 8, 50_000  # points under the skin for one pair: at most, at least; and for all pairs together
-BREAKTHROUGH_TRIANGLES = 4096, 8, 20_000  # Limits, as above, of the triangles with edges tested for reaching out.
+SAMPLES_PER_PAIR = (
+    256,
+    8,
+    50_000,
+)  # points under the skin for one pair: at most, at least; and for all pairs together
+BREAKTHROUGH_TRIANGLES = (
+    4096,
+    8,
+    20_000,
+)  # Limits, as above, of the triangles with edges tested for reaching out.
 MAX_STEPS_PER_EDGE = 16
 
 
@@ -51,7 +65,10 @@ class ComponentRelations:
 
 
 def classify_pairs(
-    points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
+    points: NDArray[np.floating],
+    components: SortedComponents,
+    candidates: NDArray[np.bool_],
+    tolerance: float,
 ) -> ComponentRelations:
     """Find the relations of the `candidates`, (c,), closed and not flat. Points nearer than `tolerance` touch."""
     chosen = np.flatnonzero(candidates)
@@ -63,17 +80,22 @@ def classify_pairs(
     i, j = chosen[i], chosen[j]
     size = np.abs(components.volume)
     swap = (size[i] > size[j]) | ((size[i] == size[j]) & (i < j))
-    small, large = np.where(swap, j, i), np.where(swap, i, j)
+    small = np.where(swap, j, i)
+    large = np.where(swap, i, j)
 
     selected = np.zeros(len(size), bool)
     selected[small] = selected[large] = True
     tree = Bvh(points, components, selected)
-    inside_count, outside_count = _classify_by_samples(points, components, tree, small, large, tolerance)
+    inside_count, outside_count = _classify_by_samples(
+        points, components, tree, small, large, tolerance
+    )
     within, without = inside_count > 0, outside_count > 0
     same = within & ~without & (size[large] - size[small] <= 1e-9 * size[large])
     through = (within & without) | same
     open_question = ~through
-    pierced, unfinished = intersecting_pairs(tree, small[open_question], large[open_question], tolerance)
+    pierced, unfinished = intersecting_pairs(
+        tree, small[open_question], large[open_question], tolerance
+    )
     through[open_question] = pierced
     unsure = ~(within | without)
     unsure[open_question] |= unfinished
@@ -105,9 +127,15 @@ def _breakthrough(
         pair = np.repeat(np.arange(len(pairs)), number)
         triangle = components.start[of][pair] + segment_ranges(number) * size[pair] // number[pair]
         corners = [tree.vertex_columns[:, vertex].T for vertex in components.triangles[triangle].T]
-        steps = int(np.clip(together // len(pair), 1, MAX_STEPS_PER_EDGE))  # few triangles may be long
+        steps = int(
+            np.clip(together // len(pair), 1, MAX_STEPS_PER_EDGE)
+        )  # few triangles may be long
         place = np.concatenate(
-            [corners[i] + k / steps * (corners[i - 1] - corners[i]) for i in range(3) for k in range(steps)]
+            [
+                corners[i] + k / steps * (corners[i - 1] - corners[i])
+                for i in range(3)
+                for k in range(steps)
+            ]
         )
         pair = np.tile(pair, 3 * steps)
         winding, sure = tree.winding_numbers(place, other[pair], 0.0)
@@ -131,7 +159,10 @@ def surfaces_intersect(
 
 
 def self_overlaps(
-    points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
+    points: NDArray[np.floating],
+    components: SortedComponents,
+    candidates: NDArray[np.bool_],
+    tolerance: float,
 ) -> bool:
     """Return whether a closed candidate surrounds a point under its skin twice, though no edge need pierce a face."""
     chosen = np.flatnonzero(candidates)
@@ -139,10 +170,20 @@ def self_overlaps(
         return False
     tree = Bvh(points, components, candidates)
     size = (components.start[1:] - components.start[:-1])[chosen]
-    number = np.clip(SAMPLES_PER_PAIR[2] // len(chosen), SAMPLES_PER_PAIR[1], np.maximum(size, MAX_OVERLAP_SAMPLES))
+    number = np.clip(
+        SAMPLES_PER_PAIR[2] // len(chosen),
+        SAMPLES_PER_PAIR[1],
+        np.maximum(size, MAX_OVERLAP_SAMPLES),
+    )
     component = np.repeat(chosen, number)
     place = _interior_samples(
-        points, components, tree, component, segment_ranges(number), np.repeat(number, number), tolerance
+        points,
+        components,
+        tree,
+        component,
+        segment_ranges(number),
+        np.repeat(number, number),
+        tolerance,
     )
     winding, sure = tree.winding_numbers(place, component, tolerance)
     return bool((sure & (np.abs(winding) > 1)).any())
@@ -183,12 +224,15 @@ def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDA
     host = np.arange(len(cavity))
     parent = _innermost_container(relations, len(cavity))
     pending = np.flatnonzero(cavity)
-    at, layers = parent[pending], np.ones(len(pending), np.intp)
+    at = parent[pending]
+    layers = np.ones(len(pending), np.intp)
     while len(pending):
         layers = layers + np.where(cavity[at], 1, -1)
         resolved = (layers == 0) | (parent[at] < 0)
         host[pending[resolved]] = at[resolved]
-        pending, at, layers = pending[~resolved], parent[at[~resolved]], layers[~resolved]
+        pending = pending[~resolved]
+        at = parent[at[~resolved]]
+        layers = layers[~resolved]
     return host
 
 
@@ -203,18 +247,27 @@ def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[
 
 
 def _classify_by_samples(
-    points: NDArray, components: SortedComponents, tree: Bvh, small: NDArray, large: NDArray, tolerance: float
+    points: NDArray,
+    components: SortedComponents,
+    tree: Bvh,
+    small: NDArray,
+    large: NDArray,
+    tolerance: float,
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Count, by pair, decidable points under the smaller component's skin inside and outside the larger one."""
     most, least, together = SAMPLES_PER_PAIR
     number = max(least, min(together // len(small), most))
-    samples, counts = np.arange(number), np.zeros((2, len(small)), np.intp)
-    needs_all = components.volume[small] * components.volume[large] < 0.0  # the larger count decides
+    samples = np.arange(number)
+    counts = np.zeros((2, len(small)), np.intp)
+    needs_all = (
+        components.volume[small] * components.volume[large] < 0.0
+    )  # the larger count decides
     is_first = samples % FIRST_SAMPLES == 0 if number > least else samples >= 0
     for chosen in (samples[is_first], samples[~is_first]):
         # Pairs with samples inside and outside intersect, whatever further samples say.
         open_pairs = np.flatnonzero(needs_all | ~counts.all(axis=0))
-        pair, k = open_pairs.repeat(len(chosen)), np.concatenate([chosen] * len(open_pairs) or [NO_INDICES])
+        pair = open_pairs.repeat(len(chosen))
+        k = np.concatenate([chosen] * len(open_pairs) or [NO_INDICES])
         if not len(pair):
             continue
         sampled = small[pair]
@@ -223,8 +276,11 @@ def _classify_by_samples(
         keep = self_sure & (self_winding != 0)
         place, pair = place[keep], pair[keep]
         winding, sure = tree.winding_numbers(place, large[pair], tolerance)
-        pair, inside = pair[sure], winding[sure] != 0
-        counts += [np.bincount(pair[is_chosen], minlength=len(small)) for is_chosen in (inside, ~inside)]
+        pair = pair[sure]
+        inside = winding[sure] != 0
+        counts += [
+            np.bincount(pair[is_chosen], minlength=len(small)) for is_chosen in (inside, ~inside)
+        ]
     return counts[0], counts[1]
 
 
@@ -239,15 +295,24 @@ def _interior_samples(
 ) -> NDArray[np.float64]:
     """Return the `k`-th of `number` points under the skin of each `component`, (n, 3) about the tree's origin."""
     triangle = (
-        components.start[component] + k * (components.start[component + 1] - components.start[component]) // number
+        components.start[component]
+        + k * (components.start[component + 1] - components.start[component]) // number
     )
     corner = points[components.triangles[triangle]].astype(np.float64) - tree.origin
     # Three numbers that never put two samples of a triangle in one place, nor any on a line of symmetry.
-    weight = np.stack([0.17 + k * 0.7548776662 % 1.0, 0.11 + k * 0.5698402910 % 1.0, 0.23 + k * 0.3247179572 % 1.0])
+    weight = np.stack(
+        [
+            0.17 + k * 0.7548776662 % 1.0,
+            0.11 + k * 0.5698402910 % 1.0,
+            0.23 + k * 0.3247179572 % 1.0,
+        ]
+    )
     weight /= weight.sum(axis=0)
     place = np.einsum("kn,nkj->nj", weight, corner)
     normal = cross_rows(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     area = lengths(normal)[:, 0]
     depth = 10.0 ** (-2 - k % 3) * np.sqrt(area)  # a thin shell needs less than a thick one allows
     inward = -np.sign(components.volume[component]) * np.maximum(depth, 4.0 * tolerance)
-    return place + normal * np.divide(inward, area, out=np.zeros_like(area), where=area > 0.0)[:, None]
+    return (
+        place + normal * np.divide(inward, area, out=np.zeros_like(area), where=area > 0.0)[:, None]
+    )

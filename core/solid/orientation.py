@@ -53,7 +53,9 @@ class ComponentComparison:
         breaking[relations.mostly_in[through, 0]] = True
         pairs = relations.intersecting
         if through.any():
-            pairs = pairs[~np.isin(pairs @ [len(solid), 1], relations.mostly_in[through] @ [len(solid), 1])]
+            pairs = pairs[
+                ~np.isin(pairs @ [len(solid), 1], relations.mostly_in[through] @ [len(solid), 1])
+            ]
         intersecting[pairs] = True
         return cls(
             flipped,
@@ -137,9 +139,16 @@ class OrientedSolid:
         if self.comparison is not None:
             included = (mesh.open | self.comparison.solid)[mesh.component]
             included |= not included.any()
-        triangles = np.where(self.reversed[mesh.component][:, None], mesh.triangles[:, ::-1], mesh.triangles)
+        triangles = np.where(
+            self.reversed[mesh.component][:, None], mesh.triangles[:, ::-1], mesh.triangles
+        )
         return ClosedParts(
-            mesh.points, triangles[included], mesh.face[included], mesh.component[included], mesh.number, host
+            mesh.points,
+            triangles[included],
+            mesh.face[included],
+            mesh.component[included],
+            mesh.number,
+            host,
         )
 
 
@@ -147,7 +156,9 @@ def orient_components(
     checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, threads: int
 ) -> OrientedSolid:
     """Compare the components of a body, turn components that are inside out, and integrate the result."""
-    is_proven, comparison, flipped = mesh is given.proven, None, np.zeros(mesh.number, bool)
+    is_proven = mesh is given.proven
+    comparison = None
+    flipped = np.zeros(mesh.number, bool)
     surface, volume = checked.surface, given.volume
     if mesh.number > 1:
         comparison = compare_components(mesh, checked.tolerance, checked.error)
@@ -157,7 +168,8 @@ def orient_components(
         surface = _oriented_surface(surface, mesh, flipped, counted, is_proven)
     if surface is not checked.surface:
         volume = _integrate_oriented(given, mesh, flipped, surface, threads)
-    total, has_open = volume.total, bool(mesh.open.any())
+    total = volume.total
+    has_open = bool(mesh.open.any())
     threshold = zero_volume(checked.size, given.area.total, bool(mesh.caps.any()), checked.error)
     is_solid = bool(abs(total) > max(threshold, volume.rounding_error[0]))
     if comparison is None:
@@ -165,13 +177,18 @@ def orient_components(
         # An open surface has no inside.
         turned = np.full(mesh.number, is_solid and total < 0.0 and not has_open)
     else:
-        solid, turned = comparison.solid, flipped
+        solid = comparison.solid
+        turned = flipped
         is_solid = bool(solid.any()) or is_solid and has_open
     inside_out = total < 0.0 and (is_solid or has_open)
     if inside_out:
         volume = replace(volume, raw=-volume.raw)
-        surface = replace(surface, quads=surface.quads[:, [0, 3, 2, 1]], triangles=surface.triangles[:, ::-1])
-    return OrientedSolid(mesh, is_proven, surface, volume, is_solid, solid, turned, flipped ^ inside_out, comparison)
+        surface = replace(
+            surface, quads=surface.quads[:, [0, 3, 2, 1]], triangles=surface.triangles[:, ::-1]
+        )
+    return OrientedSolid(
+        mesh, is_proven, surface, volume, is_solid, solid, turned, flipped ^ inside_out, comparison
+    )
 
 
 def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> ComponentComparison:
@@ -188,40 +205,69 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
 def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
     """Return the volume below which a component is flat: of a sheet, capped or closed, by rounding and float32."""
     return (
-        np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, np.maximum(CLOSED_SHEET_VOLUME_RTOL * size, error))
+        np.where(
+            capped,
+            FLAT_CAP_VOLUME_RTOL * size + 4.0 * error,
+            np.maximum(CLOSED_SHEET_VOLUME_RTOL * size, error),
+        )
         * area
     )
 
 
 def _oriented_surface(
-    surface: Surface, mesh: RepairedMesh, flip: NDArray[np.bool_], solid: NDArray[np.bool_], proven: bool
+    surface: Surface,
+    mesh: RepairedMesh,
+    flip: NDArray[np.bool_],
+    solid: NDArray[np.bool_],
+    proven: bool,
 ) -> Surface:
     """Return the surface with the signed sum of the body."""
     flipped = mesh.flipped ^ flip[mesh.component]
     included = (mesh.open | solid)[mesh.component]  # Flat parts would only add rounding.
-    if not (mesh.topology_changed or flipped.any() or (mesh.face < 0).any()) and (included.all() or not included.any()):
+    if not (mesh.topology_changed or flipped.any() or (mesh.face < 0).any()) and (
+        included.all() or not included.any()
+    ):
         return surface
     if proven:
-        quads, triangles = surface.quads.copy(), surface.triangles.copy()
+        quads = surface.quads.copy()
+        triangles = surface.triangles.copy()
         flipped_rows = flipped[len(triangles) :: 2]
-        quads[flipped_rows] = quads[flipped_rows][:, [0, 3, 2, 1]]  # the first corner stays, and with it the diagonal
+        quads[flipped_rows] = quads[flipped_rows][
+            :, [0, 3, 2, 1]
+        ]  # the first corner stays, and with it the diagonal
         flipped_rows = flipped[: len(triangles)]
         triangles[flipped_rows] = triangles[flipped_rows][:, ::-1]
         return replace(surface, quads=quads, triangles=triangles)
     triangles = mesh.triangles
     if flip.any():
         triangles = np.where(flip[mesh.component][:, None], triangles[:, ::-1], triangles)
-    displacement = surface.coordinate_error + mesh.max_displacement if mesh.max_displacement else surface.displacement
-    return Surface(mesh.points, triangles if included.all() else triangles[included], displacement=displacement)
+    displacement = (
+        surface.coordinate_error + mesh.max_displacement
+        if mesh.max_displacement
+        else surface.displacement
+    )
+    return Surface(
+        mesh.points, triangles if included.all() else triangles[included], displacement=displacement
+    )
 
 
 def _integrate_oriented(
-    given: GivenIntegrals, mesh: RepairedMesh, flip: NDArray[np.bool_], measured: Surface, threads: int
+    given: GivenIntegrals,
+    mesh: RepairedMesh,
+    flip: NDArray[np.bool_],
+    measured: Surface,
+    threads: int,
 ) -> Moments:
     """Return the volume moments of the measured surface; only its caps are integrated if the rest is as given."""
     integrate = partial(polyhedron_moments, area_order=0, threads=threads, allow_open=True)
-    caps, is_turned = mesh.face < 0, mesh.flipped.any() or flip.any()
-    if mesh.topology_changed or is_turned or not caps.any() or len(measured.triangles) < len(mesh.triangles):
+    caps = mesh.face < 0
+    is_turned = mesh.flipped.any() or flip.any()
+    if (
+        mesh.topology_changed
+        or is_turned
+        or not caps.any()
+        or len(measured.triangles) < len(mesh.triangles)
+    ):
         return integrate(measured)[0]
     surface = replace(measured, triangles=measured.triangles[caps])
     return sum_moments([given.volume, integrate(surface, about=given.volume.about)[0]])

@@ -126,7 +126,9 @@ class RepairedMesh:
         """Return the mesh with more knowledge for later steps."""
         return copy_with(self, state=copy_with(self.state, **changes))
 
-    def with_report(self, *, elements: dict[str, NDArray[np.integer]] | None = None, **counts: Any) -> RepairedMesh:
+    def with_report(
+        self, *, elements: dict[str, NDArray[np.integer]] | None = None, **counts: Any
+    ) -> RepairedMesh:
         """Return the mesh with entries of its report replaced. elements: entries of its `DefectiveElements`."""
         if elements:
             counts["defective_elements"] = copy_with(self.report.defective_elements, **elements)

@@ -29,7 +29,9 @@ from ..verdict.health import Intersection
 from .closedness import CheckedSurface, GivenIntegrals, same_sign
 from .orientation import OrientedSolid
 
-MAX_UNSURE_LINES = 0.05  # Share of lines: if more enter and leave unequally often, the rest says nothing.
+MAX_UNSURE_LINES = (
+    0.05  # Share of lines: if more enter and leave unequally often, the rest says nothing.
+)
 FACES_LOOKED_AT_FIRST = 1024
 
 
@@ -46,15 +48,20 @@ class SelfIntersection:
     effect: float = 0.0
 
 
-def find_self_intersection(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid) -> SelfIntersection:
+def find_self_intersection(
+    checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid
+) -> SelfIntersection:
     """Search the surface of a solid for self-intersections. All three arguments are of the same surface."""
-    mesh, surface, volume = oriented.mesh, oriented.surface, oriented.volume
+    mesh = oriented.mesh
+    surface = oriented.surface
+    volume = oriented.volume
     if not oriented.is_solid or mesh.open.any():
         return SelfIntersection(Intersection.NOT_CHECKED)
     component = None
     if mesh.number > 1:
         parts = oriented.closed_parts()
-        surface, component = _used_points(parts.points, parts.triangles), parts.part
+        surface = _used_points(parts.points, parts.triangles)
+        component = parts.part
     else:
         center = volume.about + volume.raw[1:4] / volume.total
         as_given = oriented.is_proven and given.all_cones_agree
@@ -63,8 +70,12 @@ def find_self_intersection(checked: CheckedSurface, given: GivenIntegrals, orien
         ):
             return SelfIntersection(Intersection.EXCLUDED)
     low, high = surface.box
-    grids = LineGrids.over_boxes(low[None], high[None], line_counts(np.array([surface.triangle_count])))
-    excess = measure_excess(find_crossings(surface, grids), grids, np.array([checked.tolerance]), component)
+    grids = LineGrids.over_boxes(
+        low[None], high[None], line_counts(np.array([surface.triangle_count]))
+    )
+    excess = measure_excess(
+        find_crossings(surface, grids), grids, np.array([checked.tolerance]), component
+    )
     if excess.unsure[0] > MAX_UNSURE_LINES:
         return SelfIntersection(Intersection.NOT_CHECKED)
     if not excess.volume[0] > 0.0:
@@ -87,7 +98,8 @@ def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
     for corners in _corner_blocks(surface):
         a, b, c = (corner - center[:, None] for corner in corners)
         cones = dot(a, cross(b, c))
-        total, signed = total + float(np.abs(cones).sum()), signed + float(cones.sum())
+        total = total + float(np.abs(cones).sum())
+        signed = signed + float(cones.sum())
         if not same_sign(total, signed):
             return False
     return True
@@ -125,7 +137,10 @@ class Excess:
 
 
 def measure_excess(
-    crossings: Crossings, grids: LineGrids, tolerance: NDArray[np.float64], part: NDArray[np.integer] | None = None
+    crossings: Crossings,
+    grids: LineGrids,
+    tolerance: NDArray[np.float64],
+    part: NDArray[np.integer] | None = None,
 ) -> Excess:
     """Measure along lines the volume that a closed part counts more than once, or as negative."""
     bodies = len(grids.cell)
@@ -135,7 +150,9 @@ def measure_excess(
     line = crossings.row * grids.columns + crossings.column
     group = line * (int(of_part.max()) + 1) + of_part  # a part is of one body
     order = np.lexsort((crossings.along, group))
-    group, of_part, body = group[order], of_part[order], crossings.body[order]
+    group = group[order]
+    of_part = of_part[order]
+    body = crossings.body[order]
     begins = np.flatnonzero(np.concatenate([[True], group[1:] != group[:-1]]))
     last = np.concatenate([begins[1:], [len(group)]]) - 1
     which = np.repeat(np.arange(len(begins)), last + 1 - begins)
@@ -143,19 +160,33 @@ def measure_excess(
     depth -= (depth[begins] - crossings.sign[order][begins])[which]
     complete = depth[last] == 0
     lines = np.bincount(body[begins], minlength=bodies)
-    unsure = np.where(lines > 0, np.bincount(body[begins], ~complete, minlength=bodies) / np.maximum(lines, 1), 1.0)
+    unsure = np.where(
+        lines > 0,
+        np.bincount(body[begins], ~complete, minlength=bodies) / np.maximum(lines, 1),
+        1.0,
+    )
 
     is_inner = complete[which]
     is_inner[last] = False
     inner = np.flatnonzero(is_inner)
-    along, body, depth = crossings.along[order], body[inner], depth[inner]
+    along = crossings.along[order]
+    body = body[inner]
+    depth = depth[inner]
     length = along[inner + 1] - along[inner]
     outward = np.sign(sums_by_index(of_part[inner], depth * length, int(of_part.max()) + 1))
     depth = depth * outward[of_part[inner]]
     times = np.maximum(depth - 1.0, 0.0) + np.maximum(-depth, 0.0)
     wrong = np.flatnonzero((times > 0.0) & (length > tolerance[body]))
     inner, body = inner[wrong], body[wrong]
-    volume = times[wrong] * length[wrong] * (np.multiply.reduce(grids.cell, axis=1) * crossings.rows_apart)[body]
+    volume = (
+        times[wrong]
+        * length[wrong]
+        * (np.multiply.reduce(grids.cell, axis=1) * crossings.rows_apart)[body]
+    )
     middle = along[inner] + length[wrong] / 2.0
-    distance = grids.squared_distances(body, crossings.row[order][inner], crossings.column[order][inner], middle)
-    return Excess(sums_by_index(body, volume, bodies), sums_by_index(body, volume * distance, bodies), unsure)
+    distance = grids.squared_distances(
+        body, crossings.row[order][inner], crossings.column[order][inner], middle
+    )
+    return Excess(
+        sums_by_index(body, volume, bodies), sums_by_index(body, volume * distance, bodies), unsure
+    )

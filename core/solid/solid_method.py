@@ -41,7 +41,9 @@ from .repaired_mesh import RepairedMesh, copy_with
 from .self_intersection import SelfIntersection
 
 MIN_REPORTED_AMBIGUITY = 1e-6  # Share of the volume; smaller ambiguities are not reported.
-SMOOTH_FACES, SMOOTH_SHARE = 24, 0.03  # So many bent faces with so small a spread stand for a curved surface.
+# So many bent faces with so small a spread stand for a curved surface.
+SMOOTH_FACES = 24
+SMOOTH_SHARE = 0.03
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +95,12 @@ class SolidIntegrals:
         return self.oriented.surface
 
     def moments(
-        self, order: int, area_order: int | None = None, *, about: ArrayLike | None = None, threads: int = 1
+        self,
+        order: int,
+        area_order: int | None = None,
+        *,
+        about: ArrayLike | None = None,
+        threads: int = 1,
     ) -> tuple[Moments, Moments | None]:
         """Return the body's volume moments to an order; and area moments of the given faces, as in ``area``, or None.
 
@@ -102,14 +109,24 @@ class SolidIntegrals:
         """
         reference = self.volume.about
         volume, area = polyhedron_moments(
-            self.repaired_surface, order, about=reference, exact=True, threads=threads, allow_open=True
+            self.repaired_surface,
+            order,
+            about=reference,
+            exact=True,
+            threads=threads,
+            allow_open=True,
         )
         if not self.volume.raw.any():  # Rounding noise of a flat body has no moments.
             error = volume.rounding_error + np.abs(volume.raw)
             volume = replace(volume, raw=np.zeros_like(volume.raw), rounding_error=error)
         if area_order is not None:
             area = polyhedron_moments(
-                self.given_surface, 0, area_order=area_order, about=reference, threads=threads, allow_open=True
+                self.given_surface,
+                0,
+                area_order=area_order,
+                about=reference,
+                threads=threads,
+                allow_open=True,
             )[1]
         if about is None:
             return volume, area
@@ -121,26 +138,36 @@ class SolidIntegrals:
 
     def exact_third_order(self, threads: int = 1) -> Moments:
         """Return `volume` with its third order exact to rounding, for decisions that its bounds leave open."""
-        return polyhedron_moments(self.repaired_surface, exact=True, threads=threads, allow_open=True)[0]
+        return polyhedron_moments(
+            self.repaired_surface, exact=True, threads=threads, allow_open=True
+        )[0]
 
 
 def judge(
-    checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, intersection: SelfIntersection | None
+    checked: CheckedSurface,
+    given: GivenIntegrals,
+    oriented: OrientedSolid,
+    intersection: SelfIntersection | None,
 ) -> SolidIntegrals:
     """Decide the method of a measured body, and report all decisions. intersection: None if not searched."""
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
     if not oriented.is_solid and not has_open:  # Rounding noise would pass for a tiny body.
         volume = replace(
-            volume, raw=np.zeros_like(volume.raw), rounding_error=volume.rounding_error + np.abs(volume.raw)
+            volume,
+            raw=np.zeros_like(volume.raw),
+            rounding_error=volume.rounding_error + np.abs(volume.raw),
         )
-    flipped, inverted = NO_FACES, np.flatnonzero(oriented.turned)
+    flipped = NO_FACES
+    inverted = np.flatnonzero(oriented.turned)
     if mesh.flipped.any():
         flipped, inverted = _flipped_faces(mesh, oriented.turned)
     self_intersecting = oriented.is_solid and not has_open and volume.total > 0.0
     if self_intersecting:
         low, high = checked.surface.box
-        self_intersecting = not are_physical(volume.at(None), low[None], high[None], checked.size)[0]
+        self_intersecting = not are_physical(volume.at(None), low[None], high[None], checked.size)[
+            0
+        ]
     caps = mesh.caps[oriented.solid].sum(axis=0)
     cap_share = float(caps[2] / given.area.total) if given.area.total > 0.0 else 0.0
     if has_open or not oriented.is_solid or self_intersecting:
@@ -150,10 +177,16 @@ def judge(
     else:
         procedure = Procedure.REORIENTED if len(flipped) or len(inverted) else Procedure.EXACT
     findings: list[Finding] = []
-    step = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))  # one ulp of float32
+    step = 2.0 * float(
+        np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0)))
+    )  # one ulp of float32
     if mesh.max_displacement > step:  # less is how the same place is written twice
         slight = mesh.max_displacement * given.area.total < NEGLIGIBLE * abs(volume.total)
-        findings.append(finding(VERTICES_WELDED, slight=slight, share=float(mesh.max_displacement / checked.size)))
+        findings.append(
+            finding(
+                VERTICES_WELDED, slight=slight, share=float(mesh.max_displacement / checked.size)
+            )
+        )
     findings += [_of_input(item, checked.vertices) for item in mesh.findings]
     if len(flipped):
         slight = _is_slight(mesh, np.isin(mesh.face, flipped), checked.size, volume.total)
@@ -172,13 +205,18 @@ def judge(
     findings += shape_findings(oriented.is_solid, given.planarity, volume)
     state = Intersection.NOT_CHECKED if intersection is None else intersection.state
     health = _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share, state)
-    return SolidIntegrals(volume, given.area, health, procedure, tuple(findings), oriented, checked.surface)
+    return SolidIntegrals(
+        volume, given.area, health, procedure, tuple(findings), oriented, checked.surface
+    )
 
 
-def _flipped_faces(mesh: RepairedMesh, turned: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
+def _flipped_faces(
+    mesh: RepairedMesh, turned: NDArray[np.bool_]
+) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
     """Return the mesh faces that were turned within their components, and the components turned as a whole."""
     of_mesh = mesh.face >= 0
-    flipped, component = (mesh.flipped ^ turned[mesh.component])[of_mesh], mesh.component[of_mesh]
+    flipped = (mesh.flipped ^ turned[mesh.component])[of_mesh]
+    component = mesh.component[of_mesh]
     whole = np.bincount(component, ~flipped) == 0
     return np.unique(mesh.face[of_mesh][flipped & ~whole[component]]), np.flatnonzero(whole)
 
@@ -193,7 +231,8 @@ def _health(
     intersection: Intersection,
 ) -> MeshHealth:
     """Return the report of the repair, completed, with edges in the input's vertices."""
-    report, vertices = oriented.mesh.report, checked.vertices
+    report = oriented.mesh.report
+    vertices = checked.vertices
     defects = report.defective_elements
     edges = defects.boundary_edges, defects.non_manifold_edges, defects.inconsistent_edges
     if vertices is not None:
@@ -209,7 +248,10 @@ def _health(
         cap_area_share=cap_share,
         self_intersection=intersection,
         defective_elements=DefectiveElements(
-            flipped, *edges, duplicate_faces=defects.duplicate_faces, degenerate_faces=planarity.degenerate_faces
+            flipped,
+            *edges,
+            duplicate_faces=defects.duplicate_faces,
+            degenerate_faces=planarity.degenerate_faces,
         ),
     )
 
@@ -217,20 +259,30 @@ def _health(
 def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
     """Return the finding with edges in the input's vertices, if unused vertices were left out before."""
     elements = np.asarray(item.elements)
-    return replace(item, elements=vertices[elements]) if elements.ndim == 2 and vertices is not None else item
+    return (
+        replace(item, elements=vertices[elements])
+        if elements.ndim == 2 and vertices is not None
+        else item
+    )
 
 
 def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume: float) -> bool:
     """Return whether triangles are too small to matter, by their area times the body's size. rows: (t,)."""
-    return bool(triangle_areas(mesh.points, mesh.triangles[rows]).sum() * size < NEGLIGIBLE * volume)
+    return bool(
+        triangle_areas(mesh.points, mesh.triangles[rows]).sum() * size < NEGLIGIBLE * volume
+    )
 
 
-def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp], size: float, volume: float) -> Finding:
+def _inverted_finding(
+    mesh: RepairedMesh, inverted: NDArray[np.intp], size: float, volume: float
+) -> Finding:
     which = np.zeros(mesh.number, bool)
     which[inverted] = True
     faces = NO_FACES if which.all() else mesh.faces_of(which)
     slight = not which.all() and _is_slight(mesh, which[mesh.component], size, volume)
-    return finding(INVERTED_COMPONENTS, faces, slight=slight, count=len(inverted), total=int(mesh.number))
+    return finding(
+        INVERTED_COMPONENTS, faces, slight=slight, count=len(inverted), total=int(mesh.number)
+    )
 
 
 def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[np.intp]:
@@ -246,7 +298,15 @@ def cap_finding(
     """Return a finding about capped holes. caps: (3,) flat ones, curved ones, their area; share: of the surface's."""
     flat, curved = map(int, caps[:2])
     slight = caps[2] * size < NEGLIGIBLE * volume  # all their moments together
-    return finding(HOLES_CAPPED, edges, slight=slight, count=flat + curved, flat=flat, curved=curved, share=share)
+    return finding(
+        HOLES_CAPPED,
+        edges,
+        slight=slight,
+        count=flat + curved,
+        flat=flat,
+        curved=curved,
+        share=share,
+    )
 
 
 def _component_findings(
@@ -266,8 +326,12 @@ def _component_findings(
     ):
         if which.any():
             decided = _all_but_largest(mesh, which) if code == COMPONENTS_OVERLAP else which
-            slight = code != CAVITIES_SUBTRACTED and _is_slight(mesh, decided[mesh.component], size, volume)
-            findings.append(finding(code, mesh.faces_of(which), slight=slight, count=int(which.sum()), **values))
+            slight = code != CAVITIES_SUBTRACTED and _is_slight(
+                mesh, decided[mesh.component], size, volume
+            )
+            findings.append(
+                finding(code, mesh.faces_of(which), slight=slight, count=int(which.sum()), **values)
+            )
     if comparison.undecided_pairs:
         findings.append(finding(OVERLAP_UNCHECKED, count=int(comparison.undecided_pairs)))
     return findings
@@ -287,7 +351,11 @@ def _intersection_findings(intersection: SelfIntersection, volume: float) -> lis
     if intersection.state is Intersection.FOUND:
         slight = intersection.effect < NEGLIGIBLE
         return [finding(SELF_INTERSECTION, slight=slight, share=intersection.volume / volume)]
-    return [finding(SELF_INTERSECTION_UNCHECKED)] if intersection.state is Intersection.NOT_CHECKED else []
+    return (
+        [finding(SELF_INTERSECTION_UNCHECKED)]
+        if intersection.state is Intersection.NOT_CHECKED
+        else []
+    )
 
 
 def shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> list[Finding]:

@@ -67,11 +67,14 @@ class SolidStack:
         if not self.is_integrated[i]:
             return None
         agree = bool(same_sign(*self.cones[i].tolist()))
-        return GivenIntegrals(self.volume.at(i), self.area.at(i), self.planarity.at(i), agree, prove_closed(surface))
+        return GivenIntegrals(
+            self.volume.at(i), self.area.at(i), self.planarity.at(i), agree, prove_closed(surface)
+        )
 
     def health(self, i: int) -> MeshHealth:
         """Return the state of a measured body's surface."""
-        flat, edges = self.planarity, self.caps.edges_of(i)
+        flat = self.planarity
+        edges = self.caps.edges_of(i)
         return MeshHealth(
             closed=not len(edges),
             boundary_edges=len(edges),
@@ -85,10 +88,16 @@ class SolidStack:
 
     def findings(self, i: int) -> tuple[Finding, ...]:
         """Return the findings about a measured body."""
-        flat, found = self.planarity, []
+        flat = self.planarity
+        found = []
         if self.caps.is_capped[i]:
-            share, total = self._cap_share(i), float(self.volume.raw[i, 0])
-            found.append(cap_finding(self.caps.edges_of(i), self.caps.counts[i], share, float(self.size[i]), total))
+            share = self._cap_share(i)
+            total = float(self.volume.raw[i, 0])
+            found.append(
+                cap_finding(
+                    self.caps.edges_of(i), self.caps.counts[i], share, float(self.size[i]), total
+                )
+            )
         if flat.volume_spread[i]:
             found += shape_findings(True, flat.at(i), self.volume.at(i))
         return tuple(found)
@@ -109,7 +118,9 @@ def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Mome
     point_counts = np.array([len(surface.points) for surface in surfaces])
     stack = TriangleStack(
         np.concatenate([surface.points.astype(np.float64) for surface in surfaces]),
-        np.concatenate([rows + start for rows, start in zip(triangles, segment_starts(point_counts).tolist())]),
+        np.concatenate(
+            [rows + start for rows, start in zip(triangles, segment_starts(point_counts).tolist())]
+        ),
         point_counts,
         np.array([len(rows) for rows in triangles]),
     )
@@ -117,11 +128,15 @@ def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Mome
     return _extend(stack_moments([solid.volume for solid in solids]), order, stack, error)
 
 
-def _extend(volume: Moments, order: int, stack: TriangleStack, error: NDArray[np.float64]) -> Moments:
+def _extend(
+    volume: Moments, order: int, stack: TriangleStack, error: NDArray[np.float64]
+) -> Moments:
     """Return the volume moments of the stack's bodies to an order. error: (n, 3) shifts of the points by storing."""
     low, high = stack.box
     reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + error
-    return extend_small_moments(volume, order, stack.points, stack.triangles, stack.triangle_counts, reach)
+    return extend_small_moments(
+        volume, order, stack.points, stack.triangles, stack.triangle_counts, reach
+    )
 
 
 def can_be_stacked(surfaces: Sequence[Surface]) -> list[bool]:
@@ -145,34 +160,53 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         area=True,
         area_moments=False,
     )
-    planarity, links = stack_planarity(stack), stack.connections()
-    size, farthest = np.sqrt(np.add.reduce((high - low) ** 2, axis=1)), reach.max(axis=1)
+    planarity = stack_planarity(stack)
+    links = stack.connections()
+    size = np.sqrt(np.add.reduce((high - low) ** 2, axis=1))
+    farthest = reach.max(axis=1)
     is_integrated = stack.uses_all_points()
-    is_integrated &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH)  # float32: none too large
+    is_integrated &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (
+        farthest < MAX_UNSCALED_REACH
+    )  # float32: none too large
     usable = is_integrated & (links.component_counts <= MAX_COMPONENTS) & ~planarity.has_degenerate
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
     tolerance = np.maximum(WELDING_RTOL * size, 4.0 * error)
-    none, part = np.zeros(len(stack), np.intp), links.component[stack.triangle_faces]
-    caps = StackCaps(none > 0, stack, part, none, np.zeros((len(none), 3)), np.empty((0, 2), np.intp), none)
+    none = np.zeros(len(stack), np.intp)
+    part = links.component[stack.triangle_faces]
+    caps = StackCaps(
+        none > 0, stack, part, none, np.zeros((len(none), 3)), np.empty((0, 2), np.intp), none
+    )
     if links.is_open.any() and (made := cap_stack(stack, links, usable, tolerance)) is not None:
-        caps, volume = made, made.add_to(volume)
-    capped, triangles, part = caps.is_capped, caps.triangles, caps.part
+        caps = made
+        volume = made.add_to(volume)
+    capped = caps.is_capped
+    triangles = caps.triangles
+    part = caps.part
     is_measured = usable & (links.is_closed | capped)
-    least = np.maximum(zero_volume(size, area.raw[:, 0], capped, error), volume.rounding_error[:, 0])
+    least = np.maximum(
+        zero_volume(size, area.raw[:, 0], capped, error), volume.rounding_error[:, 0]
+    )
     is_measured &= volume.raw[:, 0] > least
     is_star = links.component_counts == 1
     if (is_measured & is_star).any():
-        centers = volume.about + volume.raw[:, 1:4] / np.where(is_measured, volume.raw[:, 0], 1.0)[:, None]
+        centers = (
+            volume.about
+            + volume.raw[:, 1:4] / np.where(is_measured, volume.raw[:, 0], 1.0)[:, None]
+        )
         is_proven = _are_stars(triangles, centers)
         if not is_proven[is_measured & ~capped].all():
             is_proven |= ~capped & _are_stars(triangles, volume.about)
         is_star &= is_proven
-    rows = np.flatnonzero(is_measured & ~is_star)  # A star is a body, and does not go through itself.
+    rows = np.flatnonzero(
+        is_measured & ~is_star
+    )  # A star is a body, and does not go through itself.
     if len(rows):
         is_measured[rows] = are_physical(volume.at(rows), low[rows], high[rows], size[rows])
     several = np.flatnonzero(is_measured & (links.component_counts > 1))
     if len(several):
-        is_measured[several] = _stand_apart(triangles, part, several, links.component_counts, tolerance, capped, error)
+        is_measured[several] = _stand_apart(
+            triangles, part, several, links.component_counts, tolerance, capped, error
+        )
     intersection = np.full(len(stack), Intersection.NOT_CHECKED, object)
     intersection[is_measured] = Intersection.EXCLUDED
     rows = np.flatnonzero(is_measured & ~is_star)
@@ -213,10 +247,17 @@ def _stand_apart(
     """Return a (k,) mask of the bodies `rows` whose parts face outward, surely have a volume, and stand apart."""
     chosen = stack.owned(rows)[1]
     part = _renumbered(part[chosen])
-    body = np.repeat(np.arange(len(rows)), counts[rows])  # The body of each part; parts are numbered body by body.
-    parts, of_all = sort_components(stack.points, stack.triangles[chosen], part, len(body)), rows[body]
-    low, high, size = parts.low, parts.high, np.sqrt(np.add.reduce((parts.high - parts.low) ** 2, axis=1))
-    is_bad = parts.volume <= CLEAR_VOLUME * zero_volume(size, parts.area, capped[of_all], error[of_all])
+    body = np.repeat(
+        np.arange(len(rows)), counts[rows]
+    )  # The body of each part; parts are numbered body by body.
+    parts = sort_components(stack.points, stack.triangles[chosen], part, len(body))
+    of_all = rows[body]
+    low = parts.low
+    high = parts.high
+    size = np.sqrt(np.add.reduce((parts.high - parts.low) ** 2, axis=1))
+    is_bad = parts.volume <= CLEAR_VOLUME * zero_volume(
+        size, parts.area, capped[of_all], error[of_all]
+    )
     apart = 2.0 * tolerance[of_all]
     for step in range(1, int(counts[rows].max())):
         gap = np.maximum(low[step:] - high[:-step], low[:-step] - high[step:]).max(axis=1)
@@ -232,17 +273,24 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
     """
     places = points.take(np.repeat(np.arange(len(stack)), stack.triangle_counts), 0).T[:, None]
     corners = stack.points.T.take(stack.triangles.T, 1) - places
-    after, before = corners.take(NEXT_AXIS, 0), corners.take(PREVIOUS_AXIS, 0)
+    after = corners.take(NEXT_AXIS, 0)
+    before = corners.take(PREVIOUS_AXIS, 0)
     cones = np.add.reduce(corners[:, 0] * (after[:, 1] * before[:, 2] - before[:, 1] * after[:, 2]))
     la, lb, lc = np.sqrt(np.add.reduce(corners * corners))
     ab, bc, ca = np.add.reduce(corners * corners.take(NEXT_AXIS, 1))
-    with np.errstate(over="ignore", invalid="ignore"):  # beyond the range of float32 a body counts as no star
+    with np.errstate(
+        over="ignore", invalid="ignore"
+    ):  # beyond the range of float32 a body counts as no star
         halves = np.arctan2(cones, la * lb * lc + ab * lc + bc * la + ca * lb)
-    total, signed, angle = np.add.reduceat(np.array([np.abs(cones), cones, halves]), stack.first_triangle, axis=1)
+    total, signed, angle = np.add.reduceat(
+        np.array([np.abs(cones), cones, halves]), stack.first_triangle, axis=1
+    )
     return (total - signed <= SUM_ROUNDING * total) & (np.rint(angle / (2.0 * np.pi)) == 1.0)
 
 
-def _search_self_intersections(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
+def _search_self_intersections(
+    stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]
+) -> NDArray[np.object_]:
     """Return the (k,) `Intersection` of each body, like `find_self_intersection`. part: (t,) triangles' components."""
     low, high = stack.box
     body = np.repeat(np.arange(len(tolerance)), stack.point_counts)
@@ -275,7 +323,9 @@ class StackCaps:
     def add_to(self, volume: Moments) -> Moments:
         """Return the volume moments of the surfaces with their caps, about the same points."""
         rows = np.flatnonzero(self.is_capped)
-        stack, counts, center = self.triangles.some(rows), self.cap_counts[rows], volume.about[rows]
+        stack = self.triangles.some(rows)
+        counts = self.cap_counts[rows]
+        center = volume.about[rows]
         low, high = stack.box
         first_cap = stack.first_triangle + stack.triangle_counts - counts
         is_cap = np.arange(len(stack.triangles)) >= np.repeat(first_cap, stack.triangle_counts)
@@ -290,7 +340,9 @@ class StackCaps:
             area_moments=False,
         )
         total = sum_moments([volume.at(rows), caps])
-        changed = {name: getattr(volume, name).copy() for name in ("raw", "rounding_error", "input_error")}
+        changed = {
+            name: getattr(volume, name).copy() for name in ("raw", "rounding_error", "input_error")
+        }
         for name, values in changed.items():
             values[rows] = getattr(total, name)
         return replace(volume, **changed)
@@ -302,13 +354,18 @@ class StackCaps:
 
 
 def cap_stack(
-    stack: SurfaceStack, links: Connections, usable: NDArray[np.bool_], tolerance: NDArray[np.float64]
+    stack: SurfaceStack,
+    links: Connections,
+    usable: NDArray[np.bool_],
+    tolerance: NDArray[np.float64],
 ) -> StackCaps | None:
     """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,) distances of touch."""
     can = usable & links.is_open
     start, stop = links.open_sides
-    owner, total = stack.point_owners, len(stack.points)
-    leaving, arriving = np.bincount(start, minlength=total), np.bincount(stop, minlength=total)
+    owner = stack.point_owners
+    total = len(stack.points)
+    leaving = np.bincount(start, minlength=total)
+    arriving = np.bincount(stop, minlength=total)
     can &= np.logical_and.reduceat((leaving <= 1) & (leaving == arriving), stack.first_point)
     for chosen, reach in ((start, tolerance), (np.flatnonzero(can[owner]), np.zeros(len(can)))):
         of = owner[chosen]
@@ -332,7 +389,9 @@ def cap_stack(
         found = OwnedLoops.of_sides(stack.points, start, stop, owner[start])
         bad = ~found.loops.complete | ~found.loops.has_area(tolerance[found.owner])
         if not bad.any():
-            return _capped(stack, links.component[stack.triangle_faces], can, tolerance, side, found)
+            return _capped(
+                stack, links.component[stack.triangle_faces], can, tolerance, side, found
+            )
         can[found.owner[bad]] = False
     return None
 
@@ -346,7 +405,9 @@ def _capped(
     found: OwnedLoops,
 ) -> StackCaps:
     """Add the caps of loops to their surfaces. part: (t,) components of triangles; side: (r,) sides of the loops."""
-    count, owner, (apexes, caps, kept) = len(stack), stack.point_owners, found.cones()
+    count = len(stack)
+    owner = stack.point_owners
+    (apexes, caps, kept) = found.cones()
     body = owner[found.start]
     cap_counts = np.bincount(body[kept], minlength=count)
     point_order = np.concatenate([owner, found.owner]).argsort(kind="stable")
@@ -358,7 +419,10 @@ def _capped(
         stack.point_counts + np.bincount(found.owner, minlength=count),
         stack.triangle_counts + cap_counts,
     )
-    edges = np.sort(np.stack([found.start, found.stop], axis=1), axis=1) - stack.first_point[body][:, None]
+    edges = (
+        np.sort(np.stack([found.start, found.stop], axis=1), axis=1)
+        - stack.first_point[body][:, None]
+    )
     return StackCaps(
         is_capped,
         triangles,

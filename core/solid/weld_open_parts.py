@@ -11,7 +11,12 @@ from numpy.typing import NDArray
 
 from ..mesh.edges import Edges, find_edges, ring_sizes
 from ..mesh.surface import Surface, face_of_each, normals
-from ..mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups, vertex_tolerance
+from ..mesh.welding import (
+    first_at_equal_position,
+    first_at_near_position,
+    same_vertices_groups,
+    vertex_tolerance,
+)
 from ..numerics.arrays import first_occurrence
 from ..numerics.graph import connected_components
 from ..verdict.finding import finding
@@ -56,7 +61,9 @@ def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     vertices = _unique_sorted(onto[parts.vertices], len(mesh.points))
     return mesh.with_state(
         edges=edges if parts.are_all and len(rows) else UNKNOWN,
-        open_parts=copy_with(parts, rows=rows, vertices=vertices) if np.any(edges.count % 2) else None,
+        open_parts=copy_with(parts, rows=rows, vertices=vertices)
+        if np.any(edges.count % 2)
+        else None,
     )
 
 
@@ -73,12 +80,15 @@ def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     place = mesh.points[vertices].astype(np.float64)
     moved = float(np.linalg.norm(place - place[same], axis=1).max())
     mesh, _ = _weld(mesh, parts.rows, vertices, same)
-    return copy_with(mesh, max_displacement=moved, topology_changed=True).with_state(edges=UNKNOWN, open_parts=None)
+    return copy_with(mesh, max_displacement=moved, topology_changed=True).with_state(
+        edges=UNKNOWN, open_parts=None
+    )
 
 
 def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Leave out triangles that use a vertex twice, and find the edges of the others."""
-    edges, proper = mesh.state.edges, has_distinct_vertices(mesh.triangles)
+    edges = mesh.state.edges
+    proper = has_distinct_vertices(mesh.triangles)
     if not proper.all():
         mesh = mesh.with_rows(np.flatnonzero(proper))
     elif edges is not None:
@@ -110,7 +120,9 @@ def _find_open_parts(
     if whole.any():  # A part closed only by copies of its own faces is a piece of another part.
         single = np.zeros(len(rows), bool)
         whole_face = face[rows[whole]]
-        single[whole] = ~is_duplicated(same_vertices_groups(triangles[rows[whole]], whole_face), whole_face)
+        single[whole] = ~is_duplicated(
+            same_vertices_groups(triangles[rows[whole]], whole_face), whole_face
+        )
         is_open |= np.bincount(part, single) == 0
     return edges, OpenParts(rows[is_open[part]], vertices, bool(is_open.all()))
 
@@ -119,7 +131,8 @@ def _weld(
     mesh: RepairedMesh, rows: NDArray[np.intp], vertices: NDArray[np.intp], same: NDArray[np.intp]
 ) -> tuple[RepairedMesh, NDArray[np.intp]]:
     """Return the mesh with vertices replaced by `vertices[same]` in `rows`, and (n,) the new vertex of each vertex."""
-    triangles, onto = mesh.triangles.copy(), np.arange(len(mesh.points))
+    triangles = mesh.triangles.copy()
+    onto = np.arange(len(mesh.points))
     onto[vertices] = vertices[same]
     triangles[rows] = onto[triangles[rows]]
     return copy_with(mesh, triangles=triangles).with_report(welded=True), onto
@@ -140,7 +153,8 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     region with no other faces at its boundary is reduced if its layers run the same way, or if one layer is closed: a
     two-sided body, which would cancel itself.
     """
-    edges, face = mesh.state.edges, mesh.face
+    edges = mesh.state.edges
+    face = mesh.face
     if edges.count.max() <= 2:  # copies of faces would have no others beside them
         return mesh
     sides = _non_manifold_sides(edges, face)
@@ -156,11 +170,16 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     mesh = mesh.with_report(duplicate_faces=len(copies), elements={"duplicate_faces": copies})
 
     vector = normals(mesh.points, mesh.triangles)
-    vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)  # Sum over each face.
-    agree = np.sign(np.einsum("ij,ij->i", vector[face], vector[group])) * np.linalg.norm(vector[face], axis=1)
+    vector = np.stack(
+        [np.bincount(face, vector[:, k]) for k in range(3)], axis=1
+    )  # Sum over each face.
+    agree = np.sign(np.einsum("ij,ij->i", vector[face], vector[group])) * np.linalg.norm(
+        vector[face], axis=1
+    )
     reduced = _regions_of_one_layer(edges, later, is_duplicated(group, face), agree)
     left_out = later & reduced
-    ignored, counted = np.unique(face[left_out]), np.unique(face[later & ~reduced & (agree > 0.0)])
+    ignored = np.unique(face[left_out])
+    counted = np.unique(face[later & ~reduced & (agree > 0.0)])
     area = np.linalg.norm(vector, axis=1)
     for code, copies in ((DUPLICATE_FACES_IGNORED, ignored), (DUPLICATE_FACES_COUNTED, counted)):
         if len(copies):
@@ -168,7 +187,9 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
             mesh = mesh.with_findings(finding(code, copies, slight=slight, count=len(copies)))
     if not len(ignored):
         return mesh
-    mesh = copy_with(mesh.with_rows(np.flatnonzero(~left_out)), topology_changed=True, left_out=ignored)
+    mesh = copy_with(
+        mesh.with_rows(np.flatnonzero(~left_out)), topology_changed=True, left_out=ignored
+    )
     return mesh.with_state(edges=find_edges(mesh.triangles))
 
 
@@ -181,11 +202,14 @@ def copied_faces(surface: Surface) -> NDArray[np.integer]:
 def without_faces(surface: Surface, faces: NDArray[np.integer]) -> Surface:
     """Return the surface without some mesh faces. The others keep their numbers."""
     quad_faces, triangle_faces = face_of_each(surface)
-    quads, triangles = ~np.isin(quad_faces, faces), ~np.isin(triangle_faces, faces)
+    quads = ~np.isin(quad_faces, faces)
+    triangles = ~np.isin(triangle_faces, faces)
     sizes = ring_sizes(triangle_faces, quad_faces)
     corners = ~np.isin(np.repeat(np.arange(len(sizes)), sizes), faces)
     rings = surface.corner_vertices, surface.corner_edges
-    vertices, edges = [ring[corners] if ring is not None and len(ring) == len(corners) else None for ring in rings]
+    vertices, edges = [
+        ring[corners] if ring is not None and len(ring) == len(corners) else None for ring in rings
+    ]
     return replace(
         surface,
         triangles=surface.triangles[triangles],
@@ -209,7 +233,8 @@ def _regions_of_one_layer(
 ) -> NDArray[np.bool_]:
     """Return an (m,) mask of triangles in regions to be reduced to one layer; later, copied: masks; agree: signs."""
     side = np.flatnonzero(np.repeat(copied, 3))
-    edge, owner = edges.of_side[side], side // 3
+    edge = edges.of_side[side]
+    owner = side // 3
     meet = np.empty(len(edges.count), np.intp)
     meet[edge] = owner  # any triangle at the edge, the last write
     region, number = connected_components(len(copied), owner, meet[edge])

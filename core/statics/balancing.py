@@ -40,7 +40,9 @@ from .gradient import area_gradient, volume_gradient
 
 MAX_NEWTON_STEPS = 100  # Limit for Newton's method; it takes a few.
 MAX_STEP_HALVINGS = 20  # Limit for one step, until the center comes nearer.
-REACHED_TOLERANCE = 64.0 * U  # Rounding relative to the body's size and the distances of it and its target.
+REACHED_TOLERANCE = (
+    64.0 * U
+)  # Rounding relative to the body's size and the distances of it and its target.
 MIN_RELATIVE_EFFECT = 1e-12  # Relative to the effect of the most effective direction.
 SLIVER_RTOL = 1e-9  # Relative to the longest side squared: smaller triangles have no normal.
 
@@ -103,7 +105,9 @@ def balance(
     check_type("surface", surface, Surface)
     across = np.eye(3) if across is None else float_array("across", across, "r", 3)
     movable = index_array("movable", movable, "k", count=len(surface.points))
-    weights = np.ones(len(movable)) if weights is None else float_array("weights", weights, len(movable))
+    weights = (
+        np.ones(len(movable)) if weights is None else float_array("weights", weights, len(movable))
+    )
     problem = _Problem(surface, shell, across, float_array("target", target, 3))
     fans = _Fans(surface, shell)
     area = fans.areas[movable]
@@ -117,7 +121,9 @@ def balance(
     before, _, gradient = start
     step_directions = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
     step_directions *= (weights[used] / area[used])[:, None]
-    if not _is_solvable(_center_jacobian(step_directions, np.zeros(len(across)), gradient[:, movable], np.inf)):
+    if not _is_solvable(
+        _center_jacobian(step_directions, np.zeros(len(across)), gradient[:, movable], np.inf)
+    ):
         raise MeasureError(BALANCE_NO_EFFECT)
     points, center, far = _newton_solve(problem, start, step_directions, movable, np.inf)
     left = far
@@ -130,17 +136,23 @@ def balance(
 
 
 def _newton_solve(
-    problem: _Problem, start: tuple[NDArray, NDArray, NDArray], step_directions: NDArray, movable: NDArray, limit: float
+    problem: _Problem,
+    start: tuple[NDArray, NDArray, NDArray],
+    step_directions: NDArray,
+    movable: NDArray,
+    limit: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if reached."""
-    points, (center, residual, gradient) = problem.start, start
+    points = problem.start
+    (center, residual, gradient) = start
     multiplier = np.zeros(len(step_directions))
     slope = _center_jacobian(step_directions, multiplier, gradient[:, movable], limit)
     for _ in range(MAX_NEWTON_STEPS):
         far = float(np.linalg.norm(residual))
         if far <= problem.tolerance:
             return points, center, 0.0
-        change, share = np.linalg.solve(slope, residual), 1.0
+        change = np.linalg.solve(slope, residual)
+        share = 1.0
         for _ in range(MAX_STEP_HALVINGS):
             trial = multiplier + share * change
             moved = problem.start.copy()
@@ -153,7 +165,9 @@ def _newton_solve(
             share /= 2.0
         else:
             return points, center, far if far > 16.0 * problem.tolerance else 0.0
-        points, multiplier, (center, residual, gradient) = moved, trial, state
+        points = moved
+        multiplier = trial
+        (center, residual, gradient) = state
     far = float(np.linalg.norm(residual))
     return points, center, far if far > problem.tolerance else 0.0
 
@@ -164,7 +178,9 @@ def _is_solvable(system: NDArray) -> bool:
     return bool(np.isfinite(strength).all() and strength[-1] > MIN_RELATIVE_EFFECT * strength[0])
 
 
-def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) -> NDArray[np.float64]:
+def _limited_moves(
+    step_directions: NDArray, multiplier: NDArray, limit: float
+) -> NDArray[np.float64]:
     """Return (k, 3) moves: (r, k, 3) step directions times the (r,) multiplier, each cut to the limit."""
     moves = np.einsum("rnk,r->nk", step_directions, multiplier)
     length = np.linalg.norm(moves, axis=1)
@@ -195,9 +211,12 @@ class _Problem:
 
     def __init__(self, surface: Surface, shell: bool, across: NDArray, target: NDArray):
         triangles, _ = surface.all_triangles()
-        self.triangles, self.start = triangles, surface.points.astype(np.float64)
+        self.triangles = triangles
+        self.start = surface.points.astype(np.float64)
         self.surface = Surface(self.start, triangles)
-        self.shell, self.across, self.target = shell, across, target
+        self.shell = shell
+        self.across = across
+        self.target = target
         used = self.start[np.unique(triangles)]
         self.size = float(np.linalg.norm(np.ptp(used, axis=0)))
         farthest = max(np.abs(used).max(), np.abs(self.across @ self.target).max())
@@ -236,11 +255,20 @@ class _Problem:
         double = np.linalg.norm(normal, axis=1)
         longest = np.max([(edge * edge).sum(axis=1) for edge in (*edges, c - b)], axis=0)
         solid = double > SLIVER_RTOL * longest
-        coefficients = (normal, np.cross(edges[0], turns[1]) + np.cross(turns[0], edges[1]), np.cross(*turns))
+        coefficients = (
+            normal,
+            np.cross(edges[0], turns[1]) + np.cross(turns[0], edges[1]),
+            np.cross(*turns),
+        )
         jacobian = np.array([(row * normal).sum(axis=1) for row in coefficients])[:, None, solid]
         turn_length = np.sqrt(np.max([(turn * turn).sum(axis=1) for turn in turns], axis=0))
         long = np.sqrt(longest)
-        error = 32.0 * U * np.array([long * long, 2.0 * long * turn_length, turn_length * turn_length]) * double
+        error = (
+            32.0
+            * U
+            * np.array([long * long, 2.0 * long * turn_length, turn_length * turn_length])
+            * double
+        )
         folded = int(np.count_nonzero(first_positive_root(jacobian, error[:, solid]) <= 1.0))
         if folded:
             raise MeasureError(BALANCE_FOLDS_FACES, count=folded)
@@ -251,10 +279,12 @@ class _Fans:
 
     def __init__(self, surface: Surface, shell: bool):
         triangles, faces = surface.all_triangles()
-        self.shell, self.count = shell, len(surface.points)
+        self.shell = shell
+        self.count = len(surface.points)
         points = surface.points.astype(np.float64)
         names, faces = np.unique(faces, return_inverse=True)
-        faces, number = faces.ravel(), len(names)
+        faces = faces.ravel()
+        number = len(names)
         vectors = normals(points, triangles)
         corner = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
         self.owner, self.vertex = corner // self.count, corner % self.count
@@ -262,15 +292,25 @@ class _Fans:
         area = sums_by_index(faces, np.linalg.norm(vectors, axis=1) / 2.0, number)
         self.areas = sums_by_index(self.vertex, area[self.owner] * self.share, self.count)
         middles = np.stack(
-            [sums_by_index(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)], axis=1
+            [
+                sums_by_index(self.owner, points[self.vertex, k] * self.share, number)
+                for k in range(3)
+            ],
+            axis=1,
         )
         whole = np.bincount(faces)[faces] == 1
         owners, start, stop = uncancelled_sides(triangles[~whole], faces[~whole])
-        fan = np.concatenate([triangles[whole], np.stack([start, stop, self.count + owners], axis=1)])
+        fan = np.concatenate(
+            [triangles[whole], np.stack([start, stop, self.count + owners], axis=1)]
+        )
         owners = np.concatenate([faces[whole], owners])
         self.points = np.concatenate([points, middles])
-        facing = np.stack([sums_by_index(faces, column, number) for column in vectors.T], axis=1)[owners]
-        self.opposed = (normals(self.points, fan) * facing).sum(axis=1) < 0.0  # Faces that are not convex.
+        facing = np.stack([sums_by_index(faces, column, number) for column in vectors.T], axis=1)[
+            owners
+        ]
+        self.opposed = (normals(self.points, fan) * facing).sum(
+            axis=1
+        ) < 0.0  # Faces that are not convex.
         self.fan = fan
 
     def center_gradient(self, center: NDArray) -> NDArray[np.float64]:
@@ -280,13 +320,15 @@ class _Fans:
                 area_gradient(Surface(self.points, triangles), center)[:, 1:4]
                 for triangles in (self.fan[~self.opposed], self.fan[self.opposed])
             ]
-            gradient, total = parts[0] - parts[1], self.areas.sum()
+            gradient = parts[0] - parts[1]
+            total = self.areas.sum()
         else:
             surface = Surface(self.points, self.fan)
             gradient = volume_gradient(surface, center)[:, 1:4]
             total = polyhedron_moments(surface)[0].total
         gradient /= total
-        vertex_gradient, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)
+        vertex_gradient = gradient[: self.count].reshape(-1, 9)
+        middle = gradient[self.count :].reshape(-1, 9)
         for column, shared in zip(vertex_gradient.T, middle.T):
             column += sums_by_index(self.vertex, shared[self.owner] * self.share, self.count)
         return vertex_gradient.reshape(-1, 3, 3)

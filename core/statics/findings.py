@@ -5,7 +5,8 @@
 from ..verdict.finding import error
 
 BALANCE_NO_EFFECT = error(
-    "balance_no_effect", "Moving these vertices cannot bring the center of mass there. Select more, or others."
+    "balance_no_effect",
+    "Moving these vertices cannot bring the center of mass there. Select more, or others.",
 )
 BALANCE_SHORT = error(
     "balance_short",

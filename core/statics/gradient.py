@@ -83,7 +83,9 @@ def area_gradient(surface: Surface, about: ArrayLike) -> NDArray[np.float64]:
     return _gradient(surface, about, _area_shares, monomial_count(1))
 
 
-def _gradient(surface: Surface, about: ArrayLike, shares: Callable, count: int) -> NDArray[np.float64]:
+def _gradient(
+    surface: Surface, about: ArrayLike, shares: Callable, count: int
+) -> NDArray[np.float64]:
     check_type("surface", surface, Surface)
     about = float_array("about", about, 3)
     points = surface.points.astype(np.float64)
@@ -92,7 +94,8 @@ def _gradient(surface: Surface, about: ArrayLike, shares: Callable, count: int) 
     for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
         part = triangles[start : start + TRIANGLES_PER_BLOCK].astype(np.intp)
         low = int(part.min())
-        place, length = part - low, int(part.max()) - low + 1
+        place = part - low
+        length = int(part.max()) - low + 1
         corners = points[part].transpose(1, 2, 0)  # corner, axis, triangle
         normal = np.stack(cross(corners[1] - corners[0], corners[2] - corners[0]))
         for vertex, values in zip(place.T, shares(corners, corners - about[:, None], normal)):
@@ -101,7 +104,9 @@ def _gradient(surface: Surface, about: ArrayLike, shares: Callable, count: int) 
     return out.reshape(count, 3, -1).transpose(2, 0, 1)
 
 
-def _volume_shares(corners: NDArray, local: NDArray, normal: NDArray, order: int) -> Iterator[NDArray]:
+def _volume_shares(
+    corners: NDArray, local: NDArray, normal: NDArray, order: int
+) -> Iterator[NDArray]:
     """Yield for each corner the (k, 3, m) shares of m triangles; local: (3, 3, m) corners from the reference point."""
     total = local[0] + local[1] + local[2]
     i, j = np.triu_indices(3)

@@ -53,16 +53,25 @@ def sample_count(shapes: int) -> int:
 def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
     """Fit the polynomials of a closed, outward surface, triangulated as now, with the (k, n, 3) offsets of k shapes."""
     triangles, _ = surface.all_triangles()
-    points, offsets = surface.points.astype(np.float64), np.asarray(offsets, np.float64)
+    points = surface.points.astype(np.float64)
+    offsets = np.asarray(offsets, np.float64)
     about = np.mean(surface.box, axis=0)
     exponents = np.array(
-        [powers for powers in product(range(DEGREE + 1), repeat=len(offsets)) if sum(powers) <= DEGREE]
+        [
+            powers
+            for powers in product(range(DEGREE + 1), repeat=len(offsets))
+            if sum(powers) <= DEGREE
+        ]
     )
-    nodes = exponents / DEGREE  # the lattice of a simplex, on which a polynomial of this degree is unique
+    nodes = (
+        exponents / DEGREE
+    )  # the lattice of a simplex, on which a polynomial of this degree is unique
     samples = np.empty((len(nodes), 4))
     for place, values in enumerate(nodes):
         mixed = points + np.tensordot(values, offsets, axes=1)
-        volume, _ = polyhedron_moments(Surface.from_triangles(mixed, triangles), 1, about=about, allow_open=True)
+        volume, _ = polyhedron_moments(
+            Surface.from_triangles(mixed, triangles), 1, about=about, allow_open=True
+        )
         samples[place] = volume.raw
     coefficients = np.linalg.solve(_powers(nodes, exponents), samples)
     return Mixes(np.asarray(coefficients, np.float64), exponents, about)

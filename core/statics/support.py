@@ -35,7 +35,9 @@ from .findings import CENTER_OUTSIDE_HULL, NO_STABLE_POSE
 
 CONTACT_RTOL = 1e-6  # Relative to the body's extent: points up to this height above the lowest one touch the ground.
 NEAR = 0.1  # Relative to the polygon's extent: the foot is near the edge.
-ON_EDGE = 4.0 * float(np.finfo(np.float64).eps)  # Relative to the corners' distances: zero after rounding.
+ON_EDGE = 4.0 * float(
+    np.finfo(np.float64).eps
+)  # Relative to the corners' distances: zero after rounding.
 PLANE_RTOL = 1e-6  # Relative to the body's extent: nearer corners are in a plane, smaller margins count as none.
 ALIKE_COSINE = 0.5  # For normals: across the edge of a face they mostly differ by more.
 
@@ -88,7 +90,10 @@ def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
 
 
 def find_support(
-    points: ArrayLike, center: ArrayLike, down: ArrayLike = (0.0, 0.0, -1.0), tolerance: float = CONTACT_RTOL
+    points: ArrayLike,
+    center: ArrayLike,
+    down: ArrayLike = (0.0, 0.0, -1.0),
+    tolerance: float = CONTACT_RTOL,
 ) -> Support:
     """Find the support polygon of a body on the ground below it.
 
@@ -114,7 +119,8 @@ def find_support(
     >>> find_support(corners, center=[2.0, 1.0, 0.5], down=[1.0, 0.0, 0.0]).height
     2.0
     """
-    points, center = float_array("points", points, "n", 3), float_array("center", center, 3)
+    points = float_array("points", points, "n", 3)
+    center = float_array("center", center, 3)
     check_filled("points", points)
     heights = (points - center) @ ground_axes(down)[:, 2]
     reach = tolerance * float(np.ptp(points, axis=0).max())
@@ -122,21 +128,31 @@ def find_support(
 
 
 def find_contacts(
-    points: NDArray, matrix: NDArray, down: NDArray, ground: float, reach: float, may_touch: ArrayLike = True
+    points: NDArray,
+    matrix: NDArray,
+    down: NDArray,
+    ground: float,
+    reach: float,
+    may_touch: ArrayLike = True,
 ) -> tuple[NDArray[np.intp], NDArray[np.float64], float]:
     """Return the rows of the points that touch level ground, their (k, 3) places in the world, and the least height.
 
     points: (n, 3) of a body. matrix: (4, 4) from these to the world. ground: its height against gravity from the
     world's origin. reach: points up to this height above it touch it. may_touch: (n,) mask of points that count.
     """
-    heights = points @ (-down @ matrix[:3, :3]).astype(points.dtype) - (down @ matrix[:3, 3] + ground)
+    heights = points @ (-down @ matrix[:3, :3]).astype(points.dtype) - (
+        down @ matrix[:3, 3] + ground
+    )
     heights = np.where(may_touch, heights, np.inf)
     rows = np.flatnonzero(heights <= reach)
     return rows, points[rows] @ matrix[:3, :3].T + matrix[:3, 3], float(heights.min(initial=np.inf))
 
 
 def support_of_contacts(
-    contacts: ArrayLike, center: ArrayLike, down: ArrayLike = (0.0, 0.0, -1.0), tolerance: float = 0.0
+    contacts: ArrayLike,
+    center: ArrayLike,
+    down: ArrayLike = (0.0, 0.0, -1.0),
+    tolerance: float = 0.0,
 ) -> Support:
     """Find the support polygon of (n, 3) contact points at any heights: hands on a wall, feet on stairs.
 
@@ -146,10 +162,15 @@ def support_of_contacts(
     center = np.asarray(center, np.float64)
     axes = ground_axes(down)
     local = (np.asarray(contacts, np.float64) - center) @ axes
-    height, corners = -float(local[:, 2].min()), local[convex_polygon(local[:, :2], tolerance), :2]
+    height = -float(local[:, 2].min())
+    corners = local[convex_polygon(local[:, :2], tolerance), :2]
     margin, direction = polygon_margin(corners)
-    polygon = np.concatenate([corners, np.full((len(corners), 1), -height)], axis=1) @ axes.T + center
-    return Support(polygon, center - height * axes[:, 2], height, margin, axes[:, :2] @ direction, axes[:, 2])
+    polygon = (
+        np.concatenate([corners, np.full((len(corners), 1), -height)], axis=1) @ axes.T + center
+    )
+    return Support(
+        polygon, center - height * axes[:, 2], height, margin, axes[:, :2] @ direction, axes[:, 2]
+    )
 
 
 def polygon_margin(corners: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
@@ -180,7 +201,8 @@ def polygon_margin(corners: NDArray[np.float64]) -> tuple[float, NDArray[np.floa
 
 def polygon_middle(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the centroid, (2,), of the area of a convex polygon, or else of a line or point."""
-    first, second = corners - corners[0], np.roll(corners, -1, axis=0) - corners[0]
+    first = corners - corners[0]
+    second = np.roll(corners, -1, axis=0) - corners[0]
     areas = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
     if not areas.sum() > 0.0:
         return corners.mean(axis=0)
@@ -191,12 +213,18 @@ def nearest_inside(corners: NDArray[np.float64], margin: float) -> NDArray[np.fl
     """Return the (1, 2) point nearest to the origin that is `margin` inside a convex polygon, none if there is none."""
     along = np.roll(corners, -1, axis=0) - corners
     lengths = np.linalg.norm(along, axis=1)
-    outward = np.stack([along[:, 1], -along[:, 0]], axis=1) / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    outward = (
+        np.stack([along[:, 1], -along[:, 0]], axis=1)
+        / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    )
     limits = (outward * corners).sum(axis=1) - margin
     first, second = np.triu_indices(len(corners), 1)
     cross = outward[first, 0] * outward[second, 1] - outward[first, 1] * outward[second, 0]
     turned = limits[first, None] * outward[second] - limits[second, None] * outward[first]
-    meets = np.stack([turned[:, 1], -turned[:, 0]], axis=1) / np.where(cross == 0.0, np.inf, cross)[:, None]
+    meets = (
+        np.stack([turned[:, 1], -turned[:, 0]], axis=1)
+        / np.where(cross == 0.0, np.inf, cross)[:, None]
+    )
     points = np.concatenate([np.zeros((1, 2)), outward * limits[:, None], meets[cross != 0.0]])
     points = points[(points @ outward.T <= limits + 1e-9 * np.abs(corners).max()).all(axis=1)]
     return points[np.linalg.norm(points, axis=1).argsort()[:1]]
@@ -223,7 +251,9 @@ class RestingPoses:
         return np.arctan2(self.margins, self.heights)
 
 
-def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_RTOL) -> RestingPoses:
+def resting_poses(
+    hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_RTOL
+) -> RestingPoses:
     """Find the stable resting poses of a body.
 
     Parameters
@@ -281,7 +311,13 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
 
 def _faces(
     points: NDArray, hull: ConvexHull, least: float
-) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
+) -> tuple[
+    NDArray[np.intp],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.intp],
+]:
     """Return (m,) faces of a hull's triangles, (f, 3) unit normals, (f,) heights of the center, margins and neighbors.
 
     points: from the center. The neighbor is the face beyond the edge that the foot is nearest to, or has passed
@@ -298,7 +334,8 @@ def _faces(
         np.maximum.at(heights, face, np.einsum("ij,ij->i", unit[face], points[triangles[:, k]]))
 
     triangle, side = np.nonzero(face[neighbors] != face[:, None])
-    owner, beyond = face[triangle], face[neighbors[triangle, side]]
+    owner = face[triangle]
+    beyond = face[neighbors[triangle, side]]
     start = points[triangles[triangle, side]]
     along = points[triangles[triangle, (side + 1) % 3]] - start
     inward = np.cross(unit[owner], along)
@@ -308,7 +345,8 @@ def _faces(
     first = np.ones(len(order), bool)  # Empty if the whole hull is one face.
     first[1:] = owner[order][1:] != owner[order][:-1]
     nearest = order[first]
-    margins, over = np.full(count, -np.inf), np.arange(count)
+    margins = np.full(count, -np.inf)
+    over = np.arange(count)
     margins[owner[nearest]], over[owner[nearest]] = distance[nearest], beyond[nearest]
     return face, unit, heights, margins, over
 
@@ -326,10 +364,17 @@ def _coplanar(
     triangle, side = np.divmod(np.arange(neighbors.size), 3)
     other = neighbors.ravel()
     larger = lengths[triangle] >= lengths[other]
-    triangle, other, side = triangle[larger], other[larger], side[larger]
+    triangle = triangle[larger]
+    other = other[larger]
+    side = side[larger]
     corners = triangles[other]
-    shared = (corners == triangles[triangle, side][:, None]) | (corners == triangles[triangle, (side + 1) % 3][:, None])
-    apart = points[corners[np.arange(len(other)), shared.argmin(axis=1)]] - points[triangles[triangle, 0]]
+    shared = (corners == triangles[triangle, side][:, None]) | (
+        corners == triangles[triangle, (side + 1) % 3][:, None]
+    )
+    apart = (
+        points[corners[np.arange(len(other)), shared.argmin(axis=1)]]
+        - points[triangles[triangle, 0]]
+    )
     unit = double / np.where(lengths > 0.0, lengths, 1.0)[:, None]
     cosine = np.einsum("ij,ij->i", unit[triangle], unit[other])
     flat = (cosine >= 0.0) & (np.abs(np.einsum("ij,ij->i", unit[triangle], apart)) <= least)

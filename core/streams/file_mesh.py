@@ -38,9 +38,12 @@ class FileMesh:
 
     def surface(self) -> Surface:
         """Return the faces as a surface of triangles, quads, and the triangles of larger polygons."""
-        starts, faces = np.cumsum(self.sides) - self.sides, np.arange(len(self.sides))
+        starts = np.cumsum(self.sides) - self.sides
+        faces = np.arange(len(self.sides))
         triangles: list[NDArray[np.integer]] = [np.zeros((0, 3), np.int32)]
-        owners, quads, quad_faces = [faces[:0]], np.zeros((0, 4), np.int32), faces[:0]
+        owners = [faces[:0]]
+        quads = np.zeros((0, 4), np.int32)
+        quad_faces = faces[:0]
         for count in np.unique(self.sides).tolist():
             these = faces[self.sides == count]
             corners = self.corners[starts[these, None] + np.arange(count)].astype(np.int32)
@@ -90,7 +93,9 @@ class Polygons:
         return without_repeats(joined, sides[sides > 0])
 
 
-def without_repeats(corners: NDArray[np.int64], sides: NDArray[np.int64]) -> tuple[NDArray, NDArray]:
+def without_repeats(
+    corners: NDArray[np.int64], sides: NDArray[np.int64]
+) -> tuple[NDArray, NDArray]:
     starts = np.cumsum(sides) - sides
     before = np.arange(len(corners)) - 1
     before[starts] += sides
@@ -112,12 +117,14 @@ def merge_equal(points: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArr
 
 def box_of_blocks(blocks: Iterable[NDArray[np.floating]], element: str) -> Box:
     """Return the least and the largest coordinates of (n, 3) or (n, 3, 3) blocks, zeros if there are none."""
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    low = np.full(3, np.inf)
+    high = np.full(3, -np.inf)
     rows = bad = first = 0
     for block in blocks:
         least, largest = Surface(block.reshape(-1, 3)).box if len(block) else (low, high)
         if np.isfinite([least, largest]).all() or not len(block):
-            low, high = np.minimum(low, least), np.maximum(high, largest)
+            low = np.minimum(low, least)
+            high = np.maximum(high, largest)
         else:
             wrong = ~np.isfinite(block.reshape(len(block), -1))
             first = first if bad else rows + int(np.argmax(wrong.any(axis=1)))
@@ -147,7 +154,9 @@ def polygon_surface(points: NDArray[np.floating], faces: NDArray[np.integer]) ->
     """Return a surface of (n, k) faces: triangles, quads, or the triangles of larger polygons."""
     if faces.shape[1] == 4:
         return Surface(points, quads=faces)
-    return Surface(points, faces if faces.shape[1] == 3 else tessellate(points, faces).reshape(-1, 3))
+    return Surface(
+        points, faces if faces.shape[1] == 3 else tessellate(points, faces).reshape(-1, 3)
+    )
 
 
 def tessellate(points: NDArray[np.floating], polygons: NDArray[np.integer]) -> NDArray[np.integer]:
@@ -175,7 +184,9 @@ def _flatten(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     right = np.cross(least, normal)
     right /= np.maximum(np.linalg.norm(right, axis=1), np.finfo(float).tiny)[:, None]
     normal /= np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
-    return np.stack([np.einsum("nki,ni->nk", about, axis) for axis in (right, np.cross(normal, right))], axis=2)
+    return np.stack(
+        [np.einsum("nki,ni->nk", about, axis) for axis in (right, np.cross(normal, right))], axis=2
+    )
 
 
 class _Ears:
@@ -189,18 +200,26 @@ class _Ears:
         self._count, self._sides = corners.shape[:2]
         self._every = np.arange(self._count)
         ring = np.arange(self._sides)
-        self._before, self._after = (np.roll(ring, way)[None].repeat(self._count, 0) for way in (1, -1))
+        self._before, self._after = (
+            np.roll(ring, way)[None].repeat(self._count, 0) for way in (1, -1)
+        )
         self._is_left = np.ones((self._count, self._sides), bool)
-        self._turn = np.stack([self._signs(self._every, self._every * 0 + corner) for corner in ring], axis=1)
+        self._turn = np.stack(
+            [self._signs(self._every, self._every * 0 + corner) for corner in ring], axis=1
+        )
 
     def cut(self) -> NDArray[np.intp]:
         """Return the (n, k - 2, 3) corners of the triangles, from 0 to k - 1."""
-        every, before, after = self._every, self._before, self._after
-        start, is_backward = np.zeros(self._count, np.intp), np.zeros(self._count, bool)
+        every = self._every
+        before = self._before
+        after = self._after
+        start = np.zeros(self._count, np.intp)
+        is_backward = np.zeros(self._count, bool)
         triangles = np.empty((self._count, self._sides - 2, 3), np.intp)
         for k in range(self._sides - 3):
             ear = self._find(start, is_backward, self._sides - k)
-            first, last = before[every, ear], after[every, ear]
+            first = before[every, ear]
+            last = after[every, ear]
             triangles[:, k] = np.stack([first, ear, last], axis=1)
             after[every, first], before[every, last] = last, first
             self._is_left[every, ear] = False
@@ -216,7 +235,9 @@ class _Ears:
         triangles[:, -1] = np.stack([corner, after[every, corner], before[every, corner]], axis=1)
         return triangles
 
-    def _find(self, start: NDArray[np.intp], is_backward: NDArray[np.bool_], left: int) -> NDArray[np.intp]:
+    def _find(
+        self, start: NDArray[np.intp], is_backward: NDArray[np.bool_], left: int
+    ) -> NDArray[np.intp]:
         """Return the (n,) ears: convex corners, else straight ones, else those that are not concave, else any."""
         found = start.copy()
         waiting = self._every
@@ -232,7 +253,9 @@ class _Ears:
                 waiting, at = waiting[~is_ear], at[~is_ear]
                 if not len(waiting):
                     return found
-                at = np.where(is_backward[waiting], self._before[waiting, at], self._after[waiting, at])
+                at = np.where(
+                    is_backward[waiting], self._before[waiting, at], self._after[waiting, at]
+                )
         return found
 
     def _holds_corner(self, which: NDArray[np.intp], tip: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -244,7 +267,9 @@ class _Ears:
         row, corner = np.nonzero(others)
         point = self._corners[which[row], corner]
         a, b, c = (self._corners[which[row], end[row]] for end in ends)
-        is_within = (_area(a, b, point) >= 0.0) & (_area(b, c, point) >= 0.0) & (_area(c, a, point) >= 0.0)
+        is_within = (
+            (_area(a, b, point) >= 0.0) & (_area(b, c, point) >= 0.0) & (_area(c, a, point) >= 0.0)
+        )
         return np.bincount(row[is_within], minlength=len(which)) > 0
 
     def _signs(self, which: NDArray[np.intp], corner: NDArray[np.intp]) -> NDArray[np.int8]:

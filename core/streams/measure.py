@@ -82,11 +82,14 @@ class _FarPiece(Exception):
 class _Stream:
     """The faces of a file, with their boundary and count. progress: called with the count of faces of each piece."""
 
-    def __init__(self, mesh: MeshFile, low: NDArray, high: NDArray, progress: Callable[[int], None] | None) -> None:
+    def __init__(
+        self, mesh: MeshFile, low: NDArray, high: NDArray, progress: Callable[[int], None] | None
+    ) -> None:
         large = max(np.abs(low).max(), np.abs(high).max()) > np.finfo(np.float32).max
         self.center = box_center(low, high, np.dtype(np.float64 if large else np.float32))
         self.reach = float(np.maximum(high - self.center, self.center - low).max())
-        self.boundary, self.face_count = BoundarySum(), 0
+        self.boundary = BoundarySum()
+        self.face_count = 0
         self._mesh, self._progress = mesh, progress
 
     def pieces(self) -> Iterator[Surface]:
@@ -97,7 +100,9 @@ class _Stream:
                 self._progress(faces)
             low, high = piece.box
             reach = np.maximum(high - self.center, self.center - low).max()
-            if not reach <= MAX_REACH_RATIO * self.reach:  # Also if it is NaN, which the box of all faces refuses.
+            if (
+                not reach <= MAX_REACH_RATIO * self.reach
+            ):  # Also if it is NaN, which the box of all faces refuses.
                 raise _FarPiece
             self.boundary.add(piece.points.reshape(-1, 3, 3) if self._mesh.is_loose else piece)
             self.face_count += faces

@@ -19,9 +19,26 @@ from ..mesh.surface import Surface
 from ..scans.findings import FILE_UNRECOGNIZED
 from ..scans.scan import damaged
 from ..verdict.finding import FileError
-from .file_mesh import Box, FileMesh, Polygons, box_of_blocks, name_of_file, polygon_surface, strip_triangles
+from .file_mesh import (
+    Box,
+    FileMesh,
+    Polygons,
+    box_of_blocks,
+    name_of_file,
+    polygon_surface,
+    strip_triangles,
+)
 from .findings import DAMAGE_INDEX, DAMAGE_PLY_ROWS, FILE_WITHOUT_OBJECTS
-from .ply_rows import INDICES, MAX_HEADER, Element, Header, Property, RowReader, RowsError, parse_header
+from .ply_rows import (
+    INDICES,
+    MAX_HEADER,
+    Element,
+    Header,
+    Property,
+    RowReader,
+    RowsError,
+    parse_header,
+)
 from .text_fields import (
     BLOCK,
     SHORT,
@@ -38,9 +55,15 @@ from .text_fields import (
     shorten,
 )
 
-MAX_SPREAD = 4  # Up to so many vertices per corner between a block's first and last, they are not copied.
-LENGTHS = range(9)  # lists that are checked together; rows with longer ones are checked word by word
-FEW_ROWS, MANY_PROPERTIES = 16, 100  # For fewer rows or more properties an expression does not pay.
+MAX_SPREAD = (
+    4  # Up to so many vertices per corner between a block's first and last, they are not copied.
+)
+LENGTHS = range(
+    9
+)  # lists that are checked together; rows with longer ones are checked word by word
+# For fewer rows or more properties an expression does not pay.
+FEW_ROWS = 16
+MANY_PROPERTIES = 100
 _BLANK = rb"[ \t]*+"
 _REST = re.compile(rb"[^\s\0\x1a]")
 
@@ -58,8 +81,12 @@ class PlyFile:
             self._header = header = parse_header(start)
             for element in header.elements:
                 if element.rows * _least_bytes(element, header.order) > path.stat().st_size:
-                    raise damaged(self._path, DAMAGE_PLY_ROWS, name=element.name, count=element.rows)
-            (self._vertices, *_) = (element for element in header.elements if element.name == "vertex")
+                    raise damaged(
+                        self._path, DAMAGE_PLY_ROWS, name=element.name, count=element.rows
+                    )
+            (self._vertices, *_) = (
+                element for element in header.elements if element.name == "vertex"
+            )
             if not {"x", "y", "z"} <= {one.name for one in self._vertices.properties}:
                 self._faces  # noqa: B018 - refused for its missing faces, if it has none
             self._axes = [self._vertices.index(axis) for axis in "xyz"]
@@ -121,16 +148,24 @@ class PlyFile:
                         faces.add(self._corners(strip_triangles(strip), self._vertices.rows)[0])
                 elif corners.shape[1] >= 3:
                     faces.add(self._corners(corners, self._vertices.rows)[0], rows)
-            elif element.name == "edge" and {"vertex1", "vertex2"} <= {one.name for one in element.properties}:
-                ends = np.stack([columns[element.index(name)] for name in ("vertex1", "vertex2")], axis=1)
+            elif element.name == "edge" and {"vertex1", "vertex2"} <= {
+                one.name for one in element.properties
+            }:
+                ends = np.stack(
+                    [columns[element.index(name)] for name in ("vertex1", "vertex2")], axis=1
+                )
                 edges.append(self._corners(ends, self._vertices.rows)[0])
-        return FileMesh(name_of_file(self._path), points, *faces.join(), np.concatenate(edges), values)
+        return FileMesh(
+            name_of_file(self._path), points, *faces.join(), np.concatenate(edges), values
+        )
 
     def _corners(self, corners: NDArray, count: int) -> tuple[NDArray[np.integer], int, int]:
         """Return vertex indices as integers, their least, and their largest plus one. FileError if one is wrong."""
         given = corners
         with np.errstate(invalid="ignore"):  # a text may have NaN
-            corners = np.ascontiguousarray(corners, np.int32 if corners.dtype == np.int32 else np.int64)
+            corners = np.ascontiguousarray(
+                corners, np.int32 if corners.dtype == np.int32 else np.int64
+            )
         first, last = (int(corners.min()), int(corners.max()) + 1) if corners.size else (0, 1)
         whole = given.dtype.kind != "f" or np.array_equal(corners, given)
         if corners.size and not (whole and 0 <= first < last <= count):
@@ -140,19 +175,29 @@ class PlyFile:
     def _piece(self, corners: NDArray[np.integer], first: int, last: int) -> Surface:
         if last - first <= MAX_SPREAD * corners.size:
             return polygon_surface(self._points[first:last], corners - first)
-        return polygon_surface(self._points[corners.ravel()], np.arange(corners.size).reshape(corners.shape))
+        return polygon_surface(
+            self._points[corners.ravel()], np.arange(corners.size).reshape(corners.shape)
+        )
 
     def _empty_points(self) -> NDArray[np.floating]:
         """Return (n, 3) points to be filled: float32 if the file has them as such or as text, else float64."""
-        is_exact = self._header.order and {self._vertices.properties[axis].type for axis in self._axes} != {"f4"}
+        is_exact = self._header.order and {
+            self._vertices.properties[axis].type for axis in self._axes
+        } != {"f4"}
         return np.empty((self._vertices.rows, 3), np.float64 if is_exact else np.float32)
 
-    def _fill_points(self, points: NDArray[np.floating], rows: NDArray[np.intp], columns: list[NDArray]) -> None:
-        with np.errstate(over="ignore", invalid="ignore"):  # Such points become infinite, and are refused.
+    def _fill_points(
+        self, points: NDArray[np.floating], rows: NDArray[np.intp], columns: list[NDArray]
+    ) -> None:
+        with np.errstate(
+            over="ignore", invalid="ignore"
+        ):  # Such points become infinite, and are refused.
             for axis, column in enumerate(self._axes):
                 points[rows, axis] = columns[column]
 
-    def _blocks(self, wanted: Element | None = None) -> Iterator[tuple[Element, NDArray[np.intp], list[NDArray]]]:
+    def _blocks(
+        self, wanted: Element | None = None
+    ) -> Iterator[tuple[Element, NDArray[np.intp], list[NDArray]]]:
         """Yield element, numbers of rows, and columns of the blocks of one element, or of all."""
         with open(self._path, "rb") as file:
             file.seek(self._header.start)
@@ -163,7 +208,9 @@ class PlyFile:
                         if wanted in (None, element):
                             yield element, rows, columns
                 except RowsError as error:
-                    raise damaged(self._path, DAMAGE_PLY_ROWS, name=element.name, count=element.rows) from error
+                    raise damaged(
+                        self._path, DAMAGE_PLY_ROWS, name=element.name, count=element.rows
+                    ) from error
                 if element is wanted:
                     return
 
@@ -176,7 +223,9 @@ def _least_bytes(element: Element, order: str) -> int:
 
 def check_ply_text(data: Data, header: Header) -> None:
     """Raise FileError if an importer would misread a row."""
-    vertex_count = next((element.rows for element in header.elements if element.name == "vertex"), 0)
+    vertex_count = next(
+        (element.rows for element in header.elements if element.name == "vertex"), 0
+    )
     at = header.start
     for element in header.elements:
         if element.properties:
@@ -190,8 +239,11 @@ def check_ply_text(data: Data, header: Header) -> None:
 
 class _Rows:
     def __init__(self, data: Data, element: Element, vertex_count: int) -> None:
-        self._data, self._properties, self._vertex_count = data, element.properties, vertex_count
-        self._is_face, self._places = element.name == "face", element.name == "vertex"
+        self._data = data
+        self._properties = element.properties
+        self._vertex_count = vertex_count
+        self._is_face = element.name == "face"
+        self._places = element.name == "vertex"
         is_worth = element.rows > FEW_ROWS and len(element.properties) < MANY_PROPERTIES
         row = _pattern_of(element) if is_worth else rb"(?!)"
         self._pattern = re.compile(rb"(?:%b%b[ \t\r]*+(?:\n|\Z))*+" % (_BLANK, row))

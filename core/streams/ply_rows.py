@@ -23,7 +23,9 @@ SINGLE_ROWS = 1 << 14  # rows of unequal lengths that are sorted by them
 MAX_LIST = 1 << 26  # numbers of a face: a larger count is damage, and would be read into memory
 NUMBERS = np.dtype(np.float64)  # type of the numbers of a text
 _DECIMAL = b"0123456789.eE+- \t\r\n\v\f"
-_NOT_A_NUMBER = re.compile(rb"(?<!\S)[+-]?(?:nan\(\w*\)|1\.#\w+)", re.IGNORECASE)  # C's forms, unknown to numpy
+_NOT_A_NUMBER = re.compile(
+    rb"(?<!\S)[+-]?(?:nan\(\w*\)|1\.#\w+)", re.IGNORECASE
+)  # C's forms, unknown to numpy
 
 # The numbers of rows, and their columns: (n,) numbers or (n, k) lists.
 Block = tuple[NDArray[np.intp], list[NDArray]]
@@ -57,7 +59,8 @@ class RowReader:
 
     def read_rows(self, element: Element) -> Iterator[Block]:
         """Yield the next element in blocks of rows with lists of the same lengths. All blocks have to be taken."""
-        done, properties = 0, element.properties
+        done = 0
+        properties = element.properties
         while done < element.rows and properties:
             left = element.rows - done
             starts, lengths = self._scan(properties, min(left, FEW_ROWS))
@@ -65,23 +68,32 @@ class RowReader:
                 row = self._row_type(properties, lengths[0])
                 unit = self._buffer.itemsize
                 self._read_ahead(min(left * row.itemsize, BYTES_PER_BLOCK) // unit)
-                table = np.frombuffer(self._buffer, row, min(left, len(self._buffer) * unit // row.itemsize))
+                table = np.frombuffer(
+                    self._buffer, row, min(left, len(self._buffer) * unit // row.itemsize)
+                )
                 same = np.ones(len(table), bool)
                 for number, length in enumerate(lengths[0]):
                     same &= table["n{}".format(number)] == length
                 count = len(table) if same.all() else int(np.argmin(same))
-                yield np.arange(done, done + count), [table[name][:count] for name in _names(properties)]
+                yield (
+                    np.arange(done, done + count),
+                    [table[name][:count] for name in _names(properties)],
+                )
                 end = count * row.itemsize // unit
             else:
                 starts, lengths = self._scan(properties, min(left, SINGLE_ROWS))
-                count, end = len(lengths), starts[-1]
+                count = len(lengths)
+                end = starts[-1]
                 yield from self._group_rows(properties, starts, lengths, done)
             self._buffer = self._buffer[end:]
             done += count
 
-    def _scan(self, properties: Sequence[Property], rows: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def _scan(
+        self, properties: Sequence[Property], rows: int
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Return (n + 1,) offsets of the next rows in the buffer, and the (n, lists) lengths of their lists."""
-        gap, lists = 0, []
+        gap = 0
+        lists = []
         for one in properties:
             if one.counter:
                 lists.append((gap, one.counter, self._size(one.counter), self._size(one.type)))
@@ -90,10 +102,14 @@ class RowReader:
         lengths: list[int] = []
         window = WINDOW
         while len(starts) <= rows and starts[-1] <= BYTES_PER_BLOCK:
-            base, before = starts[-1], len(starts)
+            base = starts[-1]
+            before = len(starts)
             self._read_ahead(base + window)
             # As lists, for it is a loop over rows: where one begins, the one before it tells.
-            plan = [(skip, self._numbers_at(kind, base, window), size, step) for skip, kind, size, step in lists]
+            plan = [
+                (skip, self._numbers_at(kind, base, window), size, step)
+                for skip, kind, size, step in lists
+            ]
             with suppress(IndexError):  # The row goes on behind the window.
                 while len(starts) <= rows:
                     at = starts[-1] - base
@@ -118,7 +134,9 @@ class RowReader:
     def _numbers_at(self, kind: str, start: int, count: int) -> list[int]:
         """Return the whole numbers of a type at up to `count` offsets of the buffer."""
         rest = len(self._buffer) + 1 - self._size(kind)
-        view = np.ndarray(max(rest, 0), self._type(kind), self._buffer, strides=self._buffer.strides)
+        view = np.ndarray(
+            max(rest, 0), self._type(kind), self._buffer, strides=self._buffer.strides
+        )
         with np.errstate(invalid="ignore"):
             return view[start : start + count].astype(np.int64).tolist()
 
@@ -132,11 +150,17 @@ class RowReader:
             row = self._row_type(properties, lengths[rows[0]])
             size = row.itemsize // self._buffer.itemsize
             first_row = self._buffer[starts[rows[0]] :][:size]
-            parts = self._buffer[starts[rows][:, None] + np.arange(size)] if len(rows) > 1 else first_row
+            parts = (
+                self._buffer[starts[rows][:, None] + np.arange(size)]
+                if len(rows) > 1
+                else first_row
+            )
             table = np.frombuffer(parts.tobytes(), row)
             yield first + rows, [table[name] for name in _names(properties)]
 
-    def _row_type(self, properties: Sequence[Property], lengths: Sequence[int] | NDArray[np.intp]) -> np.dtype:
+    def _row_type(
+        self, properties: Sequence[Property], lengths: Sequence[int] | NDArray[np.intp]
+    ) -> np.dtype:
         fields: list[tuple] = []
         left = iter(enumerate(lengths))
         for name, one in zip(_names(properties), properties):
@@ -158,7 +182,11 @@ class RowReader:
     def _read_ahead(self, count: int) -> None:
         """Fill the buffer to `count` bytes or numbers, or with the rest of the file."""
         while len(self._buffer) < count:
-            more = np.frombuffer(self._file.read(BYTES_PER_BLOCK), np.uint8) if self._order else self._numbers()
+            more = (
+                np.frombuffer(self._file.read(BYTES_PER_BLOCK), np.uint8)
+                if self._order
+                else self._numbers()
+            )
             if not len(more):
                 return
             self._buffer = np.concatenate([self._buffer, more]) if len(self._buffer) else more
@@ -167,7 +195,8 @@ class RowReader:
         """Return the next (n,) numbers of a text, n = 0 at its end. Raises RowsError."""
         while True:
             chunk = self._file.read(BYTES_PER_BLOCK // 4)
-            text, self._text = self._text + chunk, b""
+            text = self._text + chunk
+            self._text = b""
             if chunk:
                 end = max(text.rfind(space) for space in (b" ", b"\n", b"\t", b"\r")) + 1
                 text, self._text = text[:end], text[end:]
@@ -180,7 +209,9 @@ class RowReader:
             try:
                 if not text.translate(None, _DECIMAL):
                     return parse_decimals(text)[0]
-                return np.fromstring(_NOT_A_NUMBER.sub(b"nan", text).decode("ascii"), NUMBERS, sep=" ")
+                return np.fromstring(
+                    _NOT_A_NUMBER.sub(b"nan", text).decode("ascii"), NUMBERS, sep=" "
+                )
             except (ValueError, DeprecationWarning) as error:
                 raise RowsError from error
 
@@ -245,4 +276,6 @@ def parse_header(data: bytes) -> Header:
             elements[-1][2].append(Property(words[2], TYPES[words[1]]))
     if any(rows < 0 for _, rows, _ in elements):
         raise ValueError("negative number of rows")
-    return Header(order, tuple(Element(name, rows, tuple(kinds)) for name, rows, kinds in elements), end.end())
+    return Header(
+        order, tuple(Element(name, rows, tuple(kinds)) for name, rows, kinds in elements), end.end()
+    )

@@ -34,7 +34,9 @@ from .text_fields import (
     shorten,
 )
 
-HEAD, RECORD = 84, 50  # Bytes before the triangles, and bytes of each triangle.
+# Bytes before the triangles, and bytes of each triangle.
+HEAD = 84
+RECORD = 50
 CORNERS = np.dtype({"names": ["at"], "formats": ["(3,3)<f4"], "offsets": [12], "itemsize": RECORD})
 TRIANGLES_PER_BLOCK, TRIANGLES_IN_CACHE = 1 << 17, 1 << 13
 SAMPLES = 1000  # triangles that show where the body is
@@ -43,10 +45,14 @@ TEXT_PER_TRIANGLE = 250  # bytes, about
 FACET_END = b"endfacet"
 # The words of a facet without the letter that numbers may have, and all letters of numbers and white space.
 FACET_LETTERS = b"factnormaloutrloopvrtxvrtxvrtxndloopndfact"
-WORDS, _SPACE = 21, ord(" ")  # of a facet
+# of a facet
+WORDS = 21
+_SPACE = ord(" ")
 _NUMERIC = b"0123456789.e+- \t\r\n\v\f"
 _NORMAL = re.compile(rb"normal[^v]*?out")
-BY_COUNT, BY_WORD = "where its number of triangles does", "with “endsolid”"  # words for the end of a file
+# words for the end of a file
+BY_COUNT = "where its number of triangles does"
+BY_WORD = "with “endsolid”"
 SOLID = re.compile(rb"(?<!\S)(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+", re.IGNORECASE)
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
 _FACET_NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
@@ -57,7 +63,16 @@ _FACETS = re.compile(
 )
 _WORD = re.compile(rb"\S+")
 _CORNER_WORDS = ["vertex", True, True, True]  # True for a number that places a point
-_FACET_WORDS = ["facet", "normal", *3 * [False], "outer", "loop", *3 * _CORNER_WORDS, "endloop", "endfacet"]
+_FACET_WORDS = [
+    "facet",
+    "normal",
+    *3 * [False],
+    "outer",
+    "loop",
+    *3 * _CORNER_WORDS,
+    "endloop",
+    "endfacet",
+]
 
 
 class StlFile:
@@ -80,7 +95,9 @@ class StlFile:
     def sampled_box(self) -> Box:
         """Return the box of a sample of the triangles (of a text, the first ones), of all if a sample is not finite."""
         with open(self._path, "rb") as file:
-            blocks = [self._samples()] if self._binary else list(islice(self._text_corners(file), 1))
+            blocks = (
+                [self._samples()] if self._binary else list(islice(self._text_corners(file), 1))
+            )
         is_finite = all(np.isfinite(block).all() for block in blocks)
         return box_of_blocks(blocks, "triangle") if is_finite else self.box()
 
@@ -90,7 +107,9 @@ class StlFile:
 
     def box(self) -> Box:
         """Return the least and the largest coordinates. Raises FileError if some are not finite."""
-        return box_of_blocks((piece.points.reshape(-1, 3, 3) for piece in self.pieces()), "triangle")
+        return box_of_blocks(
+            (piece.points.reshape(-1, 3, 3) for piece in self.pieces()), "triangle"
+        )
 
     def pieces(self) -> Iterator[Surface]:
         """Yield surfaces of the triangles, with three points for each."""
@@ -101,7 +120,9 @@ class StlFile:
 
     def mesh(self) -> FileMesh:
         """Read all triangles, and merge equal points. FileError if a number is not finite."""
-        points = np.concatenate([np.zeros((0, 3), np.float32), *(piece.points for piece in self.pieces())])
+        points = np.concatenate(
+            [np.zeros((0, 3), np.float32), *(piece.points for piece in self.pieces())]
+        )
         box_of_blocks([points.reshape(-1, 3, 3)], "triangle")
         points, index = merge_equal(points)
         triangles = Polygons()
@@ -133,7 +154,9 @@ class StlFile:
             check_stl_text(map_file(self._path))
             self._is_checked = True
         text = SOLID.sub(b"", text) if has_solids else text
-        corners = _plain_corners(_NORMAL.sub(b"normal 0 0 0 out", text))  # a normal that is no number
+        corners = _plain_corners(
+            _NORMAL.sub(b"normal 0 0 0 out", text)
+        )  # a normal that is no number
         if corners is None:
             raise FileError(STL_CUT_SHORT, end=BY_WORD)
         return corners
@@ -150,25 +173,42 @@ def _plain_corners(text: bytes) -> NDArray[np.float32] | None:
         return None
     if len(numbers) != 12 * count or text.count(b"e") != 11 * count + exponents:
         return None
-    letters, at = np.frombuffer(text, np.uint8), at.reshape(count, 12)
-    if np.count_nonzero((letters[1:] > _SPACE) & (letters[:-1] <= _SPACE)) + (text[:1] > b" ") != WORDS * count:
+    letters = np.frombuffer(text, np.uint8)
+    at = at.reshape(count, 12)
+    if (
+        np.count_nonzero((letters[1:] > _SPACE) & (letters[:-1] <= _SPACE)) + (text[:1] > b" ")
+        != WORDS * count
+    ):
         return None
     normal, vertex, loop = (
-        np.flatnonzero(letters == ord(one)).reshape(count, times) for one, times in (("m", 1), ("x", 3), ("p", 2))
+        np.flatnonzero(letters == ord(one)).reshape(count, times)
+        for one, times in (("m", 1), ("x", 3), ("p", 2))
     )
     # Each row is in order if the words and the first and last numbers between them are.
-    order = [normal, at[:, [0, 2]], loop[:, :1], vertex[:, :1], at[:, [3, 5]], vertex[:, 1:2], at[:, [6, 8]]]
+    order = [
+        normal,
+        at[:, [0, 2]],
+        loop[:, :1],
+        vertex[:, :1],
+        at[:, [3, 5]],
+        vertex[:, 1:2],
+        at[:, [6, 8]],
+    ]
     order += [vertex[:, 2:], at[:, [9, 11]], loop[:, 1:]]
     positions = np.concatenate(order, axis=1)
-    is_plain = (positions[:, 1:] > positions[:, :-1]).all() and np.abs(numbers).max(initial=0.0) < MAX_FLOAT32
+    is_plain = (positions[:, 1:] > positions[:, :-1]).all() and np.abs(numbers).max(
+        initial=0.0
+    ) < MAX_FLOAT32
     return numbers.reshape(count, 4, 3)[:, 1:].astype(np.float32) if is_plain else None
 
 
 def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:
     file.seek(HEAD)
-    records, count = np.empty(TRIANGLES_IN_CACHE, CORNERS), 1
+    records = np.empty(TRIANGLES_IN_CACHE, CORNERS)
+    count = 1
     while count:
-        corners, done = np.empty((TRIANGLES_PER_BLOCK, 3, 3), np.float32), 0
+        corners = np.empty((TRIANGLES_PER_BLOCK, 3, 3), np.float32)
+        done = 0
         while count and done < TRIANGLES_PER_BLOCK:
             count = file.readinto(memoryview(records).cast("B")) // RECORD  # type: ignore[attr-defined]
             corners[done : done + count] = records["at"][:count]

@@ -27,7 +27,9 @@ MARK = b"\xef\xbb\xbf"  # byte order mark
 SHORT = rb"[+-]?(?:[0-9]{1,8}+(?:\.[0-9]*+)?+|\.[0-9]++)(?:[eE](?:-[0-9]++|\+?0?[0-2]?[0-9]))?+"
 SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
 SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
-_NOT_FINITE = re.compile(rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE)  # forms that C prints
+_NOT_FINITE = re.compile(
+    rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE
+)  # forms that C prints
 MAX_POWER = 22  # up to this float64 holds a power of ten
 MAX_WHOLE = 1e18  # int64 holds smaller numbers, and replaces larger ones by its largest
 _POWERS = 10.0 ** np.arange(MAX_POWER + 1)
@@ -35,7 +37,9 @@ _SPACE, _NINE, _DOT = b" 9."
 _BLANKS = bytes(letter if _SPACE < letter <= _NINE else _SPACE for letter in range(256))
 
 # Words for the field that a line should have.
-NUMBER, WHOLE, VERTEX = "a finite decimal number", "a whole number", "the number of an existing vertex"
+NUMBER = "a finite decimal number"
+WHOLE = "a whole number"
+VERTEX = "the number of an existing vertex"
 COUNT = "a line with more or fewer numbers"
 Data = mmap.mmap | bytes
 Fault = tuple[str, str]  # the text of a line, and the word for the text that should stand there
@@ -79,7 +83,9 @@ def shorten(text: bytes) -> str:
 
 def refuse_line(data: Data, at: int, fault: Fault) -> NoReturn:
     """Raise the FileError about the line that contains the offset `at`."""
-    line = 1 + sum(data[start : min(start + BLOCK, at)].count(b"\n") for start in range(0, at, BLOCK))
+    line = 1 + sum(
+        data[start : min(start + BLOCK, at)].count(b"\n") for start in range(0, at, BLOCK)
+    )
     raise FileError(LINE_MISREAD, line=line, text=fault[0], expected=fault[1])
 
 
@@ -92,7 +98,8 @@ def parse_decimals(text: bytes) -> tuple[NDArray[np.float64], NDArray[np.intp], 
     letters = np.frombuffer(text, np.uint8)
     is_part = (letters > _SPACE) & (letters <= _NINE)
     edges = np.flatnonzero(np.diff(is_part, prepend=False, append=False))
-    starts, ends = edges[::2], edges[1::2]
+    starts = edges[::2]
+    ends = edges[1::2]
     # The letter before an exponent is an e that follows a number.
     is_exponent = (letters[starts - 1] | 32 == ord("e")) & (starts > 0)
     is_exponent[1:] &= ends[:-1] == starts[1:] - 1
@@ -101,8 +108,14 @@ def parse_decimals(text: bytes) -> tuple[NDArray[np.float64], NDArray[np.intp], 
     has_sign = is_sign[starts]
     before = np.where(starts > 0, letters[starts - 1], _SPACE)
     after = np.append(letters, np.uint8(_SPACE))[ends]
-    touches = (before[~is_exponent] > _SPACE).any() or np.count_nonzero(after > _SPACE) != np.count_nonzero(is_exponent)
-    if touches or (is_exponent[1:] & is_exponent[:-1]).any() or np.count_nonzero(is_sign) != np.count_nonzero(has_sign):
+    touches = (before[~is_exponent] > _SPACE).any() or np.count_nonzero(
+        after > _SPACE
+    ) != np.count_nonzero(is_exponent)
+    if (
+        touches
+        or (is_exponent[1:] & is_exponent[:-1]).any()
+        or np.count_nonzero(is_sign) != np.count_nonzero(has_sign)
+    ):
         raise ValueError("no decimal numbers")
     whole = np.fromstring(text.translate(_BLANKS, b"."), np.int64, sep=" ")
     powers = np.zeros(len(starts), np.int64)
@@ -117,7 +130,8 @@ def parse_decimals(text: bytes) -> tuple[NDArray[np.float64], NDArray[np.intp], 
         raise ValueError("no decimal numbers")
     last = np.flatnonzero(is_exponent)
     powers[last - 1] += whole[last]
-    values, left = whole.astype(np.float64), np.abs(powers)
+    values = whole.astype(np.float64)
+    left = np.abs(powers)
     is_hard = (np.abs(values) >= MAX_WHOLE) | (left > 2 * MAX_POWER)
     left = np.minimum(left, 2 * MAX_POWER)
     while left.any():

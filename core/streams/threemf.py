@@ -32,8 +32,19 @@ from .text_fields import BLOCK, MAX_FLOAT32, MAX_TEXT
 MODEL = "model"  # the type of objects that are parts; supports and helpers have other types
 MAX_INSTANCES = 100_000  # meshes that the build places
 MAX_DEPTH = 100  # components within components
-UNITS = {"micron": 1e-6, "millimeter": 1e-3, "centimeter": 1e-2, "inch": 0.0254, "foot": 0.3048, "meter": 1.0}
-_KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # read here, or without effect on the shape
+UNITS = {
+    "micron": 1e-6,
+    "millimeter": 1e-3,
+    "centimeter": 1e-2,
+    "inch": 0.0254,
+    "foot": 0.3048,
+    "meter": 1.0,
+}
+_KNOWN = (
+    "core/2015/02",
+    "material/2015/02",
+    "production/2015/06",
+)  # read here, or without effect on the shape
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
 _DAMAGE = (
     *(zipfile.BadZipFile, zlib.error, EOFError, expat.ExpatError),
@@ -87,7 +98,10 @@ class _Package:
     """An open archive, and its parts that were read."""
 
     def __init__(self, path: Path, archive: zipfile.ZipFile, limits: Limits) -> None:
-        self._path, self._archive, self._limits, self._unpacked = path, archive, limits, 0
+        self._path = path
+        self._archive = archive
+        self._limits = limits
+        self._unpacked = 0
         entries = archive.infolist()
         limits.check(path, "entries", len(entries))
         self._names = {"/" + entry.filename.lstrip("/").lower(): entry for entry in entries}
@@ -154,7 +168,9 @@ class _Package:
             points, triangles = self._mesh(key, found)
             yield Placed(name or "Object " + identifier, key, points, triangles, matrix, hidden)
         for part, identifier, local in found.components:
-            yield from self._placed(part, identifier, matrix @ local, hidden, (*above, key), found.name or name)
+            yield from self._placed(
+                part, identifier, matrix @ local, hidden, (*above, key), found.name or name
+            )
 
     def _mesh(self, key: tuple[str, str], found: _Object) -> tuple[NDArray, NDArray]:
         if key not in self._arrays:
@@ -193,12 +209,17 @@ class _Model:
         self._object = _Object("")
         self._spaces: dict[str, str] = {}
         parser = _parser()
-        parser.StartNamespaceDeclHandler = lambda prefix, uri: self._spaces.__setitem__(prefix or "", uri or "")
+        parser.StartNamespaceDeclHandler = lambda prefix, uri: self._spaces.__setitem__(
+            prefix or "", uri or ""
+        )
         parser.StartElementHandler = self._start
         try:
             _feed(parser, pieces)
         except ValueError as error:  # with the text of a field
-            place = {"line": parser.CurrentLineNumber, "expected": "a value of a 3MF <{}>".format(self._tag)}
+            place = {
+                "line": parser.CurrentLineNumber,
+                "expected": "a value of a 3MF <{}>".format(self._tag),
+            }
             raise FileError(LINE_MISREAD, **place, text=str(error)[:MAX_TEXT]) from error
 
     def _start(self, name: str, values: dict[str, str]) -> None:
@@ -213,7 +234,9 @@ class _Model:
                 parse_whole(values.get(corner, "").strip(SPACES)) for corner in ("v1", "v2", "v3")
             )
         elif tag == "object":
-            self._object = self.objects[values["id"]] = _Object(values.get("name", ""), values.get("type", MODEL))
+            self._object = self.objects[values["id"]] = _Object(
+                values.get("name", ""), values.get("type", MODEL)
+            )
         elif tag == "component":
             self._object.components.append(self._reference(values))
         elif tag == "item":
@@ -228,7 +251,10 @@ class _Model:
                     raise FileError(THREEMF_EXTENSION, name=self._spaces.get(prefix, prefix))
 
     def _reference(self, values: dict[str, str]) -> tuple[str, str, NDArray[np.float64]]:
-        path = next((value for name, value in values.items() if name.endswith("production/2015/06 path")), self._part)
+        path = next(
+            (value for name, value in values.items() if name.endswith("production/2015/06 path")),
+            self._part,
+        )
         matrix = np.eye(4)
         if "transform" in values:
             matrix[:3] = _transform(values["transform"])

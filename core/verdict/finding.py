@@ -52,10 +52,18 @@ class Code(str):
     is_repair: bool
 
     def __new__(
-        cls, code: str, severity: Severity, text: str, plural: str | None = None, is_repair: bool = False
+        cls,
+        code: str,
+        severity: Severity,
+        text: str,
+        plural: str | None = None,
+        is_repair: bool = False,
     ) -> Self:
         self = super().__new__(cls, code)
-        self.severity, self.text, self.plural, self.is_repair = severity, text, plural, is_repair
+        self.severity = severity
+        self.text = text
+        self.plural = plural
+        self.is_repair = is_repair
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -117,7 +125,9 @@ class Finding:
         record = {"code": str(self.code), "values": dict(self.values)}
         first = self.elements[:MAX_STORED_ELEMENTS]
         if len(first):
-            record["elements"] = [item.tolist() if hasattr(item, "tolist") else item for item in first]
+            record["elements"] = [
+                item.tolist() if hasattr(item, "tolist") else item for item in first
+            ]
         return record
 
     @classmethod
@@ -141,7 +151,9 @@ class Finding:
         return sentence(self)
 
 
-def finding(code: str, elements: Elements = (), /, *, slight: bool = False, **values: Any) -> Finding:
+def finding(
+    code: str, elements: Elements = (), /, *, slight: bool = False, **values: Any
+) -> Finding:
     """Make a finding with this code, about mesh elements, with the values of its sentence.
 
     slight: True if the effect on mass, size and inertia is negligible (`core/verdict/tolerances.py`): a warning is then
@@ -207,7 +219,9 @@ class MeasureError(Exception):
     'no_faces'
     """
 
-    def __init__(self, reason: str | Finding, /, *, subject: str = "", elements: Elements = (), **values: Any):
+    def __init__(
+        self, reason: str | Finding, /, *, subject: str = "", elements: Elements = (), **values: Any
+    ):
         self.finding = reason if isinstance(reason, Finding) else Finding(reason, values, elements)
         self.subject = subject
         super().__init__(self.finding.code)

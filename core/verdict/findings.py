@@ -26,6 +26,10 @@ LINKED_OBJECT = error(
     "Linked from another file, or an override of something linked, which would lose the change. Use Object > Relations "
     "> Make Local for the object and its data.",
 )
-OUT_OF_MEMORY = error("out_of_memory", "Too little memory. Measure it alone, reduce it, or use a larger machine.")
-INTERNAL_ERROR = error("internal_error", "Internal error: {type}: {error} ({where}). Please report it.")
+OUT_OF_MEMORY = error(
+    "out_of_memory", "Too little memory. Measure it alone, reduce it, or use a larger machine."
+)
+INTERNAL_ERROR = error(
+    "internal_error", "Internal error: {type}: {error} ({where}). Please report it."
+)
 AND_MORE = note("and_more", "and {count} more")

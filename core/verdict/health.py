@@ -79,7 +79,11 @@ class MeshHealth:
 
     def as_record(self) -> dict:
         """Return plain values for JSON, with the flipped faces as the only defective elements."""
-        record = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name != "defective_elements"}
+        record = {
+            entry.name: getattr(self, entry.name)
+            for entry in fields(self)
+            if entry.name != "defective_elements"
+        }
         record[SELF_INTERSECTION] = str(self.self_intersection)
         record[FLIPPED_FACES] = self.defective_elements.flipped_faces.tolist()
         return record

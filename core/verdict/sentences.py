@@ -42,7 +42,9 @@ def _item(item: Any, translate: Callable[[str], str]) -> str:
     return "“{}”".format(item) if isinstance(item, str) else "{}".format(item)
 
 
-def truncate_list(items: Elements, count: int | None = None, translate: Callable[[str], str] = str) -> str:
+def truncate_list(
+    items: Elements, count: int | None = None, translate: Callable[[str], str] = str
+) -> str:
     """Write the first names, numbers or pairs of a list, and the number of the others: “A”, “B”, and 3 more."""
     shown, more = truncate(items, MAX_LISTED, count)
     texts = [_item(item, translate) for item in shown]
@@ -54,8 +56,11 @@ def truncate_list(items: Elements, count: int | None = None, translate: Callable
 class _Formatter(string.Formatter):
     """`str.format` with the formats named above. lengths: formats a length in meters, by default in meters."""
 
-    def __init__(self, translate: Callable[[str], str], lengths: Callable[[float], str] | None) -> None:
-        self.translate, self.lengths = translate, lengths or "{:.4g} m".format
+    def __init__(
+        self, translate: Callable[[str], str], lengths: Callable[[float], str] | None
+    ) -> None:
+        self.translate = translate
+        self.lengths = lengths or "{:.4g} m".format
 
     def format_field(self, value: Any, format_spec: str) -> str:
         if isinstance(value, Mapping):
@@ -81,7 +86,9 @@ class _Formatter(string.Formatter):
     @staticmethod
     def _join(texts: Sequence[str]) -> str:
         """Join sentences by spaces, clauses by commas."""
-        return "".join(text + (" " if text.endswith(".") else ", ") for text in texts[:-1]) + "".join(texts[-1:])
+        return "".join(
+            text + (" " if text.endswith(".") else ", ") for text in texts[:-1]
+        ) + "".join(texts[-1:])
 
 
 def fill(
@@ -97,12 +104,19 @@ def fill(
 
 
 def sentence(
-    finding: Finding, translate: Callable[[str], str] = str, lengths: Callable[[float], str] | None = None
+    finding: Finding,
+    translate: Callable[[str], str] = str,
+    lengths: Callable[[float], str] | None = None,
 ) -> str:
     """Return the sentence of a finding; templates are translated before they are filled, lengths are meters."""
-    entry, values = declared(finding.code), finding.values
+    entry = declared(finding.code)
+    values = finding.values
     count = values.get("count")
-    elements = truncate_list(finding.elements, count, translate) if len(finding.elements) else "{}".format(count)
+    elements = (
+        truncate_list(finding.elements, count, translate)
+        if len(finding.elements)
+        else "{}".format(count)
+    )
     text = fill(entry.text, entry.plural, {**values, "elements": elements}, translate, lengths)
     sources = values.get("sources")
     text = "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
@@ -111,7 +125,8 @@ def sentence(
 
 def severity(finding: Finding) -> Severity:
     """Return the severity of a finding, by its code; an accepted or slight warning is a note."""
-    by_code, values = declared(finding.code).severity, finding.values
+    by_code = declared(finding.code).severity
+    values = finding.values
     is_lowered = values.get("accepted") or values.get("slight")
     return Severity.NOTE if by_code == Severity.WARNING and is_lowered else by_code
 
@@ -130,7 +145,10 @@ METHODS = {
     "open": ("Open", "Open or through itself: it bounds no certain volume"),
     "shell": ("Shell", "The mass is in the surface"),
     "wall": ("Wall", "The mass is in a wall of real thickness"),
-    "union": ("Union", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits"),
+    "union": (
+        "Union",
+        "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits",
+    ),
     "wire": ("Wire", "The mass is along the curve"),
     "given": ("Given", "The mass is given; there is no geometry"),
     "assembly": ("Assembly", "The members as one body"),
@@ -152,7 +170,10 @@ HEALTH = {
     "non_manifold_edges": ("non-manifold edge", "non-manifold edges"),
     "inconsistent_edges": ("edge with opposite normals", "edges with opposite normals"),
     "inverted_components": ("inside-out component", "inside-out components"),
-    "nested_components": ("component inside another, counted twice", "components inside others, counted twice"),
+    "nested_components": (
+        "component inside another, counted twice",
+        "components inside others, counted twice",
+    ),
     "overlapping_components": ("overlapping component", "overlapping components"),
     "cavities": ("cavity", "cavities"),
     "duplicate_faces": ("duplicate face", "duplicate faces"),
@@ -192,7 +213,9 @@ def grouped(findings: Iterable[tuple[str, Finding]]) -> list[Group]:
     for members in together.values():
         values = dict(members[0][1].values)
         for key, join in JOINED if len(members) > 1 else ():
-            numbers = [found.values[key] for _, found in members if found.values.get(key) is not None]
+            numbers = [
+                found.values[key] for _, found in members if found.values.get(key) is not None
+            ]
             values |= {key: join(numbers)} if numbers else {}
         names = dict.fromkeys(name for name, _ in members)
         groups.append(Group(replace(members[0][1], values=values), tuple(filter(None, names))))

@@ -11,10 +11,16 @@ from .findings import OBJECT_TOO_SMALL
 
 # The sixth power of the first and the fifth of the second are still numbers.
 MAX_COORDINATE, MIN_SIZE = 1e50, 1e-60
-FLAT_CAP_VOLUME_RTOL = 1e-7  # relative to diagonal times area: volume left by capping a flat sheet of float32 points
-CLOSED_SHEET_VOLUME_RTOL = 1e-14  # relative to the same: volume left by the rounding of a closed sheet
+FLAT_CAP_VOLUME_RTOL = (
+    1e-7  # relative to diagonal times area: volume left by capping a flat sheet of float32 points
+)
+CLOSED_SHEET_VOLUME_RTOL = (
+    1e-14  # relative to the same: volume left by the rounding of a closed sheet
+)
 WELDING_RTOL = 1e-6  # relative to the body's diagonal
-NEGLIGIBLE = 1e-4  # relative to mass, size and inertia: a decision that changes them by less is a note
+NEGLIGIBLE = (
+    1e-4  # relative to mass, size and inertia: a decision that changes them by less is a note
+)
 
 
 def check_size(*sides: float) -> None:

@@ -28,7 +28,11 @@ class Verdict(StrEnum):
 def find_verdict(method: Method | None, findings: Iterable[Finding]) -> Verdict:
     """Return the verdict on up-to-date numbers, by their method and findings."""
     warnings = [declared(found.code) for found in findings if severity(found) != Severity.NOTE]
-    if method is None or method.procedure == Procedure.OPEN or not all(code.is_repair for code in warnings):
+    if (
+        method is None
+        or method.procedure == Procedure.OPEN
+        or not all(code.is_repair for code in warnings)
+    ):
         return Verdict.DOUBTFUL
     return Verdict.REPAIRED if warnings or method.procedure in REPAIRED else Verdict.EXACT
 
@@ -36,5 +40,9 @@ def find_verdict(method: Method | None, findings: Iterable[Finding]) -> Verdict:
 def open_body_caveats(methods: Iterable[tuple[str, Method | None]]) -> list[Finding]:
     """Return caveats about open bodies, given as names and methods: their own numbers depend on a reference point."""
     methods = list(methods)
-    names = sorted(name for name, method in methods if method is not None and method.procedure == Procedure.OPEN)
+    names = sorted(
+        name
+        for name, method in methods
+        if method is not None and method.procedure == Procedure.OPEN
+    )
     return [finding(TOTAL_OF_OPEN_OBJECTS, objects=names)] if names and len(methods) > 1 else []

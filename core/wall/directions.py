@@ -35,12 +35,20 @@ TRIANGLES_PER_BLOCK = 4096  # triangles at a time
 SAME_PLANE_RTOL = 1e-4  # Relative to the largest eigenvalue of Σ θ n n'; φ²/4 for planes φ apart. Less is one plane.
 LEAST_SQUARES_RTOL = 2e-2  # The same if not all planes can be met.
 SLIVER_RTOL = 1e-9  # Relative to the longest side: lower triangles have no reliable normal.
-NOISY_HEIGHT_FACTOR = 1e3  # times the points' shift by storing: lower triangles' normals are known to 1e-3 only
+NOISY_HEIGHT_FACTOR = (
+    1e3  # times the points' shift by storing: lower triangles' normals are known to 1e-3 only
+)
 UNEVEN_RTOL = 1e-6  # smaller relative deviations from the thickness do not count
-MIN_ADVANCE = 0.1  # Share of the thickness: if a face would get less, its vertices need a better direction.
+MIN_ADVANCE = (
+    0.1  # Share of the thickness: if a face would get less, its vertices need a better direction.
+)
 MAXIMIN_STEPS = 400  # Steps of the search for a better direction.
-RANK_RTOL = 1e-12  # Relative to the largest eigenvalue: planes that span less are equal to rounding.
-SMOOTHING_STEPS, SMOOTHING_RTOL = 400, 1e-12  # limit of steps, and the share of the unevenness at which to stop
+RANK_RTOL = (
+    1e-12  # Relative to the largest eigenvalue: planes that span less are equal to rounding.
+)
+# limit of steps, and the share of the unevenness at which to stop
+SMOOTHING_STEPS = 400
+SMOOTHING_RTOL = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +67,10 @@ class OffsetDirections:
 
 def blocks(triangles: NDArray) -> Iterator[NDArray]:
     """Yield blocks of triangles, small enough that their scratch arrays stay in the cache."""
-    return (triangles[start : start + TRIANGLES_PER_BLOCK] for start in range(0, len(triangles), TRIANGLES_PER_BLOCK))
+    return (
+        triangles[start : start + TRIANGLES_PER_BLOCK]
+        for start in range(0, len(triangles), TRIANGLES_PER_BLOCK)
+    )
 
 
 def weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
@@ -73,8 +84,13 @@ def weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.intege
     used, number = np.unique(triangles, return_inverse=True)
     triangles = number.reshape(-1, 3)
     edges = find_edges(triangles)
-    misoriented = (edges.count == 2) & (edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0)
-    for code, wrong in ((WALL_NON_MANIFOLD, edges.count > 2), (WALL_INCONSISTENT_FACES, misoriented)):
+    misoriented = (edges.count == 2) & (
+        edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0
+    )
+    for code, wrong in (
+        (WALL_NON_MANIFOLD, edges.count > 2),
+        (WALL_INCONSISTENT_FACES, misoriented),
+    ):
         if wrong.any():
             pairs = used[vertex_pairs(triangles, edges.first[wrong])]
             raise MeasureError(code, elements=pairs, count=len(pairs))
@@ -91,7 +107,8 @@ def offset_directions(
         for column in zip(*(_corner_geometry(points[part], stored) for part in blocks(triangles)))
     )
     corner = triangles[solid].ravel()
-    weight, normals = angles[solid].ravel(), np.repeat(normals[solid], 3, axis=0)
+    weight = angles[solid].ravel()
+    normals = np.repeat(normals[solid], 3, axis=0)
     total = np.maximum(np.bincount(corner, weight, count), np.finfo(float).tiny)
 
     def mean(values: NDArray) -> NDArray[np.float64]:
@@ -111,7 +128,9 @@ def offset_directions(
     values, axes = np.linalg.eigh(system)
     tilt = np.stack([_group_maximum(row.repeat(3), corner, count) for row in noise[solid].T])
     noisy = tilt.sum(axis=0)
-    thinnest = 1.0 / np.sqrt(np.maximum(-_group_maximum(-weight / total[corner], corner, count), np.finfo(float).tiny))
+    thinnest = 1.0 / np.sqrt(
+        np.maximum(-_group_maximum(-weight / total[corner], corner, count), np.finfo(float).tiny)
+    )
 
     def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
         """Return (n, 3) directions across planes with eigenvalues above `least`, mean deviations, and sensitivities."""
@@ -136,35 +155,57 @@ def offset_directions(
     flat = values <= np.maximum(RANK_RTOL, (8.0 * noisy) ** 2)[:, None] * values[:, 2:]
     flat &= (total > np.finfo(float).tiny)[:, None] & ~rough[:, None]
     if flat.any():
-        vectors = _smooth_in_plane(points, triangles[solid], vectors, np.einsum("nij,nj,nkj->nik", axes, flat, axes))
+        vectors = _smooth_in_plane(
+            points, triangles[solid], vectors, np.einsum("nij,nj,nkj->nik", axes, flat, axes)
+        )
     far = np.linalg.norm(vectors, axis=1)
     lift = thinnest * (far + gain * off)
     return OffsetDirections(
-        vectors, gain * tilt + 8.0 * U * gain * [[1.0], [0.0]], lift * tilt + 8.0 * U * lift * [[1.0], [0.0]], solid
+        vectors,
+        gain * tilt + 8.0 * U * gain * [[1.0], [0.0]],
+        lift * tilt + 8.0 * U * lift * [[1.0], [0.0]],
+        solid,
     )
 
 
-def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
+def _smooth_in_plane(
+    points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray
+) -> NDArray[np.float64]:
     """Return vectors made even by conjugate gradients along projections `free`, (n, 3, 3); boundaries stay."""
     edges = find_edges(triangles)
-    free[triangles.ravel()[edges.boundary_sides()]] = 0.0  # closed loops: each end of a side is a start
+    free[triangles.ravel()[edges.boundary_sides()]] = (
+        0.0  # closed loops: each end of a side is a start
+    )
     able = np.einsum("nii->n", free) > 0.5
     triangles = triangles[able[triangles].any(axis=1)]
     if not len(triangles):
         return vectors
     used, number = np.unique(triangles, return_inverse=True)
-    triangles, free, count = number.reshape(-1, 3), free[used], len(used)
+    triangles = number.reshape(-1, 3)
+    free = free[used]
+    count = len(used)
     corners = points[used][triangles]
-    sides = corners - np.roll(corners, -1, axis=1)  # from corner k to k + 1, across from corner k + 2
+    sides = corners - np.roll(
+        corners, -1, axis=1
+    )  # from corner k to k + 1, across from corner k + 2
     double = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-    weight = -np.einsum("mki,mki->mk", np.roll(sides, -1, axis=1), np.roll(sides, -2, axis=1)) / double[:, None]
-    start, stop, weight = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel(), weight.ravel()
+    weight = (
+        -np.einsum("mki,mki->mk", np.roll(sides, -1, axis=1), np.roll(sides, -2, axis=1))
+        / double[:, None]
+    )
+    start = triangles.ravel()
+    stop = np.roll(triangles, -1, axis=1).ravel()
+    weight = weight.ravel()
 
     def gradient(steps: NDArray) -> NDArray[np.float64]:
         """Return half the gradient of Σ cot |d_i - d_j|², in the free directions."""
         force = weight[:, None] * (steps[start] - steps[stop])
         total = np.stack(
-            [np.bincount(start, column, count) - np.bincount(stop, column, count) for column in force.T], axis=1
+            [
+                np.bincount(start, column, count) - np.bincount(stop, column, count)
+                for column in force.T
+            ],
+            axis=1,
         )
         return np.einsum("nij,nj->ni", free, total)
 
@@ -183,7 +224,8 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
             break
         directions = directions + power / curve * step
         rest = rest - power / curve * image
-        before, power = power, np.vdot(rest, rest / size)
+        before = power
+        power = np.vdot(rest, rest / size)
         step = rest / size + power / before * step
     vectors = vectors.copy()
     vectors[used] = directions
@@ -199,17 +241,28 @@ def _group_maximum(values: NDArray, group: NDArray, count: int) -> NDArray[np.fl
 
 
 def _maximin_direction(
-    vectors: NDArray, behind: NDArray, low: NDArray, corner: NDArray, weight: NDArray, normals: NDArray
+    vectors: NDArray,
+    behind: NDArray,
+    low: NDArray,
+    corner: NDArray,
+    weight: NDArray,
+    normals: NDArray,
 ) -> None:
     """Replace the vectors of vertices `behind` by vectors farther in front of all their faces. low: (n,) least n·d."""
     number = np.full(len(vectors), -1)
     number[behind] = np.arange(len(behind))
     corner_rows = np.flatnonzero(number[corner] >= 0)
-    vertex, normals, angle = number[corner[corner_rows]], normals[corner_rows], weight[corner_rows]
-    count, share = len(behind), angle / np.bincount(vertex, angle, len(behind))[vertex]
-    best, best_direction = np.full(count, -np.inf), np.zeros((count, 3))
+    vertex = number[corner[corner_rows]]
+    normals = normals[corner_rows]
+    angle = weight[corner_rows]
+    count = len(behind)
+    share = angle / np.bincount(vertex, angle, len(behind))[vertex]
+    best = np.full(count, -np.inf)
+    best_direction = np.zeros((count, 3))
     for k in range(MAXIMIN_STEPS):
-        trial = np.stack([np.bincount(vertex, share * column, count) for column in normals.T], axis=1)
+        trial = np.stack(
+            [np.bincount(vertex, share * column, count) for column in normals.T], axis=1
+        )
         length = np.linalg.norm(trial, axis=1)
         trial /= np.where(length > 0.0, length, 1.0)[:, None]
         height = np.einsum("ij,ij->i", normals, trial[vertex])

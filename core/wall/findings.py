@@ -4,7 +4,9 @@
 
 from ..verdict.finding import error, note
 
-NO_FACE_AREA = error("no_face_area", "All faces have zero area. Move their vertices apart, or select another object.")
+NO_FACE_AREA = error(
+    "no_face_area", "All faces have zero area. Move their vertices apart, or select another object."
+)
 WALL_NON_MANIFOLD = error(
     "wall_non_manifold",
     "{count} edge has more than two faces. Separate the parts, or set Wall to Thin.",
@@ -21,5 +23,6 @@ WALL_PRECISION_LOST = error(
     "nearer to the origin, or set Wall to Thin.",
 )
 WALL_MEASURED = note(
-    "wall_measured", "The wall was measured with real thickness: {thickness:length}, {side:word}, mitered corners."
+    "wall_measured",
+    "The wall was measured with real thickness: {thickness:length}, {side:word}, mitered corners.",
 )

@@ -60,12 +60,16 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
     if order <= ORDER:
         return known.truncate(order)
     count = len(wall.points)
-    points = np.concatenate([wall.points - inward * wall.vectors, wall.points + outward * wall.vectors])
+    points = np.concatenate(
+        [wall.points - inward * wall.vectors, wall.points + outward * wall.vectors]
+    )
     sides = Surface(points, np.concatenate([wall.triangles[:, ::-1], wall.triangles + count]))
     moments = polyhedron_moments(sides, order, about=wall.about, allow_open=True)[0]
     start, stop = find_edges(wall.triangles).boundary_ends(wall.triangles)
     if len(start):
-        corners = np.stack([points[start], points[stop], points[stop + count], points[start + count]])
+        corners = np.stack(
+            [points[start], points[stop], points[stop + count], points[start + count]]
+        )
         moments = moments + _strip_moments(corners - wall.about, wall.about, order)
     reach = (wall.reach[0] + max(inward, outward) * wall.reach[1]) * (1.0 + 1e-9)
     largest = np.multiply.reduce(reach ** monomials(order), axis=1)
@@ -91,15 +95,22 @@ def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], ord
     u, w = (grid.ravel() for grid in np.meshgrid(nodes, nodes))
     weight = np.multiply.outer(weights, weights).ravel()
     share = np.stack([(1 - u) * (1 - w), u * (1 - w), u * w, (1 - u) * w])
-    along, across = np.stack([1 - w, w]), np.stack([1 - u, u])
+    along = np.stack([1 - w, w])
+    across = np.stack([1 - u, u])
     step = max(1, NODES_PER_BLOCK // len(weight))
     for first in range(0, corners.shape[1], step):
         block = corners[:, first : first + step]
         # Differences of corners are rounded relative to the sides, which may be much shorter than their distance.
-        sides, ends = block[[1, 2]] - block[[0, 3]], block[[3, 2]] - block[[0, 1]]
+        sides = block[[1, 2]] - block[[0, 3]]
+        ends = block[[3, 2]] - block[[0, 1]]
         place, reach, tangent, other = (
             np.einsum("cn,cki->ikn", rows, vectors).reshape(3, -1)
-            for rows, vectors in ((share, block), (share, np.abs(block)), (along, sides), (across, ends))
+            for rows, vectors in (
+                (share, block),
+                (share, np.abs(block)),
+                (along, sides),
+                (across, ends),
+            )
         )
         flux = np.einsum("in,in->n", place, np.stack(cross(tangent, other)))
         mixed = (

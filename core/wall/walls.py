@@ -23,7 +23,15 @@ from numpy.typing import NDArray
 from ..mesh.bvh import sort_components
 from ..mesh.edges import find_edges
 from ..mesh.surface import Surface
-from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, monomial_count, monomial_index, monomials
+from ..moments.moments import (
+    PAIRWISE_SUM_ROUNDINGS,
+    Measure,
+    Moments,
+    U,
+    monomial_count,
+    monomial_index,
+    monomials,
+)
 from ..numerics.arguments import check_type
 from ..numerics.graph import connected_components
 from ..numerics.vectors import cross
@@ -36,11 +44,19 @@ from .findings import WALL_PRECISION_LOST
 ORDER = 3
 COEFFICIENT_COUNT = ORDER + 3  # coefficients in s: degrees 0 to 5
 TOUCHING_RTOL = 1e-6  # Relative to the size: nearer sides touch.
-MAX_UNORIENTED_SHARE = 0.01  # Share of the area: above it, too many faces have lost their direction for a wall.
-JACOBIAN_ROUNDINGS = 20.0  # rounding of a Jacobian, in units u, relative to the product of the lengths in it
-INNER_NODES, OUTER_NODES = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
+MAX_UNORIENTED_SHARE = (
+    0.01  # Share of the area: above it, too many faces have lost their direction for a wall.
+)
+JACOBIAN_ROUNDINGS = (
+    20.0  # rounding of a Jacobian, in units u, relative to the product of the lengths in it
+)
+INNER_NODES = (0.10810301816807023, 0.81684757298045851)
+OUTER_NODES = (0.44594849091596489, 0.091576213509770743)
 NODES = np.concatenate(
-    [np.full((3, 3), outer) + (inner - outer) * np.eye(3) for inner, outer in zip(INNER_NODES, OUTER_NODES)]
+    [
+        np.full((3, 3), outer) + (inner - outer) * np.eye(3)
+        for inner, outer in zip(INNER_NODES, OUTER_NODES)
+    ]
 )
 WEIGHTS = np.repeat([0.11169079483900573, 0.054975871827660933], 3)
 
@@ -80,17 +96,22 @@ class OffsetSolid:
 
     def moments(self, inward: float, outward: float) -> Moments:
         """Return a wall's volume moments to third order, about the middle of the surface's bounding box."""
-        if not (inward < self.inward or inward == 0.0) or not (outward < self.outward or outward == 0.0):
+        if not (inward < self.inward or inward == 0.0) or not (
+            outward < self.outward or outward == 0.0
+        ):
             raise ValueError("offset folds over")
         degree = np.arange(1, COEFFICIENT_COUNT + 1)
-        up, down = outward**degree / degree, -((-inward) ** degree) / degree
+        up = outward**degree / degree
+        down = -((-inward) ** degree) / degree
         both = outward**degree / degree + inward**degree / degree
         raw = self.coefficients @ (up + down)
         error = self.rounding_error @ both + 16.0 * U * (np.abs(self.coefficients) @ both)
         swept = sum(self.swept_bound @ s ** np.arange(4) for s in (inward, outward))
         reach = self.reach[0] + max(inward, outward) * self.reach[1]
         moved = swept * np.multiply.reduce(reach ** monomials(ORDER), axis=1)
-        return Moments(raw, self.about, Measure.VOLUME, error, np.minimum(self.input_error @ both, moved))
+        return Moments(
+            raw, self.about, Measure.VOLUME, error, np.minimum(self.input_error @ both, moved)
+        )
 
     def box(self, inward: float, outward: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the smallest and the largest coordinates of the wall, (3,) and (3,)."""
@@ -100,10 +121,14 @@ class OffsetSolid:
     def self_intersects(self, inward: float, outward: float) -> bool:
         """Return whether the wall's sides go through each other or themselves, or walls of separate parts overlap."""
         count = len(self.points)
-        points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
+        points = np.concatenate(
+            [self.points - inward * self.vectors, self.points + outward * self.vectors]
+        )
         triangles = np.concatenate([self.triangles, self.triangles + count])
         shell = np.repeat([0, 1], len(self.triangles))
-        tolerance = min(TOUCHING_RTOL * float(np.ptp(points, axis=0).max()), 1e-3 * (inward + outward))
+        tolerance = min(
+            TOUCHING_RTOL * float(np.ptp(points, axis=0).max()), 1e-3 * (inward + outward)
+        )
         pairs = [(0, 1), *((k, k) for k, moved in enumerate((inward, outward)) if moved)]
         return surfaces_intersect(
             points, triangles, shell, np.array(pairs), np.tile(np.arange(count), 2), tolerance
@@ -114,7 +139,8 @@ class OffsetSolid:
         part, number = connected_components(
             len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
         )
-        count, (start, stop) = len(self.points), find_edges(self.triangles).boundary_ends(self.triangles)
+        count = len(self.points)
+        (start, stop) = find_edges(self.triangles).boundary_ends(self.triangles)
         triangles = np.concatenate(
             [
                 self.triangles[:, ::-1],
@@ -123,7 +149,9 @@ class OffsetSolid:
                 np.stack([start, stop + count, start + count], axis=1),
             ]
         )
-        shells = sort_components(points, triangles, part[triangles[:, 0] % count].astype(np.intp), number)
+        shells = sort_components(
+            points, triangles, part[triangles[:, 0] % count].astype(np.intp), number
+        )
         solid = shells.volume > 0.0
         if self_overlaps(points, shells, solid, tolerance):
             return True
@@ -132,18 +160,26 @@ class OffsetSolid:
 
     def drop_arrays(self) -> OffsetSolid:
         """Return the solid without the arrays that are as large as the mesh."""
-        return replace(self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0])
+        return replace(
+            self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0]
+        )
 
     def first_fold_location(self, side: str) -> NDArray[np.float64]:
         """Return the (3,) middle of the triangle that folds first. side: "inward", "outward" or "centered"."""
         at = (
-            self.inward_at if side == "inward" or side == "centered" and self.inward < self.outward else self.outward_at
+            self.inward_at
+            if side == "inward" or side == "centered" and self.inward < self.outward
+            else self.outward_at
         )
         return self.points[self.triangles[at]].mean(axis=0)
 
     def max_thickness(self, side: str) -> float:
         """Return the thickness from which the wall on that side folds over: "inward", "outward" or "centered"."""
-        return {"inward": self.inward, "outward": self.outward, "centered": 2.0 * min(self.inward, self.outward)}[side]
+        return {
+            "inward": self.inward,
+            "outward": self.outward,
+            "centered": 2.0 * min(self.inward, self.outward),
+        }[side]
 
 
 def split_thickness(side: str, thickness: float) -> tuple[float, float]:
@@ -191,21 +227,29 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     directions = offset_directions(points, triangles, stored)
     vectors = directions.vectors
     reach = np.abs(points - about).max(axis=0) * (1.0 + 4.0 * U), np.abs(vectors).max(axis=0)
-    sums, bounds, swept, tested = np.zeros((20, COEFFICIENT_COUNT)), np.zeros((3, 7)), np.zeros((2, 4)), []
-    rounded, slid = 4.0 * U * float(np.linalg.norm(reach[0])), 4.0 * U * float(np.linalg.norm(reach[1]))
+    sums = np.zeros((20, COEFFICIENT_COUNT))
+    bounds = np.zeros((3, 7))
+    swept = np.zeros((2, 4))
+    tested = []
+    rounded = 4.0 * U * float(np.linalg.norm(reach[0]))
+    slid = 4.0 * U * float(np.linalg.norm(reach[1]))
     for part, known in zip(blocks(triangles), blocks(directions.has_normal)):
         prisms = _Prisms(points[part], about, vectors[part])
         sums += prisms.sums()
-        slide, lift = directions.tangential_error[:, part].max(axis=2), directions.normal_error[:, part].max(axis=2)
+        slide = directions.tangential_error[:, part].max(axis=2)
+        lift = directions.normal_error[:, part].max(axis=2)
         if stored:
-            lift[1] += np.where(known, 0.0, 1.0 + prisms.far)  # such a triangle should have moved by one
+            lift[1] += np.where(
+                known, 0.0, 1.0 + prisms.far
+            )  # such a triangle should have moved by one
         bounds += prisms.bounds(slide, lift, stored)
         swept[0] += prisms.swept(slide[0] + slid, lift[0] + slid, rounded)
         swept[1] += prisms.swept(slide[1], lift[1], stored)
         tested.append(prisms.jacobians())
     jacobian, jacobian_error, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
     solid = directions.has_normal
-    lost, total = float(double[~solid].sum()), float(double.sum())
+    lost = float(double[~solid].sum())
+    total = float(double.sum())
     if stored and lost > MAX_UNORIENTED_SHARE * total:
         raise MeasureError(WALL_PRECISION_LOST, share=lost / total)
     rest = np.flatnonzero(solid)
@@ -232,7 +276,10 @@ def offset_solid(surface: Surface) -> OffsetSolid:
         np.array(reach),
         outward.min(initial=np.inf),
         inward.min(initial=np.inf),
-        *(int(rest[np.argmin(limit)]) if np.isfinite(limit.min(initial=np.inf)) else -1 for limit in (outward, inward)),
+        *(
+            int(rest[np.argmin(limit)]) if np.isfinite(limit.min(initial=np.inf)) else -1
+            for limit in (outward, inward)
+        ),
         inexact_vertices=len(np.unique(triangles[solid][uneven])),
         min_ratio=height.min(initial=1.0),
         max_ratio=height.max(initial=1.0),
@@ -247,14 +294,18 @@ class _Prisms:
         a, b, c = points.transpose(1, 2, 0)  # corner, axis, prism
         u, v, w = self.vectors = vectors.transpose(1, 2, 0)
         self.points = points.transpose(1, 2, 0) - about[:, None]
-        self.edges, self.turns = (b - a, c - a), (v - u, w - u)
+        self.edges = (b - a, c - a)
+        self.turns = (v - u, w - u)
         plain, first, second, turned = (
             np.stack(cross(first, second)) for first in (b - a, v - u) for second in (c - a, w - u)
         )
         self.normals = plain, first + second, turned
         # Axes: power of s, corner, prism.
         self.own_size = np.array(
-            [[np.einsum("im,im->m", normal, vector) for vector in self.vectors] for normal in self.normals]
+            [
+                [np.einsum("im,im->m", normal, vector) for vector in self.vectors]
+                for normal in self.normals
+            ]
         )
         self.double = np.sqrt(np.einsum("im,im->m", self.normals[0], self.normals[0]))
         self.long, self.turned_length, self.far = (
@@ -268,15 +319,24 @@ class _Prisms:
 
     def _sizes(self) -> NDArray[np.float64]:
         """Return (3, m) bounds of the coefficients of J."""
-        return np.array([self.long**2, 2.0 * self.long * self.turned_length, self.turned_length**2]) * self.far
+        return (
+            np.array([self.long**2, 2.0 * self.long * self.turned_length, self.turned_length**2])
+            * self.far
+        )
 
     def sums(self) -> NDArray[np.float64]:
         """Return the (20, 6) coefficients of the moments."""
-        sums, count = np.zeros((monomial_count(ORDER), COEFFICIENT_COUNT)), self.points.shape[2]
+        sums = np.zeros((monomial_count(ORDER), COEFFICIENT_COUNT))
+        count = self.points.shape[2]
         place, step = (
-            np.einsum("nk,kim->inm", NODES, corners).reshape(3, 6 * count) for corners in (self.points, self.vectors)
+            np.einsum("nk,kim->inm", NODES, corners).reshape(3, 6 * count)
+            for corners in (self.points, self.vectors)
         )
-        table = {(0, 0, 0): (np.einsum("nk,pkm->pnm", NODES, self.own_size) * WEIGHTS[:, None]).reshape(3, 6 * count)}
+        table = {
+            (0, 0, 0): (np.einsum("nk,pkm->pnm", NODES, self.own_size) * WEIGHTS[:, None]).reshape(
+                3, 6 * count
+            )
+        }
         for exponents in map(tuple, monomials(ORDER).tolist()):
             if exponents not in table:
                 axis = next(i for i in range(3) if exponents[i])
@@ -289,16 +349,21 @@ class _Prisms:
             sums[monomial_index(*exponents), : len(values)] = values
         return sums
 
-    def bounds(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
+    def bounds(
+        self, tangential_error: NDArray, normal_error: NDArray, stored: float
+    ) -> NDArray[np.float64]:
         """Return (3, 7) coefficients in s, summed over the prisms: a row of sizes of J, and two rows of changes.
 
         The row of sizes is three coefficients and four zeros. A row of changes is three coefficients of the change of
         J, and four of J's size times the move of x. The directions move by the first row of the errors; in the last row
         by the second row of the errors, and the points by `stored`.
         """
-        sizes, coefficients = self._sizes(), [np.zeros((7, len(self.double)))]
+        sizes = self._sizes()
+        coefficients = [np.zeros((7, len(self.double)))]
         coefficients[0][:3] = sizes
-        long, turned, far = self.long, self.turned_length, self.far
+        long = self.long
+        turned = self.turned_length
+        far = self.far
         for delta, along, step in zip(tangential_error, normal_error, (0.0, stored)):
             change = [
                 4.0 * long * step * far + self.double * along,
@@ -306,18 +371,26 @@ class _Prisms:
                 4.0 * turned * delta * far + turned**2 * delta,
             ]
             flat = self.double * far
-            place = [flat * step, flat * delta + sizes[1] * step, sizes[1] * delta + sizes[2] * step, sizes[2] * delta]
+            place = [
+                flat * step,
+                flat * delta + sizes[1] * step,
+                sizes[1] * delta + sizes[2] * step,
+                sizes[2] * delta,
+            ]
             coefficients.append(np.array(change + place))
         return np.add.reduce(np.array(coefficients), axis=2) / 2.0
 
-    def swept(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
+    def swept(
+        self, tangential_error: NDArray, normal_error: NDArray, stored: float
+    ) -> NDArray[np.float64]:
         """Return (4,) coefficients in s of the volume swept as points and directions move by their errors."""
         unit = self.normals[0] / np.where(self.double > 0.0, self.double, 1.0)
         height = [np.einsum("im,im->m", normal, unit) for normal in self.normals]
         rest = [normal - along * unit for normal, along in zip(self.normals, height)]
         along = np.abs(height)
         size, across = (
-            [np.sqrt(np.einsum("im,im->m", vector, vector)) for vector in vectors] for vectors in (self.normals, rest)
+            [np.sqrt(np.einsum("im,im->m", vector, vector)) for vector in vectors]
+            for vectors in (self.normals, rest)
         )
         across = [a + 8.0 * U * b for a, b in zip(across, size)]
         coefficients = [
@@ -344,7 +417,8 @@ def _propagate_error(
     bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return (20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`."""
-    place, step = reach[0] + stored, reach[1]
+    place = reach[0] + stored
+    step = reach[1]
 
     def times(row: NDArray, exponents: list[int]) -> NDArray[np.float64]:
         for axis, power in enumerate(exponents):

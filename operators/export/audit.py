@@ -29,7 +29,9 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
     bl_label = "Audit Robot Description"
     bl_options = {"REGISTER", "UNDO"}
 
-    filter_glob: StringProperty(default=";".join("*" + end for end in AUDITED_SUFFIXES), options={"HIDDEN"})
+    filter_glob: StringProperty(
+        default=";".join("*" + end for end in AUDITED_SUFFIXES), options={"HIDDEN"}
+    )
     root: StringProperty(
         name="Mesh Folder",
         description="A folder that meshes may be in, besides that of the file and of its package",
@@ -37,9 +39,12 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
     )
     allow_outside: BoolProperty(name="Meshes Anywhere", description="Read meshes wherever they are")
     write_copy: BoolProperty(
-        name="Write Repaired Copy", description="Write a copy with _repaired in its name beside the file"
+        name="Write Repaired Copy",
+        description="Write a copy with _repaired in its name beside the file",
     )
-    write_page: BoolProperty(name="Write HTML", description="Write the report as a page beside the file")
+    write_page: BoolProperty(
+        name="Write HTML", description="Write the report as a page beside the file"
+    )
 
     @selection.report_refusals
     def execute(self, _context: Context) -> set[str]:
@@ -49,8 +54,12 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         except MeasureError as error:
             raise error.about(path.name) from error
         counts = write.audit_report.count_findings(document)
-        done = reports.phrase("{links} links: {errors} errors, {warnings} warnings, {notes} notes", **counts)
-        selection.report(self, done, reports.phrase("See the text “{text}” in the Text Editor", text=text))
+        done = reports.phrase(
+            "{links} links: {errors} errors, {warnings} warnings, {notes} notes", **counts
+        )
+        selection.report(
+            self, done, reports.phrase("See the text “{text}” in the Text Editor", text=text)
+        )
         return {"FINISHED"}
 
     def _audit(self, path: Path) -> tuple[dict[str, Any], str]:

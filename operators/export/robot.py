@@ -31,15 +31,31 @@ if TYPE_CHECKING:
     from ...blender.session.robots import SceneLinks
 
 LINKS = (
-    ("OBJECT", "Objects", "Each object is a link; rigid-body constraints are joints, and parents hold by fixed joints"),
-    ("COLLECTION", "Collections", "Each collection with all that it holds is a link, along the world's axes"),
-    ("BONE", "Bones", "Each bone of a character is a link in its rest frame, with joints of the bones' limits"),
+    (
+        "OBJECT",
+        "Objects",
+        "Each object is a link; rigid-body constraints are joints, and parents hold by fixed joints",
+    ),
+    (
+        "COLLECTION",
+        "Collections",
+        "Each collection with all that it holds is a link, along the world's axes",
+    ),
+    (
+        "BONE",
+        "Bones",
+        "Each bone of a character is a link in its rest frame, with joints of the bones' limits",
+    ),
 )
 GEOMETRY = (
     ("MESH", "Meshes", "Write a mesh for each link, in meters"),
     ("BOX", "Boxes", "The box of the same mass, center and inertia"),
     ("ELLIPSOID", "Ellipsoids", "The ellipsoid of the same mass, center and inertia"),
-    ("CAPSULE", "Capsules", "The capsule of the same mass and center, with the inertia that comes nearest"),
+    (
+        "CAPSULE",
+        "Capsules",
+        "The capsule of the same mass and center, with the inertia that comes nearest",
+    ),
     ("NONE", "None", "Links have no geometry"),
 )
 
@@ -51,20 +67,28 @@ class RobotExport(selection.InObjectMode, ExportHelper):
     bl_options = {"REGISTER", "PRESET"}
 
     use_selection: BoolProperty(
-        name="Selected Objects", description="Export selected objects only, else all that are rendered"
+        name="Selected Objects",
+        description="Export selected objects only, else all that are rendered",
     )
     collection: StringProperty(name="Source Collection", options={"HIDDEN"})
-    links: EnumProperty(name="Links", description="What is one rigid body", items=LINKS, default="OBJECT")
-    geometry: EnumProperty(name="Geometry", description="What links look like and collide as", items=GEOMETRY)
+    links: EnumProperty(
+        name="Links", description="What is one rigid body", items=LINKS, default="OBJECT"
+    )
+    geometry: EnumProperty(
+        name="Geometry", description="What links look like and collide as", items=GEOMETRY
+    )
     use_collision: BoolProperty(
-        name="Collision", description="Links collide as they look; else their geometry is only seen", default=True
+        name="Collision",
+        description="Links collide as they look; else their geometry is only seen",
+        default=True,
     )
     fixed_base: BoolProperty(
         name="Fixed Base",
         description="Fix links without a parent to the world; else passive rigid bodies alone",
     )
     inertial_only: BoolProperty(
-        name="Inertials Only", description="Write mass, center and inertia of each link and nothing else"
+        name="Inertials Only",
+        description="Write mass, center and inertia of each link and nothing else",
     )
 
     @selection.report_refusals
@@ -75,13 +99,19 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         made = replace(made, robot=made.robot.with_fixed_roots()) if self.fixed_base else made
         findings = self._export(context, made, path)
         done = "{count} link exported to {file}.", "{count} links exported to {file}."
-        return selection.report(self, reports.phrase(*done, count=len(made.robot.links), file=path.name), *findings)
+        return selection.report(
+            self, reports.phrase(*done, count=len(made.robot.links), file=path.name), *findings
+        )
 
     def _links(self, context: Context, objects: list[Object], name: str) -> "SceneLinks":
         if self.links == "BONE":
             return session.robots.bone_links(context, name, objects)
         if self.links == "COLLECTION":
-            root = bpy.data.collections[self.collection] if self.collection else context.scene.collection
+            root = (
+                bpy.data.collections[self.collection]
+                if self.collection
+                else context.scene.collection
+            )
             return session.robots.collection_links(context, name, root, objects)
         with reports.progress(len(objects)) as step:
             return session.robots.object_links(context, name, objects, step)
@@ -89,18 +119,25 @@ class RobotExport(selection.InObjectMode, ExportHelper):
     def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
         if self.geometry == "MESH" and self.use_collision and not self.inertial_only:
             made = made.with_colliders()
-        robot, bare = made.robot, []
+        robot = made.robot
+        bare = []
         if self.geometry != "MESH":
             robot = write.shapes.with_primitives(robot, self.geometry.lower())
         if not self.use_collision:
             robot = write.shapes.without_collision(robot)
         if self.geometry == "MESH" and not self.inertial_only:
             try:
-                robot, bare = write.texts.with_geometry(robot, self.FORMAT, partial(made.surface, context), path)
+                robot, bare = write.texts.with_geometry(
+                    robot, self.FORMAT, partial(made.surface, context), path
+                )
             except OSError as error:
-                raise FileError(FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)) from error
+                raise FileError(
+                    FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)
+                ) from error
         found = [*made.findings, *bare]
-        text, findings = write.texts.robot_text(robot, self.FORMAT, found, inertial_only=self.inertial_only)
+        text, findings = write.texts.robot_text(
+            robot, self.FORMAT, found, inertial_only=self.inertial_only
+        )
         selection.write_file(path, [self._encode(text, path)])
         return findings
 
@@ -109,7 +146,8 @@ class RobotExport(selection.InObjectMode, ExportHelper):
 
     def draw(self, _context: Context) -> None:
         layout = self.layout
-        layout.use_property_split, layout.use_property_decorate = True, False
+        layout.use_property_split = True
+        layout.use_property_decorate = False
         if not self.collection:
             layout.prop(self, "use_selection")
         self._draw_options(layout)
@@ -136,7 +174,9 @@ class GeometryExport(RobotExport):
         if is_own or has_colliders or any(joint.free for joint in made.robot.joints):
             return super()._export(context, made, path)
         made.findings.extend(write.texts.check(made.robot, self.FORMAT))
-        sheared = session.robots.sheared_objects([obj for held in made.members.values() for obj in held])
+        sheared = session.robots.sheared_objects(
+            [obj for held in made.members.values() for obj in held]
+        )
         if sheared:
             made.findings.append(finding(ROBOT_SCALED, count=len(sheared), links=sheared))
         return self._export_over(made, path)
@@ -149,9 +189,13 @@ class GeometryExport(RobotExport):
         """Run Blender's own exporter on the same objects."""
         module, name = exporter.split(".")
         try:
-            result = getattr(getattr(bpy.ops, module), name)(filepath=str(path), collection=self.collection, **options)
+            result = getattr(getattr(bpy.ops, module), name)(
+                filepath=str(path), collection=self.collection, **options
+            )
         except (AttributeError, RuntimeError) as error:  # a Blender may be built without it
-            raise FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=" ".join(str(error).split())) from error
+            raise FileError(
+                ROBOT_GEOMETRY_NOT_WRITTEN, error=" ".join(str(error).split())
+            ) from error
         if "FINISHED" not in result or not path.is_file():
             raise FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=exporter)
 
@@ -160,13 +204,21 @@ class UsdExport(GeometryExport):
     """Base of the USD exporter: a layer with the masses refers to the layer that Blender's exporter has written."""
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
-        robot, findings, usd = made.robot, made.findings, write.usd
-        paths = {label: session.robots.usd_path(held[0], usd.identifier) for label, held in made.members.items()}
+        robot = made.robot
+        findings = made.findings
+        usd = write.usd
+        paths = {
+            label: session.robots.usd_path(held[0], usd.identifier)
+            for label, held in made.members.items()
+        }
         alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
         if alike:
             raise EditRefusedError(ROBOT_NAMES_ALIKE, names=alike)
         geometry = path.with_name(path.stem + "_geometry.usdc")
-        options = {"selected_objects_only": self.use_selection, "root_prim_path": "/" + session.robots.USD_ROOT}
+        options = {
+            "selected_objects_only": self.use_selection,
+            "root_prim_path": "/" + session.robots.USD_ROOT,
+        }
         self._run_exporter("wm.usd_export", geometry, options)
         scaled = [link.name for link in robot.roots if min(link.scale) < 0.0]
         if scaled:
@@ -208,7 +260,9 @@ def _exporter(form: RobotFormat) -> type[RobotExport]:
         "bl_label": form.export_label,
         "bl_description": form.export_tip,
         "filename_ext": form.suffix,
-        "__annotations__": {"filter_glob": StringProperty(default="*" + form.suffix, options={"HIDDEN"})},
+        "__annotations__": {
+            "filter_glob": StringProperty(default="*" + form.suffix, options={"HIDDEN"})
+        },
     }
     bases = BASES.get(form.name, RobotExport), Operator
     return type("EXPORT_SCENE_OT_body_moments_" + form.name, bases, members)
@@ -236,7 +290,9 @@ class TOPBAR_MT_body_moments_export(Menu):
     def draw(self, _context: Context) -> None:
         for form in FORMATS.values():
             text = "{} ({})".format(form.label, form.suffix)
-            self.layout.operator("export_scene.body_moments_" + form.name, text=text, translate=False)
+            self.layout.operator(
+                "export_scene.body_moments_" + form.name, text=text, translate=False
+            )
         self.layout.separator()
         self.layout.menu(VIEW3D_MT_body_moments_copy.bl_idname)
 

@@ -50,7 +50,9 @@ class OBJECT_OT_body_moments_copy_value(Operator):
 
     @classmethod
     def description(cls, _context: Context, values: OperatorProperties) -> str:
-        return localized("Copy {:s}\n\nUnit: {:s}").format(values.value, values.unit or localized("none"))
+        return localized("Copy {:s}\n\nUnit: {:s}").format(
+            values.value, values.unit or localized("none")
+        )
 
     def execute(self, context: Context) -> set[str]:
         if not self.value:
@@ -68,7 +70,9 @@ def selected_document(context: Context) -> dict[str, Any]:
     caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
     caveats += read.assembly.total_caveats(counted, context.view_layer)
     version = ".".join(map(str, bpy.app.version))
-    return write.text_report.stored_document(context, objects, outdated, caveats, bpy.data.filepath or None, version)
+    return write.text_report.stored_document(
+        context, objects, outdated, caveats, bpy.data.filepath or None, version
+    )
 
 
 Copied = tuple[str, str]  # a text for the clipboard, and the sentence that says so
@@ -93,17 +97,25 @@ def _table(context: Context) -> Copied | str:
     if not has_stored(context):
         return MEASURE_FIRST
     document = selected_document(context)
-    done = reports.phrase("Copied {count} row.", "Copied {count} rows.", count=len(document["objects"]))
+    done = reports.phrase(
+        "Copied {count} row.", "Copied {count} rows.", count=len(document["objects"])
+    )
     return "".join(measurement.FORMATS["csv"]([document])), done
 
 
 def _reference(context: Context) -> Copied | str | Finding:
     obj, scene = context.object, context.scene
-    result = None if obj is None or not properties.is_stored(obj) else stored.reference.referred(obj, scene)
+    result = (
+        None
+        if obj is None or not properties.is_stored(obj)
+        else stored.reference.referred(obj, scene)
+    )
     if obj is None or result is None or isinstance(result, Finding):
         return result or MEASURE_FIRST
     choice = stored.reference.ReferenceChoice.from_settings(scene.body_moments_reference)
-    return reference_text(obj.name, choice, result), reports.phrase("Copied the report of {count} object", count=1)
+    return reference_text(obj.name, choice, result), reports.phrase(
+        "Copied the report of {count} object", count=1
+    )
 
 
 def _section(context: Context) -> Copied | str:
@@ -111,7 +123,9 @@ def _section(context: Context) -> Copied | str:
     section = None if obj is None else write.section.stored(obj)
     if obj is None or section is None:
         return "Measure a section first"
-    text = write.section.text(obj.name, section, staleness.stale_reason(obj, context.scene, stamps.of_section))
+    text = write.section.text(
+        obj.name, section, staleness.stale_reason(obj, context.scene, stamps.of_section)
+    )
     return text, reports.phrase("Copied the section of {object}", object=obj.name)
 
 
@@ -120,7 +134,8 @@ def _moments(context: Context) -> Copied | str:
     computed = None if obj is None else stored.moments.computed_moments(obj)
     if obj is None or computed is None:
         return "Compute the moments first"
-    settings, about = scene.body_moments, scene.body_moments.moments_about
+    settings = scene.body_moments
+    about = scene.body_moments.moments_about
     reference = stored.moments.reference_of(obj, computed, scene) if about == "REFERENCE" else None
     text = stored.moments.as_csv(computed, settings.moments_of, about, settings.frame, reference)
     return text, reports.phrase("Copied {count} moments", count=text.count("\n") - 2)
@@ -128,15 +143,34 @@ def _moments(context: Context) -> Copied | str:
 
 # What is copied: its name, its tooltip, and the function that returns it or the reason why there is nothing to copy.
 COPIES = {
-    "REPORT": ("Report", "The stored mass properties of the selected objects and their total, as text", _report),
-    "TABLE": ("Table (CSV)", "The stored mass properties of the selected objects, as comma-separated values", _table),
-    "REFERENCE": ("Inertia about Reference", "The inertia of the active object about the reference", _reference),
+    "REPORT": (
+        "Report",
+        "The stored mass properties of the selected objects and their total, as text",
+        _report,
+    ),
+    "TABLE": (
+        "Table (CSV)",
+        "The stored mass properties of the selected objects, as comma-separated values",
+        _table,
+    ),
+    "REFERENCE": (
+        "Inertia about Reference",
+        "The inertia of the active object about the reference",
+        _reference,
+    ),
     "SECTION": ("Section", "The stored section properties of the active object, as text", _section),
-    "MOMENTS": ("Moments (CSV)", "All computed moments of the active object and their error bounds", _moments),
+    "MOMENTS": (
+        "Moments (CSV)",
+        "All computed moments of the active object and their error bounds",
+        _moments,
+    ),
 }
 ITEMS = (
     *((name, label, tip) for name, (label, tip, _) in COPIES.items()),
-    *((form.name, "Inertial as {:s}".format(form.short), form.copy_tip) for form in FORMATS.values()),
+    *(
+        (form.name, "Inertial as {:s}".format(form.short), form.copy_tip)
+        for form in FORMATS.values()
+    ),
 )
 
 
@@ -158,9 +192,12 @@ class OBJECT_OT_body_moments_copy(Operator):
             copied = "Select objects in Object Mode"
         else:
             made = session.robots.object_links(context, "robot", objects)
-            text, _ = robot_formats.texts.robot_text(made.robot, self.what, made.findings, inertial_only=True)
+            text, _ = robot_formats.texts.robot_text(
+                made.robot, self.what, made.findings, inertial_only=True
+            )
             done = "Inertial of {count} link copied.", "Inertials of {count} links copied."
-            copied, findings = (text, reports.phrase(*done, count=len(made.robot.links))), made.findings
+            copied = (text, reports.phrase(*done, count=len(made.robot.links)))
+            findings = made.findings
         if not isinstance(copied, tuple):
             return selection.refuse(self, copied)
         copy_text(self, context, *copied)
@@ -209,11 +246,15 @@ class OBJECT_OT_body_moments_save_numbers(Operator):
             return selection.refuse(self, selection.NO_FILE)
         path = Path(bpy.path.abspath(self.filepath))
         if path.suffix.lower() not in SUFFIXES:
-            return selection.refuse(self, "The format is unknown. Let the file's name end in .csv, .json or .jsonl.")
+            return selection.refuse(
+                self, "The format is unknown. Let the file's name end in .csv, .json or .jsonl."
+            )
         document = selected_document(context)
         selection.write_file(path, measurement.FORMATS[SUFFIXES[path.suffix.lower()]]([document]))
         texts = ("Saved {count} object to “{file}”.", "Saved {count} objects to “{file}”.")
-        return selection.report(self, reports.phrase(*texts, count=len(document["objects"]), file=path.name))
+        return selection.report(
+            self, reports.phrase(*texts, count=len(document["objects"]), file=path.name)
+        )
 
 
 def _active_index(_scene: Scene) -> int:
@@ -232,7 +273,11 @@ def _select(_scene: Scene, index: int) -> None:
 def register() -> None:
     """Add the property with the index of the list's active line."""
     Scene.body_moments_listed = IntProperty(
-        name="Object", description="Select this object", get=_active_index, set=_select, options={"SKIP_SAVE"}
+        name="Object",
+        description="Select this object",
+        get=_active_index,
+        set=_select,
+        options={"SKIP_SAVE"},
     )
 
 

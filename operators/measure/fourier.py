@@ -45,7 +45,10 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
     CANCELED = "Fourier transform canceled; nothing was written"
 
     filepath: StringProperty(
-        name="File Path", description="Path of the .npz file to write", subtype="FILE_PATH", options={"SKIP_SAVE"}
+        name="File Path",
+        description="Path of the .npz file to write",
+        subtype="FILE_PATH",
+        options={"SKIP_SAVE"},
     )
     of: EnumProperty(
         name="Domain",
@@ -90,7 +93,11 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
 
     def invoke(self, context: Context, event: Event) -> set[str]:
         obj = context.object
-        if not self.properties.is_property_set("of") and obj.body_moments.kind == "SOLID" and not min(obj.dimensions):
+        if (
+            not self.properties.is_property_set("of")
+            and obj.body_moments.kind == "SOLID"
+            and not min(obj.dimensions)
+        ):
             self.of = "FLAT"
         name = bpy.path.clean_name(obj.name) + SUFFIX
         folder = os.path.dirname(self.filepath or bpy.data.filepath)
@@ -116,7 +123,8 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         return selection.reporting(self, self._run, context, in_window)
 
     def _begin(self, context: Context) -> float:
-        obj, depsgraph = context.object, context.evaluated_depsgraph_get()
+        obj = context.object
+        depsgraph = context.evaluated_depsgraph_get()
         self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
         if not self._path.parent.is_dir():
             raise FileError(FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT))
@@ -125,8 +133,11 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         if self.of == "FLAT":
             self._work = bodies.flat_transform(obj, depsgraph, self._grid, frame=frame)
         else:
-            options, area = settings.options.MeasureOptions(threads=bodies.THREADS), self.of == "AREA"
-            self._work = bodies.object_transform(obj, depsgraph, options, self._grid, frame=frame, area=area)
+            options = settings.options.MeasureOptions(threads=bodies.THREADS)
+            area = self.of == "AREA"
+            self._work = bodies.object_transform(
+                obj, depsgraph, options, self._grid, frame=frame, area=area
+            )
         self._steps = (done for done in self._work.steps())
         return 1.0
 
@@ -143,7 +154,9 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         try:
             write.spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
         except OSError as error:
-            raise FileError(FILE_NOT_WRITTEN, file=self._path.name, error=system_reason(error)) from error
+            raise FileError(
+                FILE_NOT_WRITTEN, file=self._path.name, error=system_reason(error)
+            ) from error
         name = "Fourier Transform of {:s}".format(self._work.name)
         image = write.spectrum.picture(name, transform.values, self.count, self._dimension)
         for area in context.screen.areas if context.screen else ():

@@ -35,7 +35,9 @@ def _sources(_operator: Operator | None, context: Context | None) -> list[tuple[
     """Return the menu's items: the folder in the file browser, and the asset libraries of the preferences."""
     libraries = context.preferences.filepaths.asset_libraries if context else ()
     found = [(FOLDER, "Folder", "The folder that is open in the file browser")]
-    found += [("LIBRARY_{:d}".format(number), one.name, one.path) for number, one in enumerate(libraries)]
+    found += [
+        ("LIBRARY_{:d}".format(number), one.name, one.path) for number, one in enumerate(libraries)
+    ]
     _kept[:] = found  # Blender keeps no reference to the texts
     return found
 
@@ -52,9 +54,13 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     PROGRESS = "Measuring the library: {share:.0%}. Esc to stop"
     CANCELED = "Stopped. The files measured so far stand in the journal"
 
-    directory: StringProperty(name="Folder", description="Folder with the files to measure", subtype="DIR_PATH")
+    directory: StringProperty(
+        name="Folder", description="Folder with the files to measure", subtype="DIR_PATH"
+    )
     filter_folder: BoolProperty(default=True, options={"HIDDEN"})
-    source: EnumProperty(name="Measure", description="Folder or asset library to measure", items=_sources)
+    source: EnumProperty(
+        name="Measure", description="Folder or asset library to measure", items=_sources
+    )
     asset_metadata: BoolProperty(
         name="Write Asset Metadata",
         description="Write mass, volume and center into the metadata of the objects and collections that are assets",
@@ -63,7 +69,9 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         name="Overwrite Files",
         description="Save the metadata in the asset files themselves instead of in copies beside them",
     )
-    thumbnails: BoolProperty(name="Pictures", description="Draw a picture of each body in the report", default=True)
+    thumbnails: BoolProperty(
+        name="Pictures", description="Draw a picture of each body in the report", default=True
+    )
 
     def draw(self, _context: Context) -> None:
         layout = self.layout
@@ -84,17 +92,23 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         try:
             return selection.reporting(self, self._run, context, in_window)
         except OSError as error:
-            return selection.refuse(self, "No process can be started: {error}.", error=system_reason(error))
+            return selection.refuse(
+                self, "No process can be started: {error}.", error=system_reason(error)
+            )
 
     def modal(self, context: Context, event: Event) -> set[str]:
         outcome = ModalSteps.modal(self, context, event)
-        return {"PASS_THROUGH"} if outcome == {"RUNNING_MODAL"} and event.type != "TIMER" else outcome
+        return (
+            {"PASS_THROUGH"} if outcome == {"RUNNING_MODAL"} and event.type != "TIMER" else outcome
+        )
 
     def _begin(self, context: Context) -> int:
         """Start the run; return the number of its files. Raises MeasureError and OSError."""
         folder = self.directory
         if self.source != FOLDER:
-            library = context.preferences.filepaths.asset_libraries[int(self.source.removeprefix("LIBRARY_"))]
+            library = context.preferences.filepaths.asset_libraries[
+                int(self.source.removeprefix("LIBRARY_"))
+            ]
             folder = library.path
         folder = os.path.abspath(bpy.path.abspath(folder))
         count = sum(1 for _ in command.supervisor.expand([folder]))
@@ -105,7 +119,9 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         if self.asset_metadata:
             words += ["--asset-metadata", "file" if self.overwrite else "copy"]
         blender = None if bpy.app.module else bpy.app.binary_path
-        self._steps = self._watch(command.supervisor.WholeRun(words, self._folder / RESULT, blender))
+        self._steps = self._watch(
+            command.supervisor.WholeRun(words, self._folder / RESULT, blender)
+        )
         return count
 
     def _watch(self, run: WholeRun) -> Generator[float, None, None]:
@@ -127,13 +143,18 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
             failed = sum(entry.status != "ok" for entry in journal.entries.values())
             documents = _Documents(journal, paths)
             pages = measurement.to_html(documents)
-            selection.write_file(self._folder / REPORT, (page.encode("utf-8", "backslashreplace") for page in pages))
+            selection.write_file(
+                self._folder / REPORT, (page.encode("utf-8", "backslashreplace") for page in pages)
+            )
         counts = {"count": len(paths), "failed": failed, "file": str(self._folder / REPORT)}
         if failed:
             text = "Files measured: {count}, not or not fully: {failed}; report: {file}"
             reports.report(self, reports.phrase(text, **counts), level=Severity.WARNING)
         else:
-            texts = ("{count} file measured; report: {file}", "{count} files measured; report: {file}")
+            texts = (
+                "{count} file measured; report: {file}",
+                "{count} files measured; report: {file}",
+            )
             reports.report(self, reports.phrase(*texts, **counts))
         return {"FINISHED"}
 

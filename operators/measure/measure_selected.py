@@ -90,10 +90,14 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
         if self.overlap != AS_SET:
             settings.overlap = self.overlap
         if self.material != AS_SET:
-            settings.mass_from, settings.density_from = "DENSITY", "VALUE"
-            settings.density, settings.material = BY_NAME[self.material].density, self.material
+            settings.mass_from = "DENSITY"
+            settings.density_from = "VALUE"
+            settings.density = BY_NAME[self.material].density
+            settings.material = self.material
 
-    def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Generator[int, None, None]:
+    def _measure(
+        self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph
+    ) -> Generator[int, None, None]:
         done = 0
         for together in bodies.measure_many(objects, depsgraph):
             for obj, found in together:
@@ -110,12 +114,20 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
         for armature in filter(armatures.stands_for_meshes, context.selected_objects):
             live.character.store_rest(context, armature)
         refusals = {**self._refusals, **failed}
-        self._failures = [reports.failure(obj.name_full, refusals[obj]) for obj in self._objects if obj in refusals]
+        self._failures = [
+            reports.failure(obj.name_full, refusals[obj])
+            for obj in self._objects
+            if obj in refusals
+        ]
         return self._report(len(self._results) - len(failed))
 
     def _report(self, count: int) -> set[str]:
         warnings = [
-            finding(OBJECT_WARNINGS, object=obj.name_full, causes=[cause.as_record() for cause in causes])
+            finding(
+                OBJECT_WARNINGS,
+                object=obj.name_full,
+                causes=[cause.as_record() for cause in causes],
+            )
             for obj, measured in self._results
             if (causes := of_severity(measured.findings, Severity.WARNING, Severity.ERROR))
         ]
@@ -128,7 +140,11 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
             text = reports.phrase("Measured {count} of {total} objects", count=count, total=tried)
             done = [text] if tried > 1 else []
             if warnings:
-                done.append(reports.phrase("{count} with warnings: {objects}", count=len(names), objects=names))
+                done.append(
+                    reports.phrase(
+                        "{count} with warnings: {objects}", count=len(names), objects=names
+                    )
+                )
         level = Severity.WARNING if warnings else Severity.NOTE
         return selection.finish(self, done, self._failures, level=level, is_changed=bool(count))
 
@@ -193,11 +209,14 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
-        selected = context.view_layer.objects.selected  # Measure stored results on the meshes of a posed armature, too
+        selected = (
+            context.view_layer.objects.selected
+        )  # Measure stored results on the meshes of a posed armature, too
         objects = [
             obj
             for obj in dict.fromkeys((*selected, *armatures.subjects(selected)))
-            if any(key in obj for key in (*properties.DESCRIPTIONS, write.section.KEY)) or stamps.of_symmetry(obj)
+            if any(key in obj for key in (*properties.DESCRIPTIONS, write.section.KEY))
+            or stamps.of_symmetry(obj)
         ]
 
         def remove(obj: Object) -> bool:
@@ -214,8 +233,11 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
         cleared, failures = selection.apply_to_all(objects, remove)
         staleness.mark_up_to_date(context, objects)
         texts = ("Removed the results of {count} object", "Removed the results of {count} objects")
-        done, nothing = reports.phrase(*texts, count=len(cleared)), "The selected objects have no results"
-        return selection.summarize(self, len(cleared), len(objects), done, failures, nothing=nothing)
+        done = reports.phrase(*texts, count=len(cleared))
+        nothing = "The selected objects have no results"
+        return selection.summarize(
+            self, len(cleared), len(objects), done, failures, nothing=nothing
+        )
 
 
 CLASSES = (

@@ -55,7 +55,9 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
             reports.report(self, reports.phrase(text, object=obj.name), level=Severity.WARNING)
             return {"CANCELLED"}
         stored.moments.cache_moments(obj, computed, context.evaluated_depsgraph_get())
-        count = (order + 1) * (order + 2) // 2 if computed.volume is None else len(computed.volume.raw)
+        count = (
+            (order + 1) * (order + 2) // 2 if computed.volume is None else len(computed.volume.raw)
+        )
         done = reports.phrase("Computed {count} moments of {object}", count=count, object=obj.name)
         return reports.report(self, done, *reports.first(findings))
 
@@ -86,15 +88,27 @@ class OBJECT_OT_body_moments_measure_section(Operator):
 
         measured, failures = selection.apply_to_all(_objects_with_sections(context), measure)
         stored.results.store_sections(context, sections)
-        warned = [obj.name for obj, found in sections if of_severity(found[2], Severity.WARNING, Severity.ERROR)]
+        warned = [
+            obj.name
+            for obj, found in sections
+            if of_severity(found[2], Severity.WARNING, Severity.ERROR)
+        ]
         if len(measured) == 1:
-            text = "Measured the section of {object}, with warnings" if warned else "Measured the section of {object}"
+            text = (
+                "Measured the section of {object}, with warnings"
+                if warned
+                else "Measured the section of {object}"
+            )
             done = [reports.phrase(text, object=measured[0].name)]
         else:
             texts = ("Measured {count} section", "Measured {count} sections")
             done = [reports.phrase(*texts, count=len(measured))] if measured else []
             if warned:
-                done.append(reports.phrase("{count} with warnings: {objects}", count=len(warned), objects=warned))
+                done.append(
+                    reports.phrase(
+                        "{count} with warnings: {objects}", count=len(warned), objects=warned
+                    )
+                )
         level = Severity.WARNING if warned else Severity.NOTE
         return selection.finish(self, done, failures, level=level, is_changed=bool(measured))
 
@@ -103,7 +117,9 @@ def _objects_with_sections(context: Context) -> list[Object]:
     """Return edited meshes with selected faces (all if none has), else selected objects that may have a section."""
     if context.mode != "EDIT_MESH":
         return [obj for obj in context.view_layer.objects.selected if obj.type in SECTION_TYPES]
-    edited = [obj for obj in context.view_layer.objects if obj.type == "MESH" and obj.data.is_editmode]
+    edited = [
+        obj for obj in context.view_layer.objects if obj.type == "MESH" and obj.data.is_editmode
+    ]
     # If no mesh has selected faces, each is refused.
     return [obj for obj in edited if obj.data.total_face_sel] or edited
 
@@ -124,19 +140,26 @@ class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
             stored.reference.store(obj, context.scene)
             properties.retrigger_drivers(obj)
 
-        with stored.assembly.kept_up_to_date(context):  # the results are bound to their places, and stay the same
+        with stored.assembly.kept_up_to_date(
+            context
+        ):  # the results are bound to their places, and stay the same
             changed, failures = selection.apply_to_all(objects, store)
         texts = (
             "Stored the inertia of {count} object about the reference",
             "Stored the inertia of {count} objects about the reference",
         )
-        done, nothing = reports.phrase(*texts, count=len(changed)), "The selected objects have no results"
-        return selection.summarize(self, len(changed), len(objects), done, failures, nothing=nothing)
+        done = reports.phrase(*texts, count=len(changed))
+        nothing = "The selected objects have no results"
+        return selection.summarize(
+            self, len(changed), len(objects), done, failures, nothing=nothing
+        )
 
 
 def reference_text(name: str, choice: ReferenceChoice, result: ReferredInertia) -> str:
     """Return the text of an object's inertia about a reference, with its bounds."""
-    axes, inertia = (list(map(list, rows)) for rows in (zip(*result.reference.axes), tensor_rows(result.inertia)))
+    axes, inertia = (
+        list(map(list, rows)) for rows in (zip(*result.reference.axes), tensor_rows(result.inertia))
+    )
     lines = [
         "{:s}, about {:s}".format(name, choice.text),
         "origin (m, world) {!r}".format(list(result.reference.origin)),
@@ -150,7 +173,9 @@ def reference_text(name: str, choice: ReferenceChoice, result: ReferredInertia) 
         lines.append("radius of gyration (m) {!r}".format(result.radius_about_z))
         lines.append("distance of the center of mass (m) {!r}".format(result.distance_from_z))
     lines.append(
-        "rounding, at most {!r}; float32 coordinates, at most {!r}".format(result.rounding_error, result.input_error)
+        "rounding, at most {!r}; float32 coordinates, at most {!r}".format(
+            result.rounding_error, result.input_error
+        )
     )
     return "\n".join(lines) + "\n"
 
@@ -168,7 +193,9 @@ class OBJECT_OT_body_moments_axis_from_selection(Operator):
             text = "{count} points are selected. Select two vertices, or two objects."
             return selection.refuse(self, text, count=len(points))
         settings = context.scene.body_moments_reference
-        settings.about, settings.first, settings.second = "AXIS", points[0], points[1]
+        settings.about = "AXIS"
+        settings.first = points[0]
+        settings.second = points[1]
         selection.redraw(context)
         return {"FINISHED"}
 
@@ -176,12 +203,16 @@ class OBJECT_OT_body_moments_axis_from_selection(Operator):
 def _selected_points(context: Context) -> list[Vector]:
     """Return world positions: of vertices as selected in Edit Mode, else of objects' origins, the active one last."""
     if context.mode != "EDIT_MESH":
-        objects = sorted(context.view_layer.objects.selected, key=lambda obj: (obj == context.object, obj.name))
+        objects = sorted(
+            context.view_layer.objects.selected, key=lambda obj: (obj == context.object, obj.name)
+        )
         return [obj.matrix_world.translation for obj in objects]
     points = []
     for obj in context.objects_in_mode_unique_data:
         mesh = bmesh.from_edit_mesh(obj.data)
-        chosen = [vertex for vertex in mesh.select_history if isinstance(vertex, bmesh.types.BMVert)]
+        chosen = [
+            vertex for vertex in mesh.select_history if isinstance(vertex, bmesh.types.BMVert)
+        ]
         chosen += [vertex for vertex in mesh.verts if vertex.select and vertex not in chosen]
         points += [obj.matrix_world @ vertex.co for vertex in chosen]
     return points

@@ -77,7 +77,9 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             staleness.note_edits(obj)
             properties.store(obj, stored.density.noted(obj, measurements[obj], context.scene))
             wrong = {
-                kind: found for kind, found in scene.defects_by_kind(measurements[obj]).items() if kind in self.kinds
+                kind: found
+                for kind, found in scene.defects_by_kind(measurements[obj]).items()
+                if kind in self.kinds
             }
             if wrong:
                 faults[obj] = wrong
@@ -101,13 +103,19 @@ class OBJECT_OT_body_moments_select_faults(Operator):
         else:
             texts = ("Measured {count} object: no defects", "Measured {count} objects: no defects")
             text = reports.phrase(*texts, count=len(done))
-        defects = [finding(OBJECT_WARNINGS, object=obj.name, causes=_counts(found)) for obj, found in faults.items()]
+        defects = [
+            finding(OBJECT_WARNINGS, object=obj.name, causes=_counts(found))
+            for obj, found in faults.items()
+        ]
         return selection.summarize(self, len(done), len(objects), text, failures, defects)
 
 
 def _counts(found: dict[str, Any]) -> list[dict]:
     names = {kind: name for kind, name, _ in KINDS}
-    return [finding(KIND_COUNT, kind=names[kind], count=len(indices)).as_record() for kind, indices in found.items()]
+    return [
+        finding(KIND_COUNT, kind=names[kind], count=len(indices)).as_record()
+        for kind, indices in found.items()
+    ]
 
 
 def _show_defects(context: Context, faults: dict[Object, dict[str, Any]]) -> None:
@@ -119,7 +127,9 @@ def _show_defects(context: Context, faults: dict[Object, dict[str, Any]]) -> Non
         context.view_layer.objects.active = next(iter(faults))
     dimensions = {indices.ndim for elements in faults.values() for indices in elements.values()}
     context.tool_settings.mesh_select_mode = (False, 2 in dimensions, 1 in dimensions)
-    bpy.ops.ed.undo_push(message="Measure")  # the undo step of Edit Mode that follows holds meshes only
+    bpy.ops.ed.undo_push(
+        message="Measure"
+    )  # the undo step of Edit Mode that follows holds meshes only
     bpy.ops.object.mode_set(mode="EDIT")
     for obj, elements in faults.items():
         scene.select_elements(obj, elements)

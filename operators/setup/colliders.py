@@ -38,15 +38,27 @@ SHAPES = (
     ("HULL", "Convex Hull", "The convex hull, with a limited number of vertices"),
     ("PIECES", "Convex Pieces", "Several convex hulls, cut where the object is concave"),
     ("EQUAL_BOX", "Equal-Inertia Box", "The box of the same mass, center and inertia"),
-    ("EQUAL_ELLIPSOID", "Equal-Inertia Ellipsoid", "The ellipsoid of the same mass, center and inertia"),
-    ("EQUAL_CAPSULE", "Equal-Inertia Capsule", "The capsule of the same mass and center, and of the nearest inertia"),
+    (
+        "EQUAL_ELLIPSOID",
+        "Equal-Inertia Ellipsoid",
+        "The ellipsoid of the same mass, center and inertia",
+    ),
+    (
+        "EQUAL_CAPSULE",
+        "Equal-Inertia Capsule",
+        "The capsule of the same mass and center, and of the nearest inertia",
+    ),
 )
 HULLS = {"AUTOMATIC", "HULL", "PIECES"}  # shapes with tolerances and limits
 ENGINES = (
     ("NONE", "None", "Names that no engine interprets"),
     ("UNREAL", "Unreal", "Prefixes by shape: UBX_, USP_, UCP_ and UCX_"),
     ("GODOT", "Godot, Convex", "Suffix -convcolonly: a convex shape, for bodies that move"),
-    ("GODOT_MESH", "Godot, Triangles", "Suffix -colonly: the triangles, for bodies that do not move"),
+    (
+        "GODOT_MESH",
+        "Godot, Triangles",
+        "Suffix -colonly: the triangles, for bodies that do not move",
+    ),
     ("UNITY", "Unity", "One child for each collider, to which its Collider component is added"),
 )
 MAX_SHOWN_NAMES = 4
@@ -57,7 +69,9 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
 
     PROGRESS = "Making colliders: {share:.0%}. Esc to cancel"
     CANCELED = "Making colliders canceled; nothing was changed"
-    tolerance, correct, engine = "LENGTH", "NONE", "NONE"
+    tolerance = "LENGTH"
+    correct = "NONE"
+    engine = "NONE"
     _wanted: Callable[[], tuple[str, float, float, int, int]]
 
     def _check(self, obj: Object) -> None:
@@ -68,7 +82,8 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
         self._failures: list[Finding] = []
         self._objects = bodies_of(context)
         known: dict[str, Plan] = {}
-        depsgraph, wanted = context.evaluated_depsgraph_get(), core.colliders.fits.Wanted(*self._wanted())
+        depsgraph = context.evaluated_depsgraph_get()
+        wanted = core.colliders.fits.Wanted(*self._wanted())
 
         def plan(obj: Object) -> Generator[float, None, None]:
             self._check(obj)
@@ -80,7 +95,9 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
 
     def _finish(self, context: Context) -> set[str]:
         self._made = session.store_colliders(context, self._plans, self.engine)
-        done = reports.phrase("{count} collider made", "{count} colliders made", count=len(self._made))
+        done = reports.phrase(
+            "{count} collider made", "{count} colliders made", count=len(self._made)
+        )
         if len(self._plans) == 1:
             text = "volume {share:percent} of the object's"
             done += "; " + reports.phrase(text, share=self._plans[0].record["volume_ratio"])
@@ -93,11 +110,16 @@ class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
     bl_idname = "object.body_moments_make_colliders"
     bl_label = "Make Colliders"
 
-    shape: EnumProperty(name="Shape", description="What collides in place of the object", items=SHAPES)
+    shape: EnumProperty(
+        name="Shape", description="What collides in place of the object", items=SHAPES
+    )
     tolerance: EnumProperty(
         name="Tolerance",
         description="How the largest distances are given",
-        items=(("SHARE", "Share of Size", "Parts of the largest extent"), ("LENGTH", "Meters", "Lengths in meters")),
+        items=(
+            ("SHARE", "Share of Size", "Parts of the largest extent"),
+            ("LENGTH", "Meters", "Lengths in meters"),
+        ),
     )
     outward: FloatProperty(
         name="Outward",
@@ -115,26 +137,40 @@ class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
         precision=4,
         step=1,
     )
-    pieces: IntProperty(name="Pieces", description="Largest number of convex pieces", default=16, min=1, max=1024)
+    pieces: IntProperty(
+        name="Pieces", description="Largest number of convex pieces", default=16, min=1, max=1024
+    )
     vertices: IntProperty(
-        name="Vertices", description="Largest number of vertices of a hull", default=64, min=4, max=255
+        name="Vertices",
+        description="Largest number of vertices of a hull",
+        default=64,
+        min=4,
+        max=255,
     )
     correct: EnumProperty(
         name="Correct",
         description="How the colliders get the mass, center and inertia of the object",
         items=(
             ("NONE", "Off", "Every collider has the density of the object"),
-            ("MASSES", "Masses", "Give the pieces masses that sum to the object's mass, center and inertia"),
+            (
+                "MASSES",
+                "Masses",
+                "Give the pieces masses that sum to the object's mass, center and inertia",
+            ),
             ("VERTICES", "Vertices", "Move vertices of the hulls, within the tolerances"),
         ),
     )
-    engine: EnumProperty(name="Names For", description="The engine that reads the names", items=ENGINES)
+    engine: EnumProperty(
+        name="Names For", description="The engine that reads the names", items=ENGINES
+    )
     names: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
     def draw(self, _context: Context) -> None:
         layout = self.layout
         layout.use_property_split = True
-        limits = ("tolerance", "outward", "inward", "pieces", "vertices") if self.shape in HULLS else ()
+        limits = (
+            ("tolerance", "outward", "inward", "pieces", "vertices") if self.shape in HULLS else ()
+        )
         for name in ("shape", *limits, "correct", "engine"):
             layout.prop(self, name)
         column = layout.column(align=True)
@@ -147,7 +183,9 @@ class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
     def _finish(self, context: Context) -> set[str]:
         result = super()._finish(context)
         names = [obj.name for obj in self._made[: MAX_SHOWN_NAMES + 1]]
-        self.names = "\n".join(name if index < MAX_SHOWN_NAMES else "…" for index, name in enumerate(names))
+        self.names = "\n".join(
+            name if index < MAX_SHOWN_NAMES else "…" for index, name in enumerate(names)
+        )
         return result
 
 
@@ -160,7 +198,9 @@ class OBJECT_OT_body_moments_remove_colliders(selection.OnSelectionInObjectMode,
     def execute(self, context: Context) -> set[str]:
         objects = bodies_of(context)
         count = session.remove_colliders(context, objects)
-        done = reports.phrase("{count} object without colliders", "{count} objects without colliders", count=count)
+        done = reports.phrase(
+            "{count} object without colliders", "{count} objects without colliders", count=count
+        )
         idle = reports.phrase("no selected object has colliders")
         return selection.summarize(self, count, len(objects), done, idle=idle)
 
@@ -168,7 +208,9 @@ class OBJECT_OT_body_moments_remove_colliders(selection.OnSelectionInObjectMode,
 def bodies_of(context: Context) -> list[Object]:
     """Return the selected objects, each once, with the bodies in place of their colliders."""
     chosen = context.view_layer.objects.selected
-    return list(dict.fromkeys(obj.parent if COLLIDER in obj and obj.parent else obj for obj in chosen))
+    return list(
+        dict.fromkeys(obj.parent if COLLIDER in obj and obj.parent else obj for obj in chosen)
+    )
 
 
 class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
@@ -180,7 +222,10 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
     kind: EnumProperty(
         name="Shape",
         description="What is added",
-        items=[(name.removeprefix("EQUAL_"), label.split()[-1], tip) for name, label, tip in SHAPES[-3:]],
+        items=[
+            (name.removeprefix("EQUAL_"), label.split()[-1], tip)
+            for name, label, tip in SHAPES[-3:]
+        ],
         default="BOX",
     )
     rigid_body: BoolProperty(
@@ -207,7 +252,8 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
             del new[COLLIDER], plan.obj[COLLIDERS]
             new.rigid_body.collision_shape = "BOX" if self.kind == "BOX" else "CONVEX_HULL"
             new.rigid_body.mass = plan.shapes[0].mass
-            plan.obj.parent, plan.obj.matrix_parent_inverse = new, matrix.inverted()
+            plan.obj.parent = new
+            plan.obj.matrix_parent_inverse = matrix.inverted()
         return result
 
 

@@ -103,12 +103,15 @@ class MATERIAL_OT_body_moments_set_density(Operator):
     def execute(self, _context: Context) -> set[str]:
         target = bpy.data.materials.get((self.target, None))
         if target is None:
-            return selection.refuse(self, "No local material “{material}”. Make it local.", material=self.target)
+            return selection.refuse(
+                self, "No local material “{material}”. Make it local.", material=self.target
+            )
         entry = BY_NAME[self.material]
         target.body_moments.density = entry.density
         target.body_moments.material = entry.name
         return reports.report(
-            self, reports.phrase("Set “{target}” to {material}", target=target.name, material=entry.name)
+            self,
+            reports.phrase("Set “{target}” to {material}", target=target.name, material=entry.name),
         )
 
 
@@ -117,15 +120,15 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
 
     bl_idname = "object.body_moments_copy_settings"
     bl_label = "Copy Settings to Selected"
-    bl_description = (
-        "Copy kind, material, density or mass, wall and overlaps from the active object to the other selected objects"
-    )
+    bl_description = "Copy kind, material, density or mass, wall and overlaps from the active object to the other selected objects"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
         active = context.view_layer.objects.active
-        others = active is not None and any(obj != active for obj in context.view_layer.objects.selected)
+        others = active is not None and any(
+            obj != active for obj in context.view_layer.objects.selected
+        )
         return others or reports.unavailable(cls, "Select other objects besides the active one")
 
     def execute(self, context: Context) -> set[str]:
@@ -138,7 +141,8 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
 
         copied, failures = selection.apply_to_all(objects, copy)
         texts = ("Copied the settings to {count} object", "Copied the settings to {count} objects")
-        done, idle = reports.phrase(*texts, count=len(copied)), reports.phrase("the settings are equal")
+        done = reports.phrase(*texts, count=len(copied))
+        idle = reports.phrase("the settings are equal")
         return selection.summarize(self, len(copied), len(objects), done, failures, idle=idle)
 
 
@@ -150,7 +154,9 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     preset_menu = "OBJECT_PT_body_moments_presets"
     preset_subdir = PRESET_FOLDER
     preset_defines = ["settings = bpy.context.object.body_moments"]
-    preset_values = ["settings." + name for name in COPIED_PROPERTIES if name != "density_volume"]  # an object
+    preset_values = [
+        "settings." + name for name in COPIED_PROPERTIES if name != "density_volume"
+    ]  # an object
 
 
 CLASSES = (

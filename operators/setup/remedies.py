@@ -14,7 +14,17 @@ from ...blender.session.stored import outcome
 from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
 from ...blender.settings.preferences import copy_defaults
 from ...blender.write import properties, reports
-from ...blender.write.remedies import DUPLICATES, EDITS, FILL, MERGE, REMEDIES, REPAIR, SELECT, SHELL, UNION
+from ...blender.write.remedies import (
+    DUPLICATES,
+    EDITS,
+    FILL,
+    MERGE,
+    REMEDIES,
+    REPAIR,
+    SELECT,
+    SHELL,
+    UNION,
+)
 from ...blender.write.translations import localized
 from ...core.solid.findings import INVERTED_COMPONENTS
 from ...core.verdict.finding import MeasureError, Severity
@@ -79,7 +89,9 @@ class OBJECT_OT_body_moments_remedy(_OnActive, Operator):
 
     @classmethod
     def description(cls, _context: Context, values) -> str:
-        text = localized("{:s}, and measure the object again").format(localized(REMEDIES[values.remedy].description))
+        text = localized("{:s}, and measure the object again").format(
+            localized(REMEDIES[values.remedy].description)
+        )
         others = ". " + localized("Other objects that use the mesh change too")
         return text + others if values.remedy in EDITS else text
 
@@ -113,11 +125,17 @@ class OBJECT_OT_body_moments_remedy(_OnActive, Operator):
     def _edit(self, context: Context, obj: Object) -> int:
         """Edit the mesh of an object; return the number of changed elements."""
         if self.remedy in (FILL, MERGE):  # also of a mesh whose modifiers change its elements
-            return scene.fill_holes(obj.data) if self.remedy == FILL else scene.merge_by_distance(obj.data)
+            return (
+                scene.fill_holes(obj.data)
+                if self.remedy == FILL
+                else scene.merge_by_distance(obj.data)
+            )
         scene.require_editable_mesh(obj)
         measurement = bodies.measure_body(obj, context.evaluated_depsgraph_get()).measurement
         if self.remedy == DUPLICATES:
-            return scene.delete_faces(obj.data, scene.defects_by_kind(measurement).get("duplicate_faces", ()))
+            return scene.delete_faces(
+                obj.data, scene.defects_by_kind(measurement).get("duplicate_faces", ())
+            )
         return scene.reverse_faces(
             obj.data, [shown.elements for shown in measurement.findings if shown.code in REVERSED]
         )
@@ -140,8 +158,14 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
         copy_defaults(context.scene)
         context.scene.body_moments.units_answered = True
         units = context.scene.unit_settings
-        units.system, units.scale_length, units.length_unit = "METRIC", MILLIMETER, "MILLIMETERS"
-        measured = [obj for obj in context.view_layer.objects if properties.is_stored(obj) and obj.is_editable]
+        units.system = "METRIC"
+        units.scale_length = MILLIMETER
+        units.length_unit = "MILLIMETERS"
+        measured = [
+            obj
+            for obj in context.view_layer.objects
+            if properties.is_stored(obj) and obj.is_editable
+        ]
         if self.remeasure and measured:
             measure_anew(context, measured)
         return {"FINISHED"}
@@ -169,7 +193,9 @@ class OBJECT_OT_body_moments_accept(_OnActive, Operator):
         for subject in displayed.shown_objects(context):
             own = of_severity(properties.findings(subject), Severity.WARNING)
             codes = {self.code} if self.code else {found.code for found in own}
-            if subject != obj and not codes & {found.code for found in properties.findings(subject)}:
+            if subject != obj and not codes & {
+                found.code for found in properties.findings(subject)
+            }:
                 continue
             require_storable_data(subject)
             if not any([set_accepted(subject, code, self.accepted) for code in codes]):
@@ -194,7 +220,12 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
         last = outcome.last()
         refused = last.groups if last is not None else ()
         groups = (*displayed.total(context).groups, *refused) if self.code else refused
-        names = {name for group in groups if self.code in ("", group.finding.code) for name in group.objects}
+        names = {
+            name
+            for group in groups
+            if self.code in ("", group.finding.code)
+            for name in group.objects
+        }
         objects = [obj for obj in context.view_layer.objects if obj.name_full in names]
         if not objects:
             return {"CANCELLED"}

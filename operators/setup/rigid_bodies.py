@@ -45,13 +45,20 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
     type: EnumProperty(
         name="Type",
         description="Type of new rigid bodies",
-        items=(("ACTIVE", "Active", "Moved by the simulation"), ("PASSIVE", "Passive", "Moved by animation alone")),
+        items=(
+            ("ACTIVE", "Active", "Moved by the simulation"),
+            ("PASSIVE", "Passive", "Moved by animation alone"),
+        ),
     )
     shape: EnumProperty(
         name="Shape",
         description="Collision shape",
         items=(
-            ("KEEP", "Keep", "Leave the shape of rigid bodies as it is; new ones get a convex hull"),
+            (
+                "KEEP",
+                "Keep",
+                "Leave the shape of rigid bodies as it is; new ones get a convex hull",
+            ),
             ("CONVEX_HULL", "Convex Hull", "The convex hull of the object"),
             ("MESH", "Mesh", "The mesh itself, slow"),
             ("BOX", "Box", "The bounding box along the object's axes"),
@@ -61,7 +68,11 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
         name="Frame",
         description="What the physics engine takes as center of mass and principal axes",
         items=(
-            ("AXES", "Principal Axes", "Origin at the center of mass, axes along the principal axes, unit scale"),
+            (
+                "AXES",
+                "Principal Axes",
+                "Origin at the center of mass, axes along the principal axes, unit scale",
+            ),
             ("ORIGIN", "Origin", "Origin at the center of mass; the axes stay"),
             ("KEEP", "Keep", "Leave origin and axes as they are"),
         ),
@@ -98,23 +109,31 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
         if self.use_density:
             for obj in objects:
                 if obj.is_editable:
-                    obj.body_moments.mass_from, obj.body_moments.density_from = "DENSITY", "VALUE"
+                    obj.body_moments.mass_from = "DENSITY"
+                    obj.body_moments.density_from = "VALUE"
                     obj.body_moments.density = self.density
-        made = session.make_rigid_bodies(context, objects, self.type, self.shape, self.frame, self.compounds)
+        made = session.make_rigid_bodies(
+            context, objects, self.type, self.shape, self.frame, self.compounds
+        )
         self.comparison = _compare_masses(context, made)
         texts = (
             "{count} rigid body of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
             "{count} rigid bodies of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
         )
-        count, mass = len(made.measured), float(sum(one.target.mass for one in made.measured.values()))
-        done = reports.phrase(*texts, count=count, mass=mass, calculated=float(sum(made.calculated.values())))
+        count = len(made.measured)
+        mass = float(sum(one.target.mass for one in made.measured.values()))
+        done = reports.phrase(
+            *texts, count=count, mass=mass, calculated=float(sum(made.calculated.values()))
+        )
         findings = [
             one.target.finding.of_sources([obj.name])
             for obj, one in made.measured.items()
             if one.target.finding is not None and self.frame == "AXES"
         ]
         findings = [*_display_scaled(context, count), *findings]
-        return selection.summarize(self, count, count + len(made.failures), done, made.failures, findings)
+        return selection.summarize(
+            self, count, count + len(made.failures), done, made.failures, findings
+        )
 
 
 def _compare_masses(context: Context, made: "RigidBodies") -> str:
@@ -130,7 +149,9 @@ def _compare_masses(context: Context, made: "RigidBodies") -> str:
     return "\n".join(lines)
 
 
-class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, selection.OnSelectionInObjectMode, Operator):
+class OBJECT_OT_body_moments_set_rigid_body_mass(
+    ModalSteps, selection.OnSelectionInObjectMode, Operator
+):
     """Set the mass of rigid bodies to the measured mass in kilograms."""
 
     bl_idname = "object.body_moments_set_rigid_body_mass"
@@ -170,7 +191,9 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, selection.OnSelecti
             body = target_in_turn(obj)
             if body.mass < scene.rigid_world.MIN_MASS:
                 raise EditRefusedError(
-                    RIGID_BODY_MASS_TOO_SMALL, mass=float(body.mass), limit=scene.rigid_world.MIN_MASS
+                    RIGID_BODY_MASS_TOO_SMALL,
+                    mass=float(body.mass),
+                    limit=scene.rigid_world.MIN_MASS,
                 )
             self._bodies.append(body)
 
@@ -192,17 +215,25 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, selection.OnSelecti
         findings = []
         if self.axes:
             objects = [body.obj for body in bodies]
-            plans, refused = session.reframe_objects(context, objects, scene.matrix_along_axes, move_only=False)
+            plans, refused = session.reframe_objects(
+                context, objects, scene.matrix_along_axes, move_only=False
+            )
             failures += refused
             changed |= {plan.obj for plan in plans}
-            findings += [found.of_sources([plan.obj.name]) for plan in plans for found in plan.findings]
+            findings += [
+                found.of_sources([plan.obj.name]) for plan in plans for found in plan.findings
+            ]
         count = len(changed)
         findings += _display_scaled(context, count)
-        elsewhere = [body.obj.name for body in bodies if scene.matrix_at_center(body.obj, body) is not None]
+        elsewhere = [
+            body.obj.name for body in bodies if scene.matrix_at_center(body.obj, body) is not None
+        ]
         if elsewhere and count:
             findings.append(finding(RIGID_BODY_CENTER_ELSEWHERE, objects=elsewhere))
         done = reports.phrase(
-            "Set the rigid body mass of {count} object", "Set the rigid body mass of {count} objects", count=count
+            "Set the rigid body mass of {count} object",
+            "Set the rigid body mass of {count} objects",
+            count=count,
         )
         idle = reports.phrase("the masses are equal")
         return selection.summarize(self, count, len(self._objects), done, failures, findings, idle)

@@ -34,9 +34,15 @@ class BodyMomentsSimilar(PropertyGroup):
 
     name: StringProperty(name="Name")
     file: StringProperty(name="File")
-    verdict: StringProperty(name="Similarity", description="Relation to the object that was searched for")
-    distance: FloatProperty(name="Distance", description="Difference of the signatures, 0 for a copy")
-    scale: FloatProperty(name="Size", description="Size relative to the object that was searched for")
+    verdict: StringProperty(
+        name="Similarity", description="Relation to the object that was searched for"
+    )
+    distance: FloatProperty(
+        name="Distance", description="Difference of the signatures, 0 for a copy"
+    )
+    scale: FloatProperty(
+        name="Size", description="Size relative to the object that was searched for"
+    )
 
 
 class BodyMomentsSearch(PropertyGroup):
@@ -80,16 +86,22 @@ class _SearchMixin:
     ) -> set[str]:
         """Keep the nearest matches with the scene, and report the number of matches by similarity."""
         search = context.scene.body_moments_search
-        search.wanted, search.looked_at = context.object.name, looked_at
+        search.wanted = context.object.name
+        search.looked_at = looked_at
         search.found.clear()
         for match in matches[:MAX_LISTED_BODIES]:
             row = search.found.add()
             for name in ("name", "file", "verdict", "distance", "scale"):
                 setattr(row, name, getattr(match, name))
         counts = Counter(match.verdict for match in matches)
-        alike = [reports.phrase(*COUNTS[kind], count=counts[kind]) for kind in COUNTS if counts[kind]]
+        alike = [
+            reports.phrase(*COUNTS[kind], count=counts[kind]) for kind in COUNTS if counts[kind]
+        ]
         found = ", ".join(alike) if alike else reports.phrase("none is similar")
-        done = [reports.phrase("Compared {count} shape", "Compared {count} shapes", count=len(matches)), found]
+        done = [
+            reports.phrase("Compared {count} shape", "Compared {count} shapes", count=len(matches)),
+            found,
+        ]
         if matches:
             text = "nearest is {object}, at {distance:.2e}"
             done.append(reports.phrase(text, object=matches[0].name, distance=matches[0].distance))
@@ -118,7 +130,9 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
 
     def _begin(self, context: Context) -> int:
         self._others = [
-            obj for obj in measurable_objects(context.view_layer) if obj != context.object and obj.visible_get()
+            obj
+            for obj in measurable_objects(context.view_layer)
+            if obj != context.object and obj.visible_get()
         ]
         self._failures: list[Finding] = []
         self._search = session.SimilarSearch(context.object, context.evaluated_depsgraph_get())
@@ -131,7 +145,9 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
         except MeasureError as error:
             error.about(name)
             raise
-        yield from selection.iterate_objects(self._others, self._search.comparison(self._others), self._failures)
+        yield from selection.iterate_objects(
+            self._others, self._search.comparison(self._others), self._failures
+        )
 
     def _finish(self, context: Context) -> set[str]:
         """Keep and select the matches at the end, so that a canceled search changes nothing."""
@@ -191,7 +207,9 @@ class OBJECT_OT_body_moments_select_found(Operator):
 
     def execute(self, context: Context) -> set[str]:
         names = set(self.name.split("\n"))
-        objects = [candidate for candidate in context.view_layer.objects if candidate.name_full in names]
+        objects = [
+            candidate for candidate in context.view_layer.objects if candidate.name_full in names
+        ]
         if not objects:
             return selection.refuse(self, "No object {object} in the view layer", object=self.name)
         selection.select_only(context, objects, objects[0])

@@ -51,7 +51,9 @@ class BodyMomentsElement(PropertyGroup):
 class BodyMomentsSymmetry(PropertyGroup):
     """The symmetry that was found of an object."""
 
-    group: StringProperty(name="Symmetry", description="Schoenflies symbol of the symmetry that the surface confirms")
+    group: StringProperty(
+        name="Symmetry", description="Schoenflies symbol of the symmetry that the surface confirms"
+    )
     compatible: StringProperty(
         name="By Moments", description="Schoenflies symbol of the symmetry that the moments allow"
     )
@@ -107,20 +109,31 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
             stored.results.store_symmetry(obj, shape, found_symmetry, allowed, self.tolerance)
         # Blender reports the stored symmetry as a change of the object.
         staleness.mark_stamps(
-            context, [(obj, stamp) for obj, *_ in self._results if (stamp := stamps.of_symmetry(obj))]
+            context,
+            [(obj, stamp) for obj, *_ in self._results if (stamp := stamps.of_symmetry(obj))],
         )
-        texts = ("{object}: {group}, {description}", "{object}: {group}, {description}, of the display mesh")
+        texts = (
+            "{object}: {group}, {description}",
+            "{object}: {group}, {description}, of the display mesh",
+        )
         symmetries = [
             reports.phrase(
-                texts[shape.is_display_mesh], object=obj.name, group=found.group, description=", ".join(describe(found))
+                texts[shape.is_display_mesh],
+                object=obj.name,
+                group=found.group,
+                description=", ".join(describe(found)),
             )
             for obj, shape, found, _ in self._results
         ]
         selection.redraw(context)
         if self._failures or not symmetries:
             count = len(symmetries)
-            done = reports.phrase("Searched {count} object", "Searched {count} objects", count=count)
-            return selection.summarize(self, count, len(self._objects), done, self._failures, symmetries)
+            done = reports.phrase(
+                "Searched {count} object", "Searched {count} objects", count=count
+            )
+            return selection.summarize(
+                self, count, len(self._objects), done, self._failures, symmetries
+            )
         return reports.report(self, *reports.first(symmetries))
 
 
@@ -131,13 +144,19 @@ def describe(symmetry: "Symmetry") -> list[str]:
         return [phrase("sphere")]
     if len(symmetry.revolution_axes) == 1:
         reversible = symmetry.group == "D∞h"
-        return [phrase("body of revolution, symmetric end to end" if reversible else "body of revolution")]
+        return [
+            phrase(
+                "body of revolution, symmetric end to end" if reversible else "body of revolution"
+            )
+        ]
     clauses = []
     if symmetry.axes:
         texts = ("{count} rotation axis, {order}-fold", "{count} rotation axes, up to {order}-fold")
         clauses.append(phrase(*texts, count=len(symmetry.axes), order=symmetry.axes[0][1]))
     if symmetry.planes:
-        clauses.append(phrase("{count} mirror plane", "{count} mirror planes", count=len(symmetry.planes)))
+        clauses.append(
+            phrase("{count} mirror plane", "{count} mirror planes", count=len(symmetry.planes))
+        )
     if symmetry.has_center and not clauses:
         clauses.append(phrase("center of inversion"))
     return clauses or [phrase("no symmetry")]

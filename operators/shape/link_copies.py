@@ -38,10 +38,18 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         description="What the copies may have of their own; the shared mesh has that of the first one",
         items=(
             ("UV", "UV Maps", "Copies get the UV maps of the shared mesh"),
-            ("ATTRIBUTES", "Attributes", "Copies get colors, normals and other attributes of the shared mesh"),
+            (
+                "ATTRIBUTES",
+                "Attributes",
+                "Copies get colors, normals and other attributes of the shared mesh",
+            ),
             ("MATERIALS", "Materials", "Copies keep their materials, linked to the object"),
             ("GROUPS", "Vertex Groups", "Copies get the vertex groups of the shared mesh"),
-            ("PROPERTIES", "Custom Properties", "Copies get the custom properties of the shared mesh"),
+            (
+                "PROPERTIES",
+                "Custom Properties",
+                "Copies get the custom properties of the shared mesh",
+            ),
         ),
         options={"ENUM_FLAG"},
     )
@@ -55,7 +63,10 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
             chosen = self._objects or context.selected_objects or context.visible_objects
             objects = [obj for obj in chosen if obj.type == "MESH"]
             with reports.progress(len(objects)) as step:
-                self._found = key, scene.copies.find_copies(objects, self.tolerance, set(key[1]), step)
+                self._found = (
+                    key,
+                    scene.copies.find_copies(objects, self.tolerance, set(key[1]), step),
+                )
         return self._found[1]
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
@@ -74,26 +85,45 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         column.prop(self, "may_differ")
         if self._found is None:  # the redo panel
             return
-        kinds = sorted((kind for kind in self._found[1] if kind.members), key=lambda kind: -len(kind.members))
-        count, size = sum(len(kind.members) for kind in kinds), _size(sum(kind.saved_bytes for kind in kinds))
-        summary = reports.phrase("Groups: {groups}. Objects to link: {count}", groups=len(kinds), count=count)
+        kinds = sorted(
+            (kind for kind in self._found[1] if kind.members), key=lambda kind: -len(kind.members)
+        )
+        count = sum(len(kind.members) for kind in kinds)
+        size = _size(sum(kind.saved_bytes for kind in kinds))
+        summary = reports.phrase(
+            "Groups: {groups}. Objects to link: {count}", groups=len(kinds), count=count
+        )
         column.label(text="{:s}. {:s}".format(summary, size), icon="LINKED", translate=False)
         for kind in kinds[:MAX_LISTED]:
             row = self.layout.row(align=True)
             members = [*kind.objects, *(obj for obj, *_ in kind.members)]
-            text = reports.phrase("{count} objects as {object}", count=len(members), object=kind.data.mesh.name)
+            text = reports.phrase(
+                "{count} objects as {object}", count=len(members), object=kind.data.mesh.name
+            )
             row.label(text="{:s}, {:s}".format(text, _size(kind.saved_bytes)), translate=False)
-            button = row.operator("object.body_moments_select_found", text="", icon="RESTRICT_SELECT_OFF")
+            button = row.operator(
+                "object.body_moments_select_found", text="", icon="RESTRICT_SELECT_OFF"
+            )
             button.name = "\n".join(obj.name_full for obj in members)
         if len(kinds) > MAX_LISTED:
-            self.layout.label(text=reports.phrase("And {count} more", count=len(kinds) - MAX_LISTED), translate=False)
+            self.layout.label(
+                text=reports.phrase("And {count} more", count=len(kinds) - MAX_LISTED),
+                translate=False,
+            )
 
     def execute(self, context: Context) -> set[str]:
-        kinds, self._found, self._objects = self._kinds(context), None, None
+        kinds = self._kinds(context)
+        self._found = None
+        self._objects = None
         keeps_materials = "MATERIALS" in self.may_differ
         with session.stored.assembly.kept_up_to_date(context):
-            with tracking_paused(), reports.progress(sum(len(kind.members) for kind in kinds)) as step:
-                linked = scene.copies.link_copies(context, kinds, self.tolerance, keeps_materials, step)
+            with (
+                tracking_paused(),
+                reports.progress(sum(len(kind.members) for kind in kinds)) as step,
+            ):
+                linked = scene.copies.link_copies(
+                    context, kinds, self.tolerance, keeps_materials, step
+                )
             session.remeasure(context, linked.objects)
         session.tracking.staleness.mark_axes_changed(linked.objects)
         left_out = [reports.failure(obj.name_full, reason) for obj, reason in linked.left_out]
@@ -105,7 +135,9 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
             maximum=linked.farthest * context.scene.unit_settings.scale_length,
         )
         total = len(linked.objects) + len(left_out)
-        return selection.summarize(self, len(linked.objects), total, done, left_out, nothing=NOTHING)
+        return selection.summarize(
+            self, len(linked.objects), total, done, left_out, nothing=NOTHING
+        )
 
 
 def _size(size: int) -> str:

@@ -40,7 +40,9 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
         return selection.poll_object_mode(cls, context)
 
     def _begin(self, context: Context) -> int:
-        self._others = [obj for obj in selection.selected_measurable(context) if obj != context.object]
+        self._others = [
+            obj for obj in selection.selected_measurable(context) if obj != context.object
+        ]
         self._size = 0.0  # size of the active object, once it is measured
         self._plans: list[tuple[Plan, RigidMatch]] = []
         self._failures: list[Finding] = []
@@ -55,7 +57,8 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
             reports.report(self, reports.refusal(error.about(active.name)))
             return
         yield 0.0
-        self._size, skin = target.size, bodies.distance_from(target)
+        self._size = target.size
+        skin = bodies.distance_from(target)
         yield 0.0
 
         def find(obj: Object) -> Iterator[float]:
@@ -89,14 +92,22 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
         session.remeasure(context, moved)
         texts = ("Moved {count} object onto {object}", "Moved {count} objects onto {object}")
         done = reports.phrase(*texts, count=len(distances), object=context.object.name)
-        return selection.summarize(self, len(distances), len(self._others), done, self._failures, distances)
+        return selection.summarize(
+            self, len(distances), len(self._others), done, self._failures, distances
+        )
 
 
 def _distance(name: str, match: "RigidMatch", size: float) -> Finding | str:
-    values = {"object": name, "maximum": float(match.max_distance), "mean": float(match.mean_distance)}
+    values = {
+        "object": name,
+        "maximum": float(match.max_distance),
+        "mean": float(match.mean_distance),
+    }
     if not scene.is_copy(match, size):
         return finding(POSE_NOT_A_COPY, **values)
-    return reports.phrase("{object}: surfaces at most {maximum:length} apart, {mean:length} on average", **values)
+    return reports.phrase(
+        "{object}: surfaces at most {maximum:length} apart, {mean:length} on average", **values
+    )
 
 
 CLASSES = (OBJECT_OT_body_moments_match_pose,)

@@ -34,7 +34,11 @@ STRICT_PROPERTY = BoolProperty(
 
 
 def reframe_selected(
-    operator: Operator, context: Context, along_axes: bool, done: tuple[str, str], strict: bool = False
+    operator: Operator,
+    context: Context,
+    along_axes: bool,
+    done: tuple[str, str],
+    strict: bool = False,
 ) -> set[str]:
     """Give each selected object an origin at its center of mass while nothing visible moves, and report it.
 
@@ -42,9 +46,12 @@ def reframe_selected(
     """
     objects = selection.selected_measurable(context)
     target_matrix = scene.matrix_along_axes if along_axes else scene.matrix_at_center
-    changed, failures = session.reframe_objects(context, objects, target_matrix, not along_axes, strict)
+    changed, failures = session.reframe_objects(
+        context, objects, target_matrix, not along_axes, strict
+    )
     findings = [found.of_sources([plan.obj.name]) for plan in changed for found in plan.findings]
-    text, idle = reports.phrase(*done, count=len(changed)), reports.phrase("already in place")
+    text = reports.phrase(*done, count=len(changed))
+    idle = reports.phrase("already in place")
     return selection.summarize(operator, len(changed), len(objects), text, failures, findings, idle)
 
 
@@ -106,7 +113,9 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
         items=[
             (
                 order,
-                "1 → {:s}, 2 → {:s}, 3 → {:s}{:s}".format(order[0], order[1], "" if i < 3 else "−", order[2]),
+                "1 → {:s}, 2 → {:s}, 3 → {:s}{:s}".format(
+                    order[0], order[1], "" if i < 3 else "−", order[2]
+                ),
                 "Smallest moment about {:s}, largest moment about {:s}".format(order[0], order[2]),
             )
             for i, order in enumerate(ORDERS)
@@ -127,12 +136,18 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
         objects = selection.selected_measurable(context)
 
         def align(obj: Object) -> bool:
-            return scene.align_to_world(context, obj, self.order, self.pivot == "ORIGIN", self.strict)
+            return scene.align_to_world(
+                context, obj, self.order, self.pivot == "ORIGIN", self.strict
+            )
 
-        moved, failures = selection.apply_to_all(objects, align)  # in turn: a child moves with its parent
+        moved, failures = selection.apply_to_all(
+            objects, align
+        )  # in turn: a child moves with its parent
         session.remeasure(context, moved)
         done = reports.phrase(
-            "Aligned {count} object to the world axes", "Aligned {count} objects to the world axes", count=len(moved)
+            "Aligned {count} object to the world axes",
+            "Aligned {count} objects to the world axes",
+            count=len(moved),
         )
         idle = reports.phrase("already aligned")
         return selection.summarize(self, len(moved), len(objects), done, failures, idle=idle)
@@ -151,7 +166,8 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
 
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
-        measured, bodies_measured = bodies.measured_in_turn(objects, context.evaluated_depsgraph_get()), []
+        measured = bodies.measured_in_turn(objects, context.evaluated_depsgraph_get())
+        bodies_measured = []
 
         def add(obj: Object) -> None:
             measurement = measured(obj).measurement
@@ -167,7 +183,9 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
             if len(bodies_measured) > 1:
                 total = inertia.combine([moments for moments, _ in bodies_measured])
             cursor = context.scene.cursor
-            cursor.location = total.center / shortest_decimal(context.scene.unit_settings.scale_length)
+            cursor.location = total.center / shortest_decimal(
+                context.scene.unit_settings.scale_length
+            )
             if self.rotate:
                 turn_cursor(cursor, total.principal.axes.tolist())
                 findings = [total.principal.finding] if total.principal.finding is not None else []
@@ -228,8 +246,12 @@ class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operat
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
         with reports.progress(len(objects)) as step:
-            placed, refused = scene.place_empties(context, objects, self.parent, self.display, self.size, step)
-        findings = [body.finding.of_sources([body.obj.name]) for body in placed if body.finding is not None]
+            placed, refused = scene.place_empties(
+                context, objects, self.parent, self.display, self.size, step
+            )
+        findings = [
+            body.finding.of_sources([body.obj.name]) for body in placed if body.finding is not None
+        ]
         failures = [reports.failure(obj.name_full, error) for obj, error in refused.items()]
         done = reports.phrase(
             "Placed an empty at the principal frame of {count} object",
@@ -273,7 +295,9 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         place = _view_3d(context)
         if place is None:
             reports.report(
-                self, reports.phrase("A transform orientation needs an open 3D Viewport."), level=Severity.WARNING
+                self,
+                reports.phrase("A transform orientation needs an open 3D Viewport."),
+                level=Severity.WARNING,
             )
             return {"CANCELLED"}
         name = self.name or "{:s} Principal".format(obj.name)
@@ -285,7 +309,9 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         if not self.use:
             slot.type = before
         free = [body.finding] if body.finding is not None else []
-        return reports.report(self, reports.phrase("Created the transform orientation “{name}”", name=name), *free)
+        return reports.report(
+            self, reports.phrase("Created the transform orientation “{name}”", name=name), *free
+        )
 
 
 def _view_3d(context: Context) -> dict | None:
@@ -317,14 +343,21 @@ class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
-        group, obj = scene.center_of_mass_group(), context.object
+        group = scene.center_of_mass_group()
+        obj = context.object
         if not self.marker or obj is None or not measurable(obj):
-            return reports.report(self, reports.phrase("Added the node group “{group}”", group=group.name))
+            return reports.report(
+                self, reports.phrase("Added the node group “{group}”", group=group.name)
+            )
         marker = scene.add_marker(context, obj, group)
         text = "Added the node group “{group}” and the marker “{object}”"
         texts = [reports.phrase(text, group=group.name, object=marker.name)]
         settings = obj.body_moments
-        if (settings.kind, settings.mass_from, settings.density_from) != ("SOLID", "DENSITY", "VALUE"):
+        if (settings.kind, settings.mass_from, settings.density_from) != (
+            "SOLID",
+            "DENSITY",
+            "VALUE",
+        ):
             texts.append(reports.phrase("nodes take the object as a solid of one density"))
         return reports.report(self, *texts)
 

@@ -73,7 +73,9 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         if obj is None or obj.type != "MESH":
             return reports.unavailable(cls, "Make a mesh object active")
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            return reports.unavailable(cls, "Switch to Edit Mode and select the vertices that may move")
+            return reports.unavailable(
+                cls, "Switch to Edit Mode and select the vertices that may move"
+            )
         return True
 
     def draw(self, context: Context) -> None:
@@ -91,7 +93,9 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         obj = context.active_object
         target = context.scene.cursor.location if self.target == "CURSOR" else self.point
         try:
-            balanced = scene.balance_mesh(context, obj, self.group, target[:], self.axes, self.limit)
+            balanced = scene.balance_mesh(
+                context, obj, self.group, target[:], self.axes, self.limit
+            )
         except MeasureError as error:
             return selection.refuse(self, reports.failure(obj.name_full, error))
         session.remeasure(context, [obj])
@@ -114,7 +118,8 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         ):
             texts.append(
                 reports.phrase(
-                    "Only “{object}” was balanced; the other meshes in Edit Mode are unchanged.", object=obj.name
+                    "Only “{object}” was balanced; the other meshes in Edit Mode are unchanged.",
+                    object=obj.name,
                 )
             )
         return reports.report(self, *texts)

@@ -64,7 +64,8 @@ _regions: dict[int, _Drawn] = {}  # by the region's pointer
 
 def draw_region(context: Context) -> None:
     """Draw the overlay into a region, with current batches."""
-    pointer, key = context.region.as_pointer(), _key(context)
+    pointer = context.region.as_pointer()
+    key = _key(context)
     drawn = _regions.get(pointer)
     if drawn is None or drawn.key != key:
         if drawn is None and len(_regions) == MAX_REGIONS:
@@ -72,7 +73,11 @@ def draw_region(context: Context) -> None:
         drawn = _regions[pointer] = _rebuild(context, key, drawn)
     if not (drawn.lines or drawn.fills or len(drawn.bodies.centers)):
         return
-    view_key = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix(), gpu.state.viewport_get()[2:]
+    view_key = (
+        gpu.matrix.get_model_view_matrix(),
+        gpu.matrix.get_projection_matrix(),
+        gpu.state.viewport_get()[2:],
+    )
     if drawn.view_key != view_key:
         drawn.discs = _discs(drawn.bodies, discs.View(*map(np.array, view_key)))
         drawn.view_key = view_key
@@ -82,13 +87,17 @@ def draw_region(context: Context) -> None:
 
 def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
     """Return current batches; rows of bodies that are the same as before are not computed again."""
-    scene, settings = context.scene, context.scene.body_moments.overlay
+    scene = context.scene
+    settings = context.scene.body_moments.overlay
     objects = drawn_objects(context, settings.show_all)
-    (entries, active), details = collect(context, objects), list_details(context, objects)
+    (entries, active) = collect(context, objects)
+    details = list_details(context, objects)
     rows = list(range(len(entries)))
     if before is not None and before.key[1:] == key[1:] and len(before.entries) == len(entries):
         rows = [row for row in rows if entries[row] is not before.entries[row]]
-    bodies = Bodies.of([entries[row] for row in rows], shortest_decimal(scene.unit_settings.scale_length))
+    bodies = Bodies.of(
+        [entries[row] for row in rows], shortest_decimal(scene.unit_settings.scale_length)
+    )
     segments = lines.body_lines(bodies, settings)
     if before is not None and len(rows) < len(entries):
         before.bodies.put(rows, bodies)
@@ -97,7 +106,10 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
     colors = look.COLORS[bodies.verdicts][:, None].repeat(segments.shape[1], axis=1)
     if settings.show_axes:
         colors[:, :3, :3] = _axis_colors()
-    parts = [(segments.reshape(-1, 2, 3), colors.reshape(-1, 4)), *(detail.segments for detail in details)]
+    parts = [
+        (segments.reshape(-1, 2, 3), colors.reshape(-1, 4)),
+        *(detail.segments for detail in details),
+    ]
     fills = _fill_batches([detail.triangles for detail in details])
     texts = tuple(text for detail in details for text in detail.texts)
     return _Drawn(key, entries, active, bodies, segments, _line_batches(parts), fills, texts)
@@ -105,15 +117,23 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
 
 def draw_texts(context: Context) -> None:
     """Draw the texts of the details into a region, beside their places, and the numbers of the active body's axes."""
-    drawn, scale = _regions.get(context.region.as_pointer()), _scale()
+    drawn = _regions.get(context.region.as_pointer())
+    scale = _scale()
     if drawn is None:
         return
     project = partial(location_3d_to_region_2d, context.region, context.space_data.region_3d)
     beside = scale * Vector((look.FRAME, -look.TEXT))
-    texts = [(place + beside, text, color) for at, text, color in drawn.texts if (place := project(at)) is not None]
+    texts = [
+        (place + beside, text, color)
+        for at, text, color in drawn.texts
+        if (place := project(at)) is not None
+    ]
     blf.size(0, look.TEXT * scale)
     if drawn.active >= 0 and context.scene.body_moments.overlay.show_axes:
-        ends = [project(at) for at in (drawn.bodies.centers[drawn.active], *drawn.segments[drawn.active, :3, 1])]
+        ends = [
+            project(at)
+            for at in (drawn.bodies.centers[drawn.active], *drawn.segments[drawn.active, :3, 1])
+        ]
         texts += _axis_numbers(*ends, scale=scale) if None not in ends else ()
     blf.enable(0, blf.SHADOW)
     blf.shadow(0, 6, *look.DARK)
@@ -181,7 +201,11 @@ def _joined(parts: list[Colored]) -> dict[str, NDArray[np.float32]]:
 
 def _fill_batches(parts: list[Colored]) -> tuple[Batch, ...]:
     vertices = _joined(parts)
-    return (batch_for_shader(gpu.shader.from_builtin("FLAT_COLOR"), "TRIS", vertices),) if vertices else ()
+    return (
+        (batch_for_shader(gpu.shader.from_builtin("FLAT_COLOR"), "TRIS", vertices),)
+        if vertices
+        else ()
+    )
 
 
 def _line_batches(parts: list[Colored]) -> tuple[Batch, ...]:
@@ -191,7 +215,10 @@ def _line_batches(parts: list[Colored]) -> tuple[Batch, ...]:
         return ()
     faint = vertices["color"] * np.float32((1.0, 1.0, 1.0, look.BEHIND))
     shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-    return tuple(batch_for_shader(shader, "LINES", content) for content in (vertices | {"color": faint}, vertices))
+    return tuple(
+        batch_for_shader(shader, "LINES", content)
+        for content in (vertices | {"color": faint}, vertices)
+    )
 
 
 def _discs(bodies: Bodies, view: discs.View) -> tuple[Batch, ...]:
@@ -201,7 +228,8 @@ def _discs(bodies: Bodies, view: discs.View) -> tuple[Batch, ...]:
     points, colors, triangles = made
     shader = gpu.shader.from_builtin("FLAT_COLOR")
     return tuple(
-        batch_for_shader(shader, "TRIS", {"pos": points, "color": tints}, indices=triangles) for tints in colors
+        batch_for_shader(shader, "TRIS", {"pos": points, "color": tints}, indices=triangles)
+        for tints in colors
     )
 
 
@@ -212,7 +240,9 @@ def _discs(bodies: Bodies, view: discs.View) -> tuple[Batch, ...]:
 def _restored_state() -> Iterator[None]:
     """Set the GPU's state for drawing, and restore it after the block, even after an error."""
     state = gpu.state
-    blend, depth, mask = state.blend_get(), state.depth_test_get(), state.depth_mask_get()
+    blend = state.blend_get()
+    depth = state.depth_test_get()
+    mask = state.depth_mask_get()
     try:
         state.blend_set("ALPHA")
         state.depth_mask_set(False)

@@ -20,7 +20,9 @@ from ...core.verdict.verdict import Verdict
 from . import appearance as look
 
 Entry = Displayed | PlainBody  # one body, or several as one
-MAX_MEMBERS = 250  # of an assembly that is drawn; to know whether it is out of date takes 40 µs a member
+MAX_MEMBERS = (
+    250  # of an assembly that is drawn; to know whether it is out of date takes 40 µs a member
+)
 MANY = 20  # from this number of bodies on, their sum is drawn, and only doubtful ones beside it
 
 
@@ -39,7 +41,10 @@ class Bodies:
     @classmethod
     def of(cls, entries: Sequence[Entry], unit: float) -> Bodies:
         """Return the bodies as arrays; unit: meters per Blender unit."""
-        bodies = [(one.world, one.verdict) if isinstance(one, Displayed) else (one, "sum") for one in entries]
+        bodies = [
+            (one.world, one.verdict) if isinstance(one, Displayed) else (one, "sum")
+            for one in entries
+        ]
         return cls(
             np.array([numbers.center for numbers, _ in bodies]).reshape(-1, 3) / unit,
             np.array([numbers.axes for numbers, _ in bodies]).reshape(-1, 3, 3).transpose(0, 2, 1),
@@ -59,24 +64,40 @@ def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
     They are those of the objects, of selected pose bones, of the active object's collection and, if enabled, the whole
     selection as one body. Of many objects, only the active one, the doubtful ones and the sum are drawn.
     """
-    scene, bones = context.scene, context.selected_pose_bones or ()
-    shown = list(zip([*objects, *bones], [*all_drawn(objects, scene), *(drawn_bone(bone, scene) for bone in bones)]))
+    scene = context.scene
+    bones = context.selected_pose_bones or ()
+    shown = list(
+        zip(
+            [*objects, *bones],
+            [*all_drawn(objects, scene), *(drawn_bone(bone, scene) for bone in bones)],
+        )
+    )
     bodies = [(subject, body) for subject, body in shown if body is not None]
-    actives, settings = (context.object, context.active_pose_bone), scene.body_moments.overlay
-    are_many, whole = len(bodies) >= MANY, None
+    actives = (context.object, context.active_pose_bone)
+    settings = scene.body_moments.overlay
+    are_many = len(bodies) >= MANY
+    whole = None
     if are_many and settings.show_all:
         # an assembly or a character is made of bodies that are drawn by themselves
-        parts = [body.world for obj, body in bodies if body.method != ASSEMBLY and obj.type != "ARMATURE"]
+        parts = [
+            body.world for obj, body in bodies if body.method != ASSEMBLY and obj.type != "ARMATURE"
+        ]
         whole = add_bodies(parts)
     elif are_many or settings.show_sum:
         selected = total(context)
         whole = selected.numbers if selected.count > 1 else None
     if are_many:
-        bodies = [(obj, body) for obj, body in bodies if obj in actives or body.verdict == Verdict.DOUBTFUL]
+        bodies = [
+            (obj, body)
+            for obj, body in bodies
+            if obj in actives or body.verdict == Verdict.DOUBTFUL
+        ]
     entries: list[Entry] = [body for _, body in bodies]
     active = next((row for row, (subject, _) in enumerate(bodies) if subject in actives), -1)
     root = active_assembly(context)  # an empty with its children is drawn as an object
     assembly = properties.stored(root) if isinstance(root, Collection) else None
-    if assembly is not None and (len(settings_of(root).rows) > MAX_MEMBERS or stale_reason(root, scene)):
+    if assembly is not None and (
+        len(settings_of(root).rows) > MAX_MEMBERS or stale_reason(root, scene)
+    ):
         assembly = None
     return entries + [one for one in (whole, assembly) if one is not None], active

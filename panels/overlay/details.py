@@ -40,19 +40,29 @@ class Detail:
 
 def list_details(context: Context, objects: list[Object]) -> list[Detail]:
     """Return the enabled details of drawn objects, and the paths of balance groups."""
-    settings, details = context.scene.body_moments.overlay, []
+    settings = context.scene.body_moments.overlay
+    details = []
     if settings.show_path:
         for empty in balance_groups.groups(context.scene):
-            if empty.visible_in_viewport_get(context.space_data) and (path := balance_groups.path(empty)) is not None:
+            if (
+                empty.visible_in_viewport_get(context.space_data)
+                and (path := balance_groups.path(empty)) is not None
+            ):
                 details.append(_path(path))
                 details += _arcs(context.scene, path)
-                stood = balance_groups.support(empty, context.scene.frame_current) if settings.show_support else None
+                stood = (
+                    balance_groups.support(empty, context.scene.frame_current)
+                    if settings.show_support
+                    else None
+                )
                 if stood is not None:
                     details.append(support_detail(stood))
     found = map(faults.of_object, objects) if settings.show_faults else ()
     details += [_faults(obj, shown) for obj, shown in zip(objects, found) if shown is not None]
     for obj in objects:
-        weight = live.character.weight(obj, context.view_layer.depsgraph) if shows_weight(obj) else None
+        weight = (
+            live.character.weight(obj, context.view_layer.depsgraph) if shows_weight(obj) else None
+        )
         if weight is not None:
             details += _weight(context, weight)
     checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
@@ -67,33 +77,50 @@ def _path(path: balance_groups.Path) -> Detail:
     inside = np.ones(len(ticks), bool) if path.inside is None else path.inside
     if path.contact is not None:
         inside = inside | ~path.contact
-    colors = [np.where(one[:, None], look.PATH, look.TIPS) for one in (inside[:-1] & inside[1:], inside)]
+    colors = [
+        np.where(one[:, None], look.PATH, look.TIPS) for one in (inside[:-1] & inside[1:], inside)
+    ]
     if path.unexplained is not None:
         colors[0][path.unexplained[:-1] | path.unexplained[1:]] = look.FAULT
         colors[1][path.unexplained] = look.FAULT
     segments = np.concatenate([np.stack([path.centers[:-1], path.centers[1:]], axis=1), ticks])
-    return Detail((segments, np.concatenate(colors).astype(np.float32)), _tinted(np.zeros((0, 3, 3)), look.PATH))
+    return Detail(
+        (segments, np.concatenate(colors).astype(np.float32)),
+        _tinted(np.zeros((0, 3, 3)), look.PATH),
+    )
 
 
 def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
     """Return the arc of free fall beside each flight of a path, with a cross at take-off and at landing."""
     if path.contact is None or not scene.use_gravity:
         return []
-    details, size = [], 0.02 * float(np.ptp(path.centers, axis=0).max())
+    details = []
+    size = 0.02 * float(np.ptp(path.centers, axis=0).max())
     for first, last in find_flights(path.contact):
         if path.contact[first] and path.contact[last]:
-            step = (path.frames[last] - path.frames[first]) / (last - first) * scene.render.fps_base / scene.render.fps
+            step = (
+                (path.frames[last] - path.frames[first])
+                / (last - first)
+                * scene.render.fps_base
+                / scene.render.fps
+            )
             ends = path.centers[[first, last]]
             arc = ballistic_arc(*ends, last - first, step, scene.gravity)
             crosses = ends[:, None, None] + size * np.stack([-np.eye(3), np.eye(3)], axis=1)
-            lines = np.concatenate([np.stack([arc[:-1], arc[1:]], axis=1), crosses.reshape(-1, 2, 3)])
-            details.append(Detail(_tinted(lines, look.EDGE), _tinted(np.zeros((0, 3, 3)), look.EDGE)))
+            lines = np.concatenate(
+                [np.stack([arc[:-1], arc[1:]], axis=1), crosses.reshape(-1, 2, 3)]
+            )
+            details.append(
+                Detail(_tinted(lines, look.EDGE), _tinted(np.zeros((0, 3, 3)), look.EDGE))
+            )
     return details
 
 
 def _faults(obj: Object, found: faults.Faults) -> Detail:
     matrix = np.array(obj.matrix_world, np.float64)
-    edges, triangles = (shape @ matrix[:3, :3].T + matrix[:3, 3] for shape in (found.edges, found.triangles))
+    edges, triangles = (
+        shape @ matrix[:3, :3].T + matrix[:3, 3] for shape in (found.edges, found.triangles)
+    )
     return Detail(_tinted(edges, look.FAULT), _tinted(triangles, look.FAULT, FILL))
 
 
@@ -104,7 +131,10 @@ def _weight(context: Context, weight: Weight) -> list[Detail]:
     color = look.TIPS if polygon is None else polygon.segments[1][0]
     plumb = _tinted(np.array([[weight.parts.center, weight.foot]]), color)
     texts = ((weight.foot, reports.phrase(text, **lengths), color),)
-    return [Detail(plumb, _tinted(np.zeros((0, 3, 3)), color), texts), *([] if polygon is None else [polygon])]
+    return [
+        Detail(plumb, _tinted(np.zeros((0, 3, 3)), color), texts),
+        *([] if polygon is None else [polygon]),
+    ]
 
 
 def support_detail(support: Support) -> Detail:
@@ -112,14 +142,17 @@ def support_detail(support: Support) -> Detail:
     color = look.TIPS if not support.stands else look.EDGE if support.is_near_edge else look.SUPPORT
     corners, foot = support.polygon, support.foot
     outline = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
-    fan = np.stack([np.broadcast_to(corners[0], corners[2:].shape), corners[1:-1], corners[2:]], axis=1)
+    fan = np.stack(
+        [np.broadcast_to(corners[0], corners[2:].shape), corners[1:-1], corners[2:]], axis=1
+    )
     extent = float(np.linalg.norm(np.ptp(np.concatenate([corners, [foot]]), axis=0)))
     tip = foot + max(abs(support.margin), 2.0 * ARROW * extent) * support.direction
     side = np.cross(support.direction, support.up) * ARROW * extent / 2.0
     back = tip - ARROW * extent * support.direction
     arrow = np.array([[foot, tip], [tip, back + side], [tip, back - side]])
     return Detail(
-        _tinted(np.concatenate([outline, arrow]), color), _tinted(fan if support.stands else fan[:0], color, FILL)
+        _tinted(np.concatenate([outline, arrow]), color),
+        _tinted(fan if support.stands else fan[:0], color, FILL),
     )
 
 

@@ -71,16 +71,26 @@ def disc_triangles(
     bodies last; None if no body is in view. scale: pixels of the screen per pixel of `appearance`.
     """
     sizes = view.pixel_sizes(bodies.centers).max(axis=1)
-    reach = np.divide(bodies.gyration.max(axis=1), sizes, out=np.zeros(len(sizes)), where=sizes > 0.0)  # in pixels
+    reach = np.divide(
+        bodies.gyration.max(axis=1), sizes, out=np.zeros(len(sizes)), where=sizes > 0.0
+    )  # in pixels
     away = np.abs(view.pixels(bodies.centers) - view.size / 2.0) - view.size / 2.0
     seen = np.flatnonzero((sizes > 0.0) & (away <= (reach + scale * MARGIN)[:, None]).all(axis=1))
     if not len(seen):
         return None
     seen = seen[np.argsort(-view.depths(bodies.centers[seen]), kind="stable")]
-    discs, reach, verdicts = glyphs.discs(), reach[seen], bodies.verdicts[seen]
+    discs = glyphs.discs()
+    reach = reach[seen]
+    verdicts = bodies.verdicts[seen]
     radii = scale * np.linalg.norm(discs.corners, axis=2).max(axis=1)[verdicts]
     shrink = np.where(reach > 0.0, np.minimum(reach / radii, 1.0), 1.0).astype(np.float32)
-    points = view.place(bodies.centers[seen], scale * shrink[:, None, None] * discs.corners[verdicts])
+    points = view.place(
+        bodies.centers[seen], scale * shrink[:, None, None] * discs.corners[verdicts]
+    )
     first = points.shape[1] * np.arange(len(seen), dtype=np.int32)[:, None, None]
     triangles = discs.triangles[verdicts] + first
-    return points.reshape(-1, 3), discs.colors[:, verdicts].reshape(2, -1, 4), triangles.reshape(-1, 3)
+    return (
+        points.reshape(-1, 3),
+        discs.colors[:, verdicts].reshape(2, -1, 4),
+        triangles.reshape(-1, 3),
+    )

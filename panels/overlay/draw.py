@@ -11,7 +11,16 @@ from __future__ import annotations
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty
-from bpy.types import Context, Menu, Object, Panel, PropertyGroup, SpaceView3D, UILayout, WindowManager
+from bpy.types import (
+    Context,
+    Menu,
+    Object,
+    Panel,
+    PropertyGroup,
+    SpaceView3D,
+    UILayout,
+    WindowManager,
+)
 
 from ...blender.session.live.following import is_live
 from ...blender.session.tracking import handlers
@@ -64,7 +73,9 @@ def _keep_settings() -> None:
         settings = scene.body_moments
         if settings.is_property_set("overlay"):  # reading a group within a group stores it
             settings = settings.overlay
-            chosen = {name: getattr(settings, name) for name in SETTINGS if settings.is_property_set(name)}
+            chosen = {
+                name: getattr(settings, name) for name in SETTINGS if settings.is_property_set(name)
+            }
             _kept[scene.name_full] = chosen
 
 
@@ -116,7 +127,11 @@ def shows_weight(obj: Object) -> bool:
 def draw_texts() -> None:
     """Draw the overlay's texts into the region that Blender is drawing."""
     context = bpy.context
-    if _has_drawn and context.space_data.overlay.show_overlays and context.scene.body_moments.overlay.show:
+    if (
+        _has_drawn
+        and context.space_data.overlay.show_overlays
+        and context.scene.body_moments.overlay.show
+    ):
         overlay.batches.draw_texts(context)
 
 

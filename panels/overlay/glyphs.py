@@ -38,7 +38,9 @@ class Glyphs:
 GlyphShape = tuple[NDArray, NDArray, NDArray]  # corners, (k, 2, 4) colors, triangles of one glyph
 
 
-def _arc(radius: float, first: int = 0, last: int = SEGMENTS, segments: int = SEGMENTS) -> NDArray[np.float64]:
+def _arc(
+    radius: float, first: int = 0, last: int = SEGMENTS, segments: int = SEGMENTS
+) -> NDArray[np.float64]:
     angles = 2.0 * np.pi / segments * np.arange(first, last + 1)
     return radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
@@ -46,17 +48,26 @@ def _arc(radius: float, first: int = 0, last: int = SEGMENTS, segments: int = SE
 def _fan(points: NDArray) -> Part:
     """Return the triangle fan between the origin and an open polyline."""
     count = np.arange(1, len(points), dtype=np.int32)
-    return np.concatenate([np.zeros((1, 2)), points]), np.stack([0 * count, count, count + 1], axis=1)
+    return np.concatenate([np.zeros((1, 2)), points]), np.stack(
+        [0 * count, count, count + 1], axis=1
+    )
 
 
 def _stroke(path: NDArray, width: float) -> Part:
     """Return the triangles of a polyline of this width; each segment is longer by half the width at both ends."""
-    starts, ends = path[:-1], path[1:]
+    starts = path[:-1]
+    ends = path[1:]
     along = ends - starts
     along = along / np.linalg.norm(along, axis=1, keepdims=True) * (width / 2.0)
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)
     quads = np.stack(
-        [starts - along - across, ends + along - across, ends + along + across, starts - along + across], axis=1
+        [
+            starts - along - across,
+            ends + along - across,
+            ends + along + across,
+            starts - along + across,
+        ],
+        axis=1,
     )
     first = 4 * np.arange(len(starts), dtype=np.int32)[:, None, None]
     return quads.reshape(-1, 2), (first + np.array([[0, 1, 2], [0, 2, 3]], np.int32)).reshape(-1, 3)
@@ -68,14 +79,25 @@ def _colored(*layers: tuple[Part, NDArray, float]) -> GlyphShape:
     colors = [np.stack([color * (1.0, 1.0, 1.0, hidden), color]) for _, color, hidden in layers]
     return (
         np.concatenate([corners for (corners, _), _, _ in layers]),
-        np.concatenate([np.broadcast_to(tint, (len(part[0]), 2, 4)) for (part, _, _), tint in zip(layers, colors)]),
-        np.concatenate([triangles + start for ((_, triangles), _, _), start in zip(layers, starts)]),
+        np.concatenate(
+            [
+                np.broadcast_to(tint, (len(part[0]), 2, 4))
+                for (part, _, _), tint in zip(layers, colors)
+            ]
+        ),
+        np.concatenate(
+            [triangles + start for ((_, triangles), _, _), start in zip(layers, starts)]
+        ),
     )
 
 
 def _frame(verdict: int) -> list[NDArray[np.float64]]:
     """Return the polylines around the disc that show the verdict by their form."""
-    polygons = {1: (45.0, 4, 1.25), 2: (90.0, 3, 1.75), 4: (90.0, 4, 1.3)}  # square, triangle, diamond
+    polygons = {
+        1: (45.0, 4, 1.25),
+        2: (90.0, 3, 1.75),
+        4: (90.0, 4, 1.3),
+    }  # square, triangle, diamond
     if verdict in polygons:
         start, count, size = polygons[verdict]
         angles = np.radians(start + 360.0 / count * np.arange(count + 1))
@@ -103,7 +125,12 @@ def _disc(verdict: int) -> GlyphShape:
 def _stack(shapes: Sequence[GlyphShape]) -> Glyphs:
     def filled(arrays: Sequence[NDArray]) -> NDArray:
         size = max(map(len, arrays))
-        return np.stack([np.pad(array, ((0, size - len(array)), *[(0, 0)] * (array.ndim - 1))) for array in arrays])
+        return np.stack(
+            [
+                np.pad(array, ((0, size - len(array)), *[(0, 0)] * (array.ndim - 1)))
+                for array in arrays
+            ]
+        )
 
     corners, colors, triangles = (filled(arrays) for arrays in zip(*shapes))
     tints = np.moveaxis(colors, 2, 0)

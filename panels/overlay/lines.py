@@ -47,7 +47,8 @@ def drop_lines(centers: NDArray, gyration: NDArray) -> NDArray[np.float64]:
     ring = np.stack([np.cos(RING), np.sin(RING), np.zeros_like(RING)], axis=1)
     ring = np.stack([ring[:-1], ring[1:]], axis=1)
     return np.concatenate(
-        [dashes, feet[:, None, None] + 0.15 * gyration.max(axis=1)[:, None, None, None] * ring], axis=1
+        [dashes, feet[:, None, None] + 0.15 * gyration.max(axis=1)[:, None, None, None] * ring],
+        axis=1,
     )
 
 
@@ -75,6 +76,9 @@ def ellipsoid_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArr
     half = np.sqrt(2.5 * _spread(gyration))
     circles = np.zeros((3, len(CIRCLE), 3))
     for axis in range(3):
-        circles[axis, :, axis - 1], circles[axis, :, axis - 2] = np.cos(CIRCLE), np.sin(CIRCLE)
+        circles[axis, :, axis - 1] = np.cos(CIRCLE)
+        circles[axis, :, axis - 2] = np.sin(CIRCLE)
     points = centers[:, None, None] + np.einsum("nij,ckj,nj->ncki", axes, circles, half)
-    return np.stack([points[:, :, :-1], points[:, :, 1:]], axis=3).reshape(len(centers), 3 * (len(CIRCLE) - 1), 2, 3)
+    return np.stack([points[:, :, :-1], points[:, :, 1:]], axis=3).reshape(
+        len(centers), 3 * (len(CIRCLE) - 1), 2, 3
+    )

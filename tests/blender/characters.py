@@ -32,7 +32,9 @@ def skin_of(character, armature, name="Skin", density=1000.0):
     obj.parent = armature
     groups = [obj.vertex_groups.new(name=bone) for bone in character.names]
     weights = character.weights
-    for vertex, bone, weight in zip(weights.vertex.tolist(), weights.bone.tolist(), weights.weight.tolist()):
+    for vertex, bone, weight in zip(
+        weights.vertex.tolist(), weights.bone.tolist(), weights.weight.tolist()
+    ):
         groups[bone].add([vertex], weight, "REPLACE")
     obj.modifiers.new("Armature", "ARMATURE").object = armature
     obj.body_moments.density = density
@@ -40,7 +42,14 @@ def skin_of(character, armature, name="Skin", density=1000.0):
     return obj
 
 
-PARENTS = {"chest": "hips", "head": "chest", "arm.L": "chest", "arm.R": "chest", "leg.L": "hips", "leg.R": "hips"}
+PARENTS = {
+    "chest": "hips",
+    "head": "chest",
+    "arm.L": "chest",
+    "arm.R": "chest",
+    "leg.L": "hips",
+    "leg.R": "hips",
+}
 
 
 def pose(armature, seed=1):

@@ -14,7 +14,14 @@ from body_moments.core.robots.read.meshes import read_mesh
 from body_moments.core.robots.stated import rotation_of_angles
 from body_moments.core.robots.write import gltf
 
-SUFFIXES = {"urdf": ".urdf", "sdf": ".sdf", "mjcf": ".xml", "usd": ".usda", "gltf": ".gltf", "osim": ".osim"}
+SUFFIXES = {
+    "urdf": ".urdf",
+    "sdf": ".sdf",
+    "mjcf": ".xml",
+    "usd": ".usda",
+    "gltf": ".gltf",
+    "osim": ".osim",
+}
 TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 KHR = "KHR_physics_rigid_bodies"
 
@@ -46,7 +53,14 @@ def assert_filled(link, density, rel=1e-5):
     a, b, c = a - center, b - center, c - center
     volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
     apex = np.zeros_like(a)
-    pairs = sum(np.einsum("ni,nj->nij", p, q) * (1 + (p is q)) for p in (a, b, c, apex) for q in (a, b, c, apex)) / 20
+    pairs = (
+        sum(
+            np.einsum("ni,nj->nij", p, q) * (1 + (p is q))
+            for p in (a, b, c, apex)
+            for q in (a, b, c, apex)
+        )
+        / 20
+    )
     second = density * np.einsum("n,nij->ij", volumes, pairs)
     inertia = np.trace(second) * np.eye(3) - second
     assert np.abs(link.inertia - inertia).max() <= rel * np.abs(inertia).max()
@@ -59,7 +73,8 @@ def exported_links(path):
         return _gltf_links(data)
     if path.suffix == ".osim":
         return {
-            body.get("name"): _osim_link(body, Roots.for_file(path)) for body in ElementTree.parse(path).iter("Body")
+            body.get("name"): _osim_link(body, Roots.for_file(path))
+            for body in ElementTree.parse(path).iter("Body")
         }
     assert audit.answer(audit.parse(["audit", str(path)]))[1] == 0
     roots = Roots.for_file(path)
@@ -74,7 +89,10 @@ def _stated(link, roots):
 
 
 def _corners(stated, roots):
-    surface, pose = stated.shape.surface or read_mesh(roots.find(stated.shape.file))[0], stated.shape.pose
+    surface, pose = (
+        stated.shape.surface or read_mesh(roots.find(stated.shape.file))[0],
+        stated.shape.pose,
+    )
     return surface.points[surface.all_triangles()[0]] @ pose.rotation.T + pose.position
 
 
@@ -82,7 +100,9 @@ def _osim_link(body, roots):
     xx, yy, zz, xy, xz, yz = map(float, body.findtext("inertia").split())
     corners = [np.zeros((0, 3, 3))]
     for frame in body.iter("PhysicalOffsetFrame"):
-        position, (a, b, c) = (np.array(frame.findtext(name).split(), float) for name in ("translation", "orientation"))
+        position, (a, b, c) = (
+            np.array(frame.findtext(name).split(), float) for name in ("translation", "orientation")
+        )
         turn = rotation_of_angles(-a, -b, -c).T
         surface, _ = read_mesh(roots.find(frame.findtext("attached_geometry/Mesh/mesh_file")))
         corners.append(surface.points[surface.all_triangles()[0]] @ turn.T + position)
@@ -102,7 +122,9 @@ def _gltf_links(data):
     def matrix(node):
         x, y, z, w = node.get("rotation", (0, 0, 0, 1))
         placed = np.eye(4)
-        placed[:3, :3] = rotation_matrix([w, x, y, z]) * np.array(node.get("scale", (1.0, 1.0, 1.0)))
+        placed[:3, :3] = rotation_matrix([w, x, y, z]) * np.array(
+            node.get("scale", (1.0, 1.0, 1.0))
+        )
         placed[:3, 3] = node.get("translation", (0, 0, 0))
         return placed
 
@@ -111,7 +133,9 @@ def _gltf_links(data):
         view = document["bufferViews"][accessor["bufferView"]]
         width = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        values = np.frombuffer(binary, TYPES[accessor["componentType"]], accessor["count"] * width, start)
+        values = np.frombuffer(
+            binary, TYPES[accessor["componentType"]], accessor["count"] * width, start
+        )
         return values.reshape(-1, width).astype(np.float64)
 
     def visit(index, above, body):
@@ -124,7 +148,9 @@ def _gltf_links(data):
             turn = turn @ rotation_matrix([w, x, y, z])
             center = here[:3, :3] @ motion["centerOfMass"] + here[:3, 3]
             inertia = (turn * motion["inertiaDiagonal"]) @ turn.T
-            body = links[node["name"]] = ExportedLink(motion["mass"], center, inertia, np.zeros((0, 3, 3)))
+            body = links[node["name"]] = ExportedLink(
+                motion["mass"], center, inertia, np.zeros((0, 3, 3))
+            )
         for primitive in document["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
             points = array(primitive["attributes"]["POSITION"]) @ here[:3, :3].T + here[:3, 3]
             corners = points[array(primitive["indices"]).astype(int).reshape(-1, 3)]

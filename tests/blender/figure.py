@@ -25,7 +25,13 @@ def sides():
         for side, sign in (("L", 1), ("R", -1)) if name in IN_PAIRS else (("", 1),):
             suffix = "." + side if side else ""
             over = above + suffix if above in IN_PAIRS else above
-            yield name + suffix, np.array(head) * (sign, 1, 1), np.array(tail) * (sign, 1, 1), (first, last), over
+            yield (
+                name + suffix,
+                np.array(head) * (sign, 1, 1),
+                np.array(tail) * (sign, 1, 1),
+                (first, last),
+                over,
+            )
 
 
 def armature(name="Figure", held=True):
@@ -66,7 +72,9 @@ def skin(rig, levels=2, name="Body"):
             places.append(head)
             radii.append(first)
             if start is not None:
-                edges.append((index[above + ".head"] if bone.startswith("thigh") else start, len(places) - 1))
+                edges.append(
+                    (index[above + ".head"] if bone.startswith("thigh") else start, len(places) - 1)
+                )
         index[bone + ".head"] = start if joint else len(places) - 1
         places.append(tail)
         radii.append(last)
@@ -82,7 +90,9 @@ def skin(rig, levels=2, name="Body"):
     mesh.skin_vertices[0].data[0].use_root = True
     sketch.modifiers.new("Smooth", "SUBSURF").levels = levels
     bpy.context.view_layer.update()
-    body = bpy.data.meshes.new_from_object(sketch.evaluated_get(bpy.context.evaluated_depsgraph_get()))
+    body = bpy.data.meshes.new_from_object(
+        sketch.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    )
     bpy.data.objects.remove(sketch)
     for vertex in body.vertices:
         vertex.co.z = max(vertex.co.z, 0.0)
@@ -97,7 +107,9 @@ def skin(rig, levels=2, name="Body"):
         if vertex.co.z < 0.04:  # the soles belong to the feet alone
             for group in obj.vertex_groups:
                 group.remove([vertex.index])
-            obj.vertex_groups["foot." + ("L" if vertex.co.x > 0.0 else "R")].add([vertex.index], 1.0, "REPLACE")
+            obj.vertex_groups["foot." + ("L" if vertex.co.x > 0.0 else "R")].add(
+                [vertex.index], 1.0, "REPLACE"
+            )
     obj.body_moments.density = 985.0
     obj.select_set(False)
     return obj

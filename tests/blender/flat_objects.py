@@ -31,7 +31,11 @@ def text(body="R", name="Text", font_name="", resolution=12, **where):
 def sheet(points, name="Sheet", faces=None, **where):
     """A flat mesh of one face, or of the given ones, in its own plane z = 0."""
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(np.insert(np.asarray(points, float), 2, 0.0, axis=1).tolist(), [], faces or [range(len(points))])
+    mesh.from_pydata(
+        np.insert(np.asarray(points, float), 2, 0.0, axis=1).tolist(),
+        [],
+        faces or [range(len(points))],
+    )
     mesh.update()
     return add(mesh, name, **where)
 

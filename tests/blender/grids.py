@@ -10,11 +10,21 @@ import bpy
 import numpy as np
 from body_moments.blender.read.vdb import openvdb
 
-GRIDS = {"f4": "FloatGrid", "f8": "DoubleGrid", "i4": "Int32Grid", "i8": "Int64Grid", "b1": "BoolGrid"}
+GRIDS = {
+    "f4": "FloatGrid",
+    "f8": "DoubleGrid",
+    "i4": "Int32Grid",
+    "i8": "Int64Grid",
+    "b1": "BoolGrid",
+}
 
 
 def vdb_grid(
-    values: np.ndarray, name: str = "density", matrix: np.ndarray | None = None, offset=(0, 0, 0), background=0
+    values: np.ndarray,
+    name: str = "density",
+    matrix: np.ndarray | None = None,
+    offset=(0, 0, 0),
+    background=0,
 ):
     """An OpenVDB grid of the values' own type. matrix: (4, 4) from voxels, column vectors."""
     module = openvdb()

@@ -12,7 +12,9 @@ CUBE_FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 
 
 def mesh(name="Mesh", points=CUBE, faces=CUBE_FACES, edges=()):
     data = bpy.data.meshes.new(name)
-    data.from_pydata([tuple(map(float, p)) for p in points], list(edges), [tuple(map(int, f)) for f in faces])
+    data.from_pydata(
+        [tuple(map(float, p)) for p in points], list(edges), [tuple(map(int, f)) for f in faces]
+    )
     return data
 
 
@@ -95,7 +97,9 @@ def canonical(triangles, faces):
 
 def loop_triangles(data):
     data.calc_loop_triangles()
-    return canonical([t.vertices[:] for t in data.loop_triangles], [t.polygon_index for t in data.loop_triangles])
+    return canonical(
+        [t.vertices[:] for t in data.loop_triangles], [t.polygon_index for t in data.loop_triangles]
+    )
 
 
 def bmesh_triangles(obj):
@@ -104,7 +108,9 @@ def bmesh_triangles(obj):
     try:
         bm.from_object(obj, depsgraph())
         triples = bm.calc_loop_triangles()
-        return canonical([[x.vert.index for x in t] for t in triples], [t[0].face.index for t in triples])
+        return canonical(
+            [[x.vert.index for x in t] for t in triples], [t[0].face.index for t in triples]
+        )
     finally:
         bm.free()
 
@@ -134,7 +140,9 @@ def shown(obj):
         sizes = [p.loop_total for p in faces.polygons]
         count = sum(1 if size <= 4 else size - 2 for size in sizes)
         if count:
-            found.append((count, *np.array([row[:] for row in item.matrix_world], np.float64).ravel()))
+            found.append(
+                (count, *np.array([row[:] for row in item.matrix_world], np.float64).ravel())
+            )
     return np.array(sorted(found, key=_rounded)).reshape(-1, 17)
 
 

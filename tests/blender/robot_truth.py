@@ -11,7 +11,10 @@ from body_moments.core.robots.read.descriptions import read_description
 
 def near(found, truth, rel):
     """Relative to the largest number."""
-    return np.shape(found) == np.shape(truth) and np.abs(np.subtract(found, truth)).max() <= rel * np.abs(truth).max()
+    return (
+        np.shape(found) == np.shape(truth)
+        and np.abs(np.subtract(found, truth)).max() <= rel * np.abs(truth).max()
+    )
 
 
 def about(axis, angle):
@@ -48,9 +51,13 @@ def check(link, truth):
         assert link.inertial is None
     else:
         mass, center, tensor = inertial
-        assert near(link.inertial.mass, mass, 1e-14) and near(link.inertial.center, np.array(center), 1e-12)
+        assert near(link.inertial.mass, mass, 1e-14) and near(
+            link.inertial.center, np.array(center), 1e-12
+        )
         assert near(link.inertial.inertia, np.array(tensor), 1e-12)
-    for stated, (kind, size, position, rotation, role, file) in zip(link.shapes, shapes, strict=True):
+    for stated, (kind, size, position, rotation, role, file) in zip(
+        link.shapes, shapes, strict=True
+    ):
         shape = stated.shape
         assert (shape.kind, stated.role, shape.file) == (kind, role, file)
         assert near(np.array(shape.size), np.array(size, float), 1e-12)
@@ -60,7 +67,11 @@ def check(link, truth):
 
 def check_repair(folder, description):
     """Other inertials are written where they stand, and all else stays."""
-    repairs = [(link, link.inertial) for link in description.links if link.span is not None and link.inertial]
+    repairs = [
+        (link, link.inertial)
+        for link in description.links
+        if link.span is not None and link.inertial
+    ]
     repairs = [(link, replace(own, mass=2 * own.mass, center=own.center + 1, tensor=3 * own.tensor))
                for link, own in repairs]  # fmt: skip
     path = folder / "repaired"
@@ -71,7 +82,9 @@ def check_repair(folder, description):
         assert (before.inertial is None) == (after.inertial is None)
         if before.name in expected:
             for name in ("mass", "center", "inertia"):
-                assert near(getattr(after.inertial, name), getattr(expected[before.name], name), 1e-6)
+                assert near(
+                    getattr(after.inertial, name), getattr(expected[before.name], name), 1e-6
+                )
 
 
 def random_inertial(rng, rotation):

@@ -59,11 +59,20 @@ def slurm(folder: Path) -> Iterator[dict[str, str]]:
     key = folder / "munge.key"
     key.write_bytes(os.urandom(1024))
     key.chmod(0o600)
-    values = {"host": socket.gethostname().split(".")[0], "user": getpass.getuser(), "folder": folder}
+    values = {
+        "host": socket.gethostname().split(".")[0],
+        "user": getpass.getuser(),
+        "folder": folder,
+    }
     ports = {"controller_port": _free_port(), "worker_port": _free_port()}
     settings = folder / "slurm.conf"
     settings.write_text(_SETTINGS.format(**values, **ports))
-    places = {"socket": "munge.socket", "pid-file": "munged.pid", "log-file": "munged.log", "seed-file": "munge.seed"}
+    places = {
+        "socket": "munge.socket",
+        "pid-file": "munged.pid",
+        "log-file": "munged.log",
+        "seed-file": "munge.seed",
+    }
     munged = ["munged", "--foreground", "--force", "--key-file", key]
     munged += [word for name, place in places.items() for word in ("--" + name, folder / place)]
     environment = {**os.environ, "SLURM_CONF": str(settings)}
@@ -72,7 +81,9 @@ def slurm(folder: Path) -> Iterator[dict[str, str]]:
 
         def run(*words: object) -> None:
             command = [PROGRAMS[str(words[0])], *map(str, words[1:])]
-            process = subprocess.Popen(command, env=environment, stdout=said, stderr=said, stdin=subprocess.DEVNULL)
+            process = subprocess.Popen(
+                command, env=environment, stdout=said, stderr=said, stdin=subprocess.DEVNULL
+            )
             ends.callback(process.wait)
             ends.callback(process.terminate)
 

@@ -15,7 +15,10 @@ NO_TRIPLES = ("1", "1,2", "1,2,3,4", "1,2,nan", "1,inf,2", "a,b,c", "1,,2", "1_0
 NO_COUNTS = ("0", "-1", "1.5", "x", "", "1000000000", "²", "٣", "000000000", "1e3", "1_0")
 # Valid values of each option, and invalid ones.
 OPTIONS = {
-    **dict.fromkeys(("--density", "--mass", "--thickness", "--unit-scale", "--density-scale", "--qmax"), POSITIVE),
+    **dict.fromkeys(
+        ("--density", "--mass", "--thickness", "--unit-scale", "--density-scale", "--qmax"),
+        POSITIVE,
+    ),
     **dict.fromkeys(("--timeout", "--memory-mb"), POSITIVE),
     "--threshold": ({**NUMBERS, "-2.5": -2.5, "0": 0.0}, ("nan", "inf", "-inf", "", "1_0")),
     "--jobs": ({"1": 1, "999999999": 999999999}, NO_COUNTS),
@@ -24,7 +27,10 @@ OPTIONS = {
     "--spline-order": ({"1": 1, "16": 16}, ("0", "17", "x", "1.0", "", "-1")),
     "--origin": (TRIPLES, NO_TRIPLES),
     "--spacing": ({"1,2,3e5": (1.0, 2.0, 3e5)}, (*NO_TRIPLES, "1,2,0", "-1,2,3")),
-    "--about": ({**TRIPLES, **{name: name for name in ("center", "origin", "world")}}, (*NO_TRIPLES, "Center")),
+    "--about": (
+        {**TRIPLES, **{name: name for name in ("center", "origin", "world")}},
+        (*NO_TRIPLES, "Center"),
+    ),
     "--positions": (
         {"x=a=b.npy": [("x", "a=b.npy")], "z=c": [("z", "c")]},
         ("w=a.npy", "x", "x=", "=a.npy", "xy=a.npy", ""),
@@ -62,7 +68,11 @@ def refused(capsys, *words, **keywords):
     with pytest.raises(SystemExit) as ended:
         arguments.parse([*words], **keywords)
     said = capsys.readouterr()
-    assert ended.value.code == 2 and said.out == "" and said.err.startswith("usage: body_moments measure [options]")
+    assert (
+        ended.value.code == 2
+        and said.out == ""
+        and said.err.startswith("usage: body_moments measure [options]")
+    )
     return said.err.rpartition("body_moments: error: ")[2].strip()
 
 
@@ -72,7 +82,9 @@ def test_values_are_taken_or_refused_with_their_reason(option, capsys):
     for text, value in right.items():
         found = getattr(parse("{}={}".format(option, text), *WITH.get(option, ())), key(option))
         assert found == value and type(found) is type(value), text
-    for text in (text for text in right if text.startswith("-") and option in ("--origin", "--about")):
+    for text in (
+        text for text in right if text.startswith("-") and option in ("--origin", "--about")
+    ):
         assert getattr(parse(option, text), key(option)) == right[text]
     for text in wrong:
         said = refused(capsys, "measure", "{}={}".format(option, text))
@@ -87,14 +99,24 @@ OF_BODIES = ("--kind=solid", "--thickness=1", "--wall=thin", "--overlap=union")
     "option, words",
     [
         ("--format", ["a", "b", "--format", "urdf"]),
-        *((word.partition("=")[0], ["--format", "sdf", "--links", "bone", word]) for word in OF_BODIES),
+        *(
+            (word.partition("=")[0], ["--format", "sdf", "--links", "bone", word])
+            for word in OF_BODIES
+        ),
         ("--output", ["a", "--format", "gltf", "--output", "a.GLB"]),
         ("--output", ["a", "--format", "usd", "--output", "a.usdc"]),
-        *((words[0], [*more, *words]) for words in SUPERVISED for more in ([], ["a", "--no-supervisor"])),
+        *(
+            (words[0], [*more, *words])
+            for words in SUPERVISED
+            for more in ([], ["a", "--no-supervisor"])
+        ),
         ("--resume", ["--resume"]),
         ("--resume", ["a", "--no-supervisor", "--resume"]),
         ("--output", ["a", "--resume"]),
-        *(("--" + name, ["a", "--" + name, value]) for name, value in (("q", "q"), ("grid", "4"), ("qmax", "1"))),
+        *(
+            ("--" + name, ["a", "--" + name, value])
+            for name, value in (("q", "q"), ("grid", "4"), ("qmax", "1"))
+        ),
         ("--q", ["a", "--fourier", "f"]),
         ("--q", ["a", "--fourier", "f", "--q", "q", "--grid", "4", "--qmax", "1"]),
         ("--qmax", ["a", "--fourier", "f", "--grid", "4"]),

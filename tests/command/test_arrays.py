@@ -35,7 +35,12 @@ def test_a_box_of_voxels_has_the_inertia_of_a_box(tmp_path):
     code, document = run(tmp_path, tmp_path / "box.npy", *options.split())
     assert code == 0 and document["errors"] == []
     (entry,) = document["objects"]
-    assert (entry["name"], entry["type"], entry["kind"], entry["method"]) == ("box", "ARRAY", "solid", "grid exact")
+    assert (entry["name"], entry["type"], entry["kind"], entry["method"]) == (
+        "box",
+        "ARRAY",
+        "solid",
+        "grid exact",
+    )
     assert close(entry["mass"], 12.0, rel=1e-14)
     assert close(entry["volume"], 6.0, rel=1e-14)
     assert close(entry["density"], 2.0, rel=1e-14)
@@ -49,7 +54,10 @@ def test_scans_bring_their_own_units_and_places(tmp_path):
     files = [
         written(tmp_path / "a.nii", nifti(box("i2"), spacing=(2, 2, 2), slope=3.0)),
         written(tmp_path / "b.nii.gz", gzip.compress(nifti(box("u1"), spacing=(2, 2, 2)))),
-        written(tmp_path / "c.nrrd", nrrd(box(), "spacings: 2 2 2", 'units: "mm" "mm" "mm"', encoding="gzip")),
+        written(
+            tmp_path / "c.nrrd",
+            nrrd(box(), "spacings: 2 2 2", 'units: "mm" "mm" "mm"', encoding="gzip"),
+        ),
     ]
     code, documents = run(tmp_path, *files)
     assert code == 0
@@ -64,7 +72,9 @@ def test_given_mass_object_names_and_notes(tmp_path):
     assert document["objects"][0]["mass"] == pytest.approx(7.0)
     assert close(document["objects"][0]["volume"], 48e-9, rel=1e-6)
     assert document["objects"][0]["density_from"] == "samples"
-    code, document = run(tmp_path, tmp_path / "m.npz", "--density", "5", "--object", "m", "--object", "n")
+    code, document = run(
+        tmp_path, tmp_path / "m.npz", "--density", "5", "--object", "m", "--object", "n"
+    )
     assert code == 1
     assert [error["name"] for error in document["errors"]] == ["n"]
     assert {"given_density_ignored", "scan_unstated"} <= {*codes(document["objects"][0])}
@@ -86,7 +96,9 @@ def damaged(file: str, code: str, **values) -> str:
         (
             nrrd(box(), encoding="gzip")[:-1] + b"!",
             (),
-            damaged("a.nrrd", "damage_incomplete", kind="gzip stream", error="incorrect length check"),
+            damaged(
+                "a.nrrd", "damage_incomplete", kind="gzip stream", error="incorrect length check"
+            ),
         ),
     ],
 )
@@ -118,7 +130,16 @@ def test_a_scene_with_a_cloud_goes_through_every_option(tmp_path):
     obj = bpy.data.objects["Cloud"]
     assert obj["body_mass"] == entry["mass"]
     assert obj.body_moments.value_density == 2.0
-    code, document = run(tmp_path, tmp_path / "a.blend", "--fourier", tmp_path / "f.npz", "--grid", "4", "--qmax", "1")
+    code, document = run(
+        tmp_path,
+        tmp_path / "a.blend",
+        "--fourier",
+        tmp_path / "f.npz",
+        "--grid",
+        "4",
+        "--qmax",
+        "1",
+    )
     assert code == 1
     assert "Fourier" in document["errors"][0]["reason"]
 
@@ -128,7 +149,15 @@ def test_uneven_slices_are_measured_in_place(tmp_path):
     z = np.array([10.0, 10.5, 12.0, 12.25, 15.0, 16.0])
     np.save(tmp_path / "scan.npy", samples)
     np.save(tmp_path / "z.npy", z)
-    words = (tmp_path / "scan.npy", "--spacing", "2,3,9", "--origin", "5,6,7", "--positions", f"z={tmp_path / 'z.npy'}")
+    words = (
+        tmp_path / "scan.npy",
+        "--spacing",
+        "2,3,9",
+        "--origin",
+        "5,6,7",
+        "--positions",
+        f"z={tmp_path / 'z.npy'}",
+    )
     code, document = run(tmp_path, *words, "--order", "4")
     assert code == 0 and document["errors"] == []
     (entry,) = document["objects"]
@@ -142,7 +171,9 @@ def test_uneven_slices_are_measured_in_place(tmp_path):
     assert close(entry["moments"]["mass"]["0,0,4"], fourth, 1e-12)
     assert 0.0 < entry["moments"]["error"]["mass"]["0,0,4"] < 1e-10 * fourth
     assert "samples_positioned" in codes(entry)
-    millimeters = run(tmp_path, *words, "--unit-scale", "0.001", "--spline-order", "2")[1]["objects"][0]
+    millimeters = run(tmp_path, *words, "--unit-scale", "0.001", "--spline-order", "2")[1][
+        "objects"
+    ][0]
     hats = np.diff(np.concatenate([[9.5], z, [17.0]]))
     weights = samples.sum(axis=(0, 1)) * 6.0 * (hats[1:] + hats[:-1]) / 2
     assert close(millimeters["mass"], weights.sum() * 1e-9, 1e-13)
@@ -169,7 +200,9 @@ def ball(n=12, dtype="f4"):
     """Values whose trilinear body at 0 is a ball of radius 0.7 n/2 voxels, about."""
     x, y, z = np.ogrid[:n, :n, :n]
     middle = (n - 1) / 2
-    return ((0.35 * n) ** 2 - (x - middle) ** 2 - (y - middle) ** 2 - 1.3 * (z - middle) ** 2).astype(dtype)
+    return (
+        (0.35 * n) ** 2 - (x - middle) ** 2 - (y - middle) ** 2 - 1.3 * (z - middle) ** 2
+    ).astype(dtype)
 
 
 @pytest.mark.parametrize("order", ["C", "F"])
@@ -177,7 +210,15 @@ def ball(n=12, dtype="f4"):
 def test_threshold_turns_array_into_a_body(tmp_path, order, spline):
     values = ball() + np.linspace(0, 3, 12, dtype="f4")[:, None, None]
     np.save(tmp_path / "b.npy", np.asarray(values, order=order))
-    words = [tmp_path / "b.npy", "--threshold", "0.5", "--spacing", "0.1,0.2,0.3", "--origin", "-1,2,5"]
+    words = [
+        tmp_path / "b.npy",
+        "--threshold",
+        "0.5",
+        "--spacing",
+        "0.1,0.2,0.3",
+        "--origin",
+        "-1,2,5",
+    ]
     words += ["--spline-order", spline, "--order", "4"]
     matrix = np.diag([0.1, 0.2, 0.3, 1.0])
     matrix[:3, 3] = -1.0, 2.0, 5.0
@@ -218,7 +259,10 @@ def test_threshold_applies_to_scaled_header_values(tmp_path):
     for words, expected in (((), 1), (("--errors-exit-0",), 0)):
         code, document = run(tmp_path, path, "--threshold", "1e6", "--density", "1", *words)
         assert code == expected and not document["objects"] and document["errors"]
-    assert batch.main(in_process("measure", path, "--threshold", "nan"), channel=2, file_needed=True) == 2
+    assert (
+        batch.main(in_process("measure", path, "--threshold", "nan"), channel=2, file_needed=True)
+        == 2
+    )
 
 
 def test_threshold_measures_volumes_and_warns_for_meshes(tmp_path):

@@ -65,7 +65,9 @@ def test_tables_and_pages_carry_nothing_out_of_the_file_as_code(tmp_path):
     assert [row["code"] for row in rows] == ["ok", "audit_unit"]
     assert rows[1]["link"] == "'=cmd|x<b>"
     page = answer("--format", "html", path)[0]
-    assert "&lt;b&gt;" in page and "<b>" not in page and "<script" not in page and "audit_unit" in page
+    assert (
+        "&lt;b&gt;" in page and "<b>" not in page and "<script" not in page and "audit_unit" in page
+    )
 
 
 def test_a_repaired_copy_is_written_elsewhere_and_is_right(tmp_path):
@@ -74,7 +76,9 @@ def test_a_repaired_copy_is_written_elsewhere_and_is_right(tmp_path):
     text = answer("--repair", tmp_path / "out", path)[0]
     assert json.loads(text)["repaired"] == str(tmp_path / "out" / "r.urdf")
     again = json.loads(answer(tmp_path / "out" / "r.urdf")[0])
-    assert again["status"] == "ok" and RIGHT in (tmp_path / "out" / "r.urdf").read_text(encoding="utf-8")
+    assert again["status"] == "ok" and RIGHT in (tmp_path / "out" / "r.urdf").read_text(
+        encoding="utf-8"
+    )
     for words in (["--repair", tmp_path], ["--repair", tmp_path / "none"], ["--format", "xml"]):
         with pytest.raises(SystemExit) as ended:
             audit.parse(["audit", *map(str, words), str(path)])
@@ -84,7 +88,11 @@ def test_a_repaired_copy_is_written_elsewhere_and_is_right(tmp_path):
 def test_no_file_of_a_user_is_replaced_without_being_asked_to(tmp_path, capfd):
     """Reports and repaired copies alike; an older report is."""
     (tmp_path / "out").mkdir()
-    path, notes, copy = description(tmp_path / "r.urdf", WRONG), tmp_path / "notes.txt", tmp_path / "out" / "r.urdf"
+    path, notes, copy = (
+        description(tmp_path / "r.urdf", WRONG),
+        tmp_path / "notes.txt",
+        tmp_path / "out" / "r.urdf",
+    )
     notes.write_text("mine", encoding="utf-8")
     for target in (notes, path, tmp_path, tmp_path / "none" / "a.json"):
         assert batch.main(["audit", str(path), "--output", str(target)], channel=1) == 2
@@ -94,13 +102,19 @@ def test_no_file_of_a_user_is_replaced_without_being_asked_to(tmp_path, capfd):
     assert notes.read_text(encoding="utf-8") == "mine" and WRONG in path.read_text(encoding="utf-8")
     report = tmp_path / "report"
     for form in (*audit_report.FORMATS, "json"):
-        assert batch.main(["audit", str(path), "--output", str(report), "--format", form], channel=1) == 1
+        assert (
+            batch.main(["audit", str(path), "--output", str(report), "--format", form], channel=1)
+            == 1
+        )
     assert json.loads(report.read_text(encoding="utf-8"))["schema"] == audit_report.SCHEMA
     assert batch.main(["audit", str(path), "--output", str(notes), "--force"], channel=1) == 1
     assert "mine" not in notes.read_text(encoding="utf-8")
     copy.write_text("mine", encoding="utf-8")
     found = json.loads(answer("--repair", tmp_path / "out", path)[0])
-    assert found["errors"][0]["code"] == "file_not_written" and copy.read_text(encoding="utf-8") == "mine"
+    assert (
+        found["errors"][0]["code"] == "file_not_written"
+        and copy.read_text(encoding="utf-8") == "mine"
+    )
     for words in (["--force"], []):  # and the same once more is no loss
         assert not json.loads(answer("--repair", tmp_path / "out", *words, path)[0])["errors"]
     assert "mine" not in copy.read_text(encoding="utf-8")
@@ -108,16 +122,28 @@ def test_no_file_of_a_user_is_replaced_without_being_asked_to(tmp_path, capfd):
 
 def test_sarif_obeys_its_schema_and_names_the_places(tmp_path):
     """The published schema, as the package of jest matchers for SARIF (MIT) carries it."""
-    validate = fastjsonschema.compile(json.loads(gzip.decompress(SARIF_SCHEMA.read_bytes())), use_default=False)
-    good, bad = description(tmp_path / "a b.urdf", "\n  " + RIGHT, "\n   " + WRONG), tmp_path / "b.urdf"
+    validate = fastjsonschema.compile(
+        json.loads(gzip.decompress(SARIF_SCHEMA.read_bytes())), use_default=False
+    )
+    good, bad = (
+        description(tmp_path / "a b.urdf", "\n  " + RIGHT, "\n   " + WRONG),
+        tmp_path / "b.urdf",
+    )
     bad.write_text("<robot>\n<link", encoding="utf-8")
     log = json.loads(answer("--format", "sarif", good, bad)[0])
     validate(log)
     wrong, broken = log["runs"][0]["results"]
     place = wrong["locations"][0]["physicalLocation"]
-    assert place["region"] == {"startLine": 3, "startColumn": 4 + len('<link name="=cmd|x&lt;b&gt;">')}
+    assert place["region"] == {
+        "startLine": 3,
+        "startColumn": 4 + len('<link name="=cmd|x&lt;b&gt;">'),
+    }
     assert place["artifactLocation"]["uri"].endswith("/a%20b.urdf")
-    assert (wrong["ruleId"], wrong["level"], wrong["properties"]["certainty"]) == ("audit_unit", "error", "certain")
+    assert (wrong["ruleId"], wrong["level"], wrong["properties"]["certainty"]) == (
+        "audit_unit",
+        "error",
+        "certain",
+    )
     assert broken["locations"][0]["physicalLocation"]["region"]["startLine"] == 2
 
 
@@ -125,7 +151,9 @@ def test_github_annotations_escape_what_ends_them(tmp_path):
     odd = description(tmp_path / "a,b:c%.urdf", BOX.format("x&#10;y", 8000, *["5333333.3"] * 3))
     head, line, rest = answer("--format", "github", odd)[0].split("\n")
     assert head.startswith("::debug::") and line.startswith("::error file=") and not rest
-    assert "a%2Cb%3Ac%25.urdf,line=1,col=" in line and "title=audit_unit (x y)::" in line.replace("%0A", " ")
+    assert "a%2Cb%3Ac%25.urdf,line=1,col=" in line and "title=audit_unit (x y)::" in line.replace(
+        "%0A", " "
+    )
 
 
 def test_text_and_table_state_the_assumption_once(tmp_path):
@@ -135,12 +163,22 @@ def test_text_and_table_state_the_assumption_once(tmp_path):
         text = answer("--format", form, *paths)[0]
         assert text.count(audit_report.RESTS_ON) == 1 and "Repaired" not in text
     rows = answer("--format", "table", *paths)[0].splitlines()
-    assert rows[2].split()[:5] == ["2", "0", "0", "1", "1"] and rows[4].split()[:5] == ["4", "0", "0", "2", "2"]
+    assert rows[2].split()[:5] == ["2", "0", "0", "1", "1"] and rows[4].split()[:5] == [
+        "4",
+        "0",
+        "0",
+        "2",
+        "2",
+    ]
 
 
 def test_gate_counts_new_findings_of_its_level_alone(tmp_path):
     path, baseline = description(tmp_path / "r.urdf", RIGHT, WRONG), tmp_path / "known.json"
-    assert [answer("--fail-on", level, path)[1] for level in ("error", "warning", "never")] == [1, 1, 0]
+    assert [answer("--fail-on", level, path)[1] for level in ("error", "warning", "never")] == [
+        1,
+        1,
+        0,
+    ]
     assert answer("--ignore", "audit_unit", path)[1] == 0
     assert [answer("--light-links", mass, path)[1] for mass in (7999, 8000)] == [1, 0]
     assert answer("--write-baseline", baseline, path)[1] == 1
@@ -148,8 +186,15 @@ def test_gate_counts_new_findings_of_its_level_alone(tmp_path):
     assert found["status"] == "ok" and found["links"][1]["findings"][0]["known"]
     description(path, RIGHT, WRONG, WRONG.replace("=cmd", "new"))
     text, code = answer("--baseline", baseline, path)
-    assert code == 1 and ["known" in one["findings"][0] for one in json.loads(text)["links"][1:]] == [True, False]
-    for words in (["--ignore", "none"], ["--baseline", path], ["--baseline", tmp_path / "none"], ["--jobs", "0"]):
+    assert code == 1 and [
+        "known" in one["findings"][0] for one in json.loads(text)["links"][1:]
+    ] == [True, False]
+    for words in (
+        ["--ignore", "none"],
+        ["--baseline", path],
+        ["--baseline", tmp_path / "none"],
+        ["--jobs", "0"],
+    ):
         with pytest.raises(SystemExit) as ended:
             audit.parse(["audit", *map(str, words), str(path)])
         assert ended.value.code == 2
@@ -172,13 +217,19 @@ def test_folder_holds_meshes_and_settings_of_other_programs(tmp_path):
     (tmp_path / "share" / "meshes").mkdir()
     corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
     faces = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
-    rows = ["v {} {} {}\n".format(*one) for one in corners] + ["f {} {} {} {}\n".format(*one) for one in faces]
+    rows = ["v {} {} {}\n".format(*one) for one in corners] + [
+        "f {} {} {} {}\n".format(*one) for one in faces
+    ]
     (tmp_path / "share" / "meshes" / "a.obj").write_text("".join(rows), encoding="utf-8")
     other = tmp_path / "share" / "other.xml"
     other.write_text('<!DOCTYPE robot PUBLIC "x" "y"><robot name="r"/>', encoding="utf-8")
     assert json.loads(answer(path)[0])["links"][0]["findings"][0]["code"] == "mesh_outside"
     text, code = answer(tmp_path / "share")
-    assert code == 0 and json.loads(text)["file"] == str(path) and not json.loads(text)["links"][0]["findings"]
+    assert (
+        code == 0
+        and json.loads(text)["file"] == str(path)
+        and not json.loads(text)["links"][0]["findings"]
+    )
     assert json.loads(answer(other)[0])["errors"][0]["code"] == "xml_entities"
 
 
@@ -186,5 +237,10 @@ def test_all_faults_of_a_link_are_told_at_once(tmp_path):
     """A tensor that breaks the triangle inequality does not hide a center outside."""
     link = BOX.format("a", 8000, 1, 1, 9).replace("<mass", '<origin xyz="9 0 0"/><mass')
     (found,) = json.loads(answer(description(tmp_path / "r.urdf", link))[0])["links"]
-    assert [one["code"] for one in found["findings"]] == ["inertial_triangle", "inertial_center_outside"]
-    assert all(one["certainty"] == "guess" and one["geometry"]["mass"] == 8000 for one in found["findings"])
+    assert [one["code"] for one in found["findings"]] == [
+        "inertial_triangle",
+        "inertial_center_outside",
+    ]
+    assert all(
+        one["certainty"] == "guess" and one["geometry"]["mass"] == 8000 for one in found["findings"]
+    )

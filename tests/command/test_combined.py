@@ -42,14 +42,22 @@ def test_document_holds_assemblies_and_bones(tmp_path):
     bpy.data.collections["Robot"].body_moments.mass = 100.0
     found = document(saved(tmp_path))
     (robot,) = found["assemblies"]
-    assert robot["name"] == "Robot" and robot["kind"] == "assembly" and close(robot["mass"], 100.0, 1e-14)
+    assert (
+        robot["name"] == "Robot"
+        and robot["kind"] == "assembly"
+        and close(robot["mass"], 100.0, 1e-14)
+    )
     assert len(found["bones"]) == 7 and {bone["armature"] for bone in found["bones"]} == {"Rig"}
     bones = {bone["name"]: bone for bone in found["bones"]}
     assert close(bones["head"]["mass"], 8000.0, 1e-6) and bones["head"]["kind"] == "bone"
     rows = [*csv.DictReader(io.StringIO("".join(documents.to_csv([found]))))]
-    assert [(row["name"], float(row["mass"])) for row in rows if row["kind"] == "assembly"] == [("Robot", 100.0)]
+    assert [(row["name"], float(row["mass"])) for row in rows if row["kind"] == "assembly"] == [
+        ("Robot", 100.0)
+    ]
     of_bones = {row["name"]: row for row in rows if row["kind"] == "bone"}
-    assert of_bones.keys() == bones.keys() and {row["armature"] for row in of_bones.values()} == {"Rig"}
+    assert of_bones.keys() == bones.keys() and {row["armature"] for row in of_bones.values()} == {
+        "Rig"
+    }
     assert float(of_bones["head"]["inertia_xx"]) == bones["head"]["inertia"][0][0]
 
 
@@ -70,7 +78,9 @@ def test_assembly_without_mass_is_an_error(tmp_path):
     nothing = collection("Nothing")
     nothing.body_moments.mass_from, nothing.body_moments.mass = "MASS", 0.0
     found = document(saved(tmp_path))
-    assert [error["name"] for error in found["errors"]] == ["Nothing"] and len(found["objects"]) == 2
+    assert [error["name"] for error in found["errors"]] == ["Nothing"] and len(
+        found["objects"]
+    ) == 2
 
 
 def test_asset_assemblies_are_measured_once_for_metadata(tmp_path):
@@ -104,7 +114,10 @@ def test_asset_metadata_is_in_the_asset_frame(tmp_path):
     for where in ("file", "copy"):
         line = files.run("--asset-metadata", where, plain)
         assert (
-            not line.has_saved and not line.errors and [*tmp_path.iterdir()] == [plain] and plain.read_bytes() == kept
+            not line.has_saved
+            and not line.errors
+            and [*tmp_path.iterdir()] == [plain]
+            and plain.read_bytes() == kept
         )
     box = bpy.data.objects["Box"]
     box.asset_mark()
@@ -118,7 +131,10 @@ def test_asset_metadata_is_in_the_asset_frame(tmp_path):
         for name in ("mass", "volume", "area"):
             assert data["body_" + name] == entry[name]
         assert close([*data["body_principal_moments"]], entry["principal_moments"], 1e-14)
-        assert close([*data["body_center_of_mass"]], (0.5, 0.25, 0.125), 1e-6) and data["body_method"] == "exact"
+        assert (
+            close([*data["body_center_of_mass"]], (0.5, 0.25, 0.125), 1e-6)
+            and data["body_method"] == "exact"
+        )
         assert "body_mass" not in bpy.data.objects["Box"]
     bpy.data.objects["Box"].asset_data.pop("body_mass")
     path = saved(tmp_path)

@@ -29,7 +29,9 @@ def degree(key):
 def of_moments(entry, domain, key, name=None):
     moments = entry["moments"]
     bound = sum(moments[part].get(domain, {}).get(key, 0.0) for part in ("error", "input"))
-    size = max(abs(value) for other, value in moments[domain].items() if degree(other) == degree(key))
+    size = max(
+        abs(value) for other, value in moments[domain].items() if degree(other) == degree(key)
+    )
     return ("moments", domain, key), name or "moments.{}[{}]".format(domain, key), bound, size
 
 
@@ -59,19 +61,34 @@ def numbers_of_flat(entry):
     yield ("area",), "area", bounds_of(entry, "area"), entry["area"]
     gyration = math.sqrt((second["xx"] + second["yy"]) / entry["area"])
     for k in range(3):
-        yield ("centroid", k), "centroid[{}]".format("xyz"[k]), bounds_of(entry, "centroid"), gyration
+        yield (
+            ("centroid", k),
+            "centroid[{}]".format("xyz"[k]),
+            bounds_of(entry, "centroid"),
+            gyration,
+        )
         for axis in ("x", "y", "normal"):
             turned = (bounds["area"] + bounds["input"]["area"]) / entry["area"]
             yield ("plane", axis, k), "plane.{}[{}]".format(axis, "xyz"[k]), turned, 1.0
     for name in second:
         size = max(map(abs, second.values()))
-        yield ("second_moments", name), "second_moments[{}]".format(name), bounds_of(entry, "second_moments"), size
+        yield (
+            ("second_moments", name),
+            "second_moments[{}]".format(name),
+            bounds_of(entry, "second_moments"),
+            size,
+        )
     for key in ("0,0", "1,0", "1,1", "0,3"):
         yield of_moments(entry, "area", key)
     for number, one in enumerate(entry["invariants"]):
         for part in ("real", "imaginary"):
             size = math.hypot(one["real"], one["imaginary"])
-            yield ("invariants", number, part), "{} {}".format(one["name"], part), one["error"] + one["input"], size
+            yield (
+                ("invariants", number, part),
+                "{} {}".format(one["name"], part),
+                one["error"] + one["input"],
+                size,
+            )
 
 
 @pytest.mark.parametrize("kind", ["objects", "flat"])
@@ -112,7 +129,11 @@ def test_numbers_without_bounds_may_not_differ():
     unknown = dict.fromkeys(bounds)
     for part in ("error", "input"):
         entry["moments"][part]["volume"]["2,0,0"] = None
-    for entry["error_bound"] in (None, unknown, {**unknown, "input": dict.fromkeys(bounds["input"])}):
+    for entry["error_bound"] in (
+        None,
+        unknown,
+        {**unknown, "input": dict.fromkeys(bounds["input"])},
+    ):
         for place in ("volume", "area", "mass", "principal_moments", "moments"):
             second = copy.deepcopy(first)
             found = second["objects"][0]

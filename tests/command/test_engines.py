@@ -20,7 +20,9 @@ from tests.command.test_process import BLENDER, ROOT, in_blender, process, scrip
 from tests.soak import commands
 
 ENGINES = ROOT / "docs" / "engines"
-OPENJD = shutil.which("openjd", path=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]))
+OPENJD = shutil.which(
+    "openjd", path=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+)
 COUNT, PARTS = 7, 3
 
 
@@ -33,8 +35,13 @@ def job(tmp_path):
     folder.mkdir()
     for number in range(COUNT - 1):
         np.save(folder / "scan {}.npy".format(number), np.full((3, 4, 5), number + 1, "u2"))
-    shutil.copy(ROOT / "tests" / "soak" / "crash_corpus" / "damaged_block.blend", folder / "killer.blend")
-    assert script("manifest", folder, "--parts", PARTS, "--output", tmp_path / "a list").returncode == 0
+    shutil.copy(
+        ROOT / "tests" / "soak" / "crash_corpus" / "damaged_block.blend", folder / "killer.blend"
+    )
+    assert (
+        script("manifest", folder, "--parts", PARTS, "--output", tmp_path / "a list").returncode
+        == 0
+    )
     (tmp_path / "results").mkdir()
     return tmp_path
 
@@ -47,18 +54,33 @@ def check(job, name="1"):
         *("scan {}.npy".format(number) for number in range(6)),
     ]
     assert [one["status"] for one in found] == ["crashed"] + ["ok"] * 6
-    assert [one["objects"][0]["mass"] for one in found[1:]] == [60.0 * (number + 1) for number in range(6)]
+    assert [one["objects"][0]["mass"] for one in found[1:]] == [
+        60.0 * (number + 1) for number in range(6)
+    ]
 
 
 def environment(job, **more):
-    values = {"ADDON": ROOT, "BLENDER": BLENDER, "MANIFEST": job / "a list", "FOLDER": job / "results", "JOB": 1}
-    return {name: str(value) for name, value in {**values, "PYTHON": sys.executable, **more}.items()}
+    values = {
+        "ADDON": ROOT,
+        "BLENDER": BLENDER,
+        "MANIFEST": job / "a list",
+        "FOLDER": job / "results",
+        "JOB": 1,
+    }
+    return {
+        name: str(value) for name, value in {**values, "PYTHON": sys.executable, **more}.items()
+    }
 
 
 @in_blender
 @pytest.mark.skipif(not OPENJD, reason="needs openjd-cli")
 def test_open_job_description(job):
-    values = {"Python": sys.executable, "Addon": ROOT, "Blender": BLENDER, "Manifest": job / "a list"}
+    values = {
+        "Python": sys.executable,
+        "Addon": ROOT,
+        "Blender": BLENDER,
+        "Manifest": job / "a list",
+    }
     values |= {"Folder": job / "results", "Job": 1, "Parts": PARTS}
     words = [word for name, value in values.items() for word in ("-p", "{}={}".format(name, value))]
     template = ENGINES / "body_moments.openjd.yaml"
@@ -70,7 +92,9 @@ def test_open_job_description(job):
 @in_blender
 @pytest.mark.skipif(not shutil.which("parallel"), reason="needs GNU parallel")
 def test_gnu_parallel(job):
-    ended = process("bash", ENGINES / "body_moments.parallel.sh", "--jobs", "2", env=environment(job))
+    ended = process(
+        "bash", ENGINES / "body_moments.parallel.sh", "--jobs", "2", env=environment(job)
+    )
     assert ended.returncode == 0, ended.stderr
     check(job)
 
@@ -80,11 +104,16 @@ def test_gnu_parallel(job):
 def test_the_tasks_of_a_slurm_array(job):
     """Run one task twice, as Slurm does: a requeued task continues."""
     for number in (1, 2, 3, 2):
-        variables = environment(job, SLURM_ARRAY_JOB_ID=1, SLURM_ARRAY_TASK_ID=number, SLURM_CPUS_PER_TASK=1)
+        variables = environment(
+            job, SLURM_ARRAY_JOB_ID=1, SLURM_ARRAY_TASK_ID=number, SLURM_CPUS_PER_TASK=1
+        )
         ended = process("bash", ENGINES / "body_moments.slurm.sh", env=variables)
         assert ended.returncode == 0, ended.stderr
     assert b"2 of 2 files reused" in ended.stderr
-    assert process("bash", ENGINES / "body_moments.slurm.sh", "1", env=environment(job)).returncode == 0
+    assert (
+        process("bash", ENGINES / "body_moments.slurm.sh", "1", env=environment(job)).returncode
+        == 0
+    )
     check(job)
 
 
@@ -114,20 +143,45 @@ def test_an_array_under_a_controller_of_slurm(job, slurm):
         file.writelines(json.dumps(line) + "\n" for line in [*listed, {"path": str(slow)}])
     log = job / "log-%a"
     environment_of_job = slurm | environment(job)
-    submit = ("sbatch", "--parsable", "--requeue", "--array=1-3", "--output", log, "--open-mode=append")
+    submit = (
+        "sbatch",
+        "--parsable",
+        "--requeue",
+        "--array=1-3",
+        "--output",
+        log,
+        "--open-mode=append",
+    )
     number = slurm_controller.asked(environment_of_job, *submit, ENGINES / "body_moments.slurm.sh")
     assert number.isdigit(), number
-    words = ("sbatch", "--parsable", "--dependency=afterok:" + number, "--output", job / "log-merge")
-    merge = slurm_controller.asked(environment_of_job, *words, ENGINES / "body_moments.slurm.sh", number)
+    words = (
+        "sbatch",
+        "--parsable",
+        "--dependency=afterok:" + number,
+        "--output",
+        job / "log-merge",
+    )
+    merge = slurm_controller.asked(
+        environment_of_job, *words, ENGINES / "body_moments.slurm.sh", number
+    )
     assert merge.isdigit(), merge
 
     def state(task):
-        return slurm_controller.asked(slurm, "squeue", "-h", "-t", "all", "-j", task, "-o", "%T").split("\n")[0]
+        return slurm_controller.asked(
+            slurm, "squeue", "-h", "-t", "all", "-j", task, "-o", "%T"
+        ).split("\n")[0]
 
     journal = job / "results" / number / "part-3.jsonl.journal"
-    assert commands.wait_until(lambda: journal.exists() and journal.read_bytes().count(b"\n") == 2, 120.0)
+    assert commands.wait_until(
+        lambda: journal.exists() and journal.read_bytes().count(b"\n") == 2, 120.0
+    )
     slurm_controller.asked(slurm, "scontrol", "requeue", number + "_3")
-    now = ("scontrol", "update", "JobId=" + number + "_3", "StartTime=now")  # not after Slurm's two minutes
+    now = (
+        "scontrol",
+        "update",
+        "JobId=" + number + "_3",
+        "StartTime=now",
+    )  # not after Slurm's two minutes
     commands.wait_until(lambda: state(number + "_3") == "PENDING", 60.0)
     slow.unlink()  # Only after the first run has ended, or that run could record the missing file.
     slurm_controller.asked(slurm, *now)
@@ -173,7 +227,12 @@ def compiled(tmp_path, settings):
 @pytest.mark.skipif(not shutil.which("node"), reason="needs Node")
 def test_the_job_type_of_flamenco(job):
     """With stubs of its interface; the workers' part is done here."""
-    settings = {"manifest": str(job / "a list"), "addon": str(ROOT), "folder": str(job / "results"), "parts": PARTS}
+    settings = {
+        "manifest": str(job / "a list"),
+        "addon": str(ROOT),
+        "folder": str(job / "results"),
+        "parts": PARTS,
+    }
     settings |= {"python": sys.executable, "options": "--jobs 1"}
     found = json.loads(compiled(job, settings).stdout)
     kinds = {setting["type"] for setting in found["type"]["settings"]}

@@ -24,7 +24,9 @@ from tests.close import close
 from tests.core import mesh_files
 
 pytestmark = pytest.mark.usefixtures("registered")
-needs_usd = pytest.mark.skipif(not bpy.app.usd.supported, reason="this Blender is built without USD")
+needs_usd = pytest.mark.skipif(
+    not bpy.app.usd.supported, reason="this Blender is built without USD"
+)
 
 
 @pytest.mark.parametrize(
@@ -79,7 +81,9 @@ def contents():
 def test_meshes_are_imported_as_by_blender(tmp_path, name):
     rng = np.random.default_rng(5)
     points = rng.normal(size=(60, 3)).astype(np.float32)
-    faces = [sorted(rng.choice(60, count, replace=False).tolist()) for count in rng.integers(3, 7, 80)]
+    faces = [
+        sorted(rng.choice(60, count, replace=False).tolist()) for count in rng.integers(3, 7, 80)
+    ]
     if name.endswith("ply"):
         order = {"t.ply": "", "little.ply": "<", "big.ply": ">"}[name]
         data = mesh_files.ply(points, faces, order, extra=True).replace(b"uchar red", b"uchar heat")
@@ -204,7 +208,9 @@ def test_half_a_file_is_an_error(tmp_path, suffix):
 
 def test_a_text_stl_cut_short_is_not_measured_as_half_a_body(tmp_path):
     text = files.stl_text(faces=files.FACES[:2], end="facet normal 0 0 0\nouter loop\n")
-    assert reason(files.write_text(tmp_path / "cut.stl", text)) == sentence("stl_cut_short", end=BY_WORD)
+    assert reason(files.write_text(tmp_path / "cut.stl", text)) == sentence(
+        "stl_cut_short", end=BY_WORD
+    )
 
 
 def test_binary_stl_with_a_solid_header_is_binary(tmp_path):
@@ -230,7 +236,8 @@ def test_usdz_checksums_are_verified(tmp_path):
     larger = struct.pack("<II", stored.file_size + 99, stored.file_size + 99)
     (tmp_path / "larger.usdz").write_bytes(data[: directory + 20] + larger + data[directory + 28 :])
     assert any(
-        words in reason(tmp_path / "larger.usdz") for words in ("Overlapped", "overlap", "Bad CRC-32")
+        words in reason(tmp_path / "larger.usdz")
+        for words in ("Overlapped", "overlap", "Bad CRC-32")
     )  # Old Pythons use other words.
     assert close(measured(tmp_path / "whole.usdz")["volume"], 6.0, rel=1e-6)
 
@@ -259,7 +266,9 @@ def test_scripts_inside_a_blend_file_do_not_run(tmp_path):
     box = files.add_box()
     sentinel = tmp_path / "it_ran"
     script = bpy.data.texts.new("startup.py")
-    script.write(f"open({str(sentinel)!r}, 'w')\nimport bpy\nbpy.data.objects[0].scale = (9, 9, 9)\n")
+    script.write(
+        f"open({str(sentinel)!r}, 'w')\nimport bpy\nbpy.data.objects[0].scale = (9, 9, 9)\n"
+    )
     script.use_module = True
     driver = box.driver_add("location", 0).driver
     driver.expression = f"len(open({str(sentinel)!r}, 'w').name)"
@@ -299,7 +308,10 @@ def test_missing_usd_reference_is_an_error_beside_records(tmp_path, capfd):
     files.write_text(tmp_path / "there.usda", files.usda_text(1.0))
     found = document(files.write_text(tmp_path / "t.usda", text))
     assert [entry["name"] for entry in found["objects"]] == ["Tetra"]
-    names = [str(tmp_path / name) for name in ("away.usd", "gone.usdc", "layer.usda", "there.usda</Nope>")]
+    names = [
+        str(tmp_path / name)
+        for name in ("away.usd", "gone.usdc", "layer.usda", "there.usda</Nope>")
+    ]
     assert [error["name"] for error in found["errors"]] == [None]
     assert found["errors"][0]["reason"] == sentence("missing_references", names=names)
     assert "_ReportErrors" in capfd.readouterr().err  # USD's own message is there too.
@@ -356,7 +368,10 @@ def test_a_file_that_cannot_be_read_is_an_error(tmp_path):
         found = document(tmp_path / "part.stl", *words)
         assert found["objects"] == [] and found["status"] == "error"
         (error,) = found["errors"]
-        assert error == {"name": None, "reason": sentence("file_unreadable", error="Input/output error")}
+        assert error == {
+            "name": None,
+            "reason": sentence("file_unreadable", error="Input/output error"),
+        }
 
 
 @pytest.mark.parametrize("packed", [False, True])

@@ -22,10 +22,41 @@ from tests.blender.batch_files import document, measured, reason, sentence
 
 pytestmark = pytest.mark.usefixtures("registered")
 
-WORDS = ["nan", "-NaN", "NAN(0x1)", "inf", "+INF", "-Infinity", "1e999", "-1E+39", "1e0039", "4" + "0" * 38]
-WORDS += ["1.#INF", "-1.#IND", "1.#QNAN", "7" * 31 + "e8", "0.5e39", "3.5e38", "7" * 30 + "e09", "4.e38"]
+WORDS = [
+    "nan",
+    "-NaN",
+    "NAN(0x1)",
+    "inf",
+    "+INF",
+    "-Infinity",
+    "1e999",
+    "-1E+39",
+    "1e0039",
+    "4" + "0" * 38,
+]
+WORDS += [
+    "1.#INF",
+    "-1.#IND",
+    "1.#QNAN",
+    "7" * 31 + "e8",
+    "0.5e39",
+    "3.5e38",
+    "7" * 30 + "e09",
+    "4.e38",
+]
 NO_NUMBERS = ["1.0x0", "1.0D0", "l.0", "--1", "1e", "1.0.0", "0x1", "1_0", "٣"]
-FINITE = ["1e-999", "1E+02", "-1.5e+037", "0." + "1" * 60, "3.4e38", "1e+00", "2.0e-39", ".5", "0" * 40 + "1", "1e05"]
+FINITE = [
+    "1e-999",
+    "1E+02",
+    "-1.5e+037",
+    "0." + "1" * 60,
+    "3.4e38",
+    "1e+00",
+    "2.0e-39",
+    ".5",
+    "0" * 40 + "1",
+    "1e05",
+]
 
 
 def refused(count, code, **place):
@@ -35,7 +66,9 @@ def refused(count, code, **place):
 def checked(path):
     """The finding about a file's numbers; None where all are finite."""
     try:
-        import_mesh(str(path)) if path.suffix in (".stl", ".ply") else finite.check_numbers(str(path), path.suffix)
+        import_mesh(str(path)) if path.suffix in (".stl", ".ply") else finite.check_numbers(
+            str(path), path.suffix
+        )
     except FileError as error:
         return error.finding
     return None
@@ -43,7 +76,9 @@ def checked(path):
 
 def said(path, count, code, **place):
     found = checked(path)
-    assert found == finding("non_finite_coordinates", count=count, place=finding(code, **place).as_record())
+    assert found == finding(
+        "non_finite_coordinates", count=count, place=finding(code, **place).as_record()
+    )
 
 
 def ply_head(format, *elements):
@@ -58,9 +93,17 @@ def texts(word):
     corners = [list(map(str, corner)) for corner in files.CORNERS]
     corners[2][0] = word
     stl = files.stl_text(corners).replace("facet normal 0 0 0", "facet normal nan nan nan")
-    obj = "# nan inf\no inf\n" + "".join("v {} {} {}\nvn nan 0 1e99\n".format(*corner) for corner in corners)
+    obj = "# nan inf\no inf\n" + "".join(
+        "v {} {} {}\nvn nan 0 1e99\n".format(*corner) for corner in corners
+    )
     obj += files.obj_text()[files.obj_text().index("f ") :]
-    ply = ply_head("ascii", "element vertex 4", *AXES, "element face 4", "property list uchar int vertex_indices")
+    ply = ply_head(
+        "ascii",
+        "element vertex 4",
+        *AXES,
+        "element face 4",
+        "property list uchar int vertex_indices",
+    )
     ply += "".join("{} {} {}\n".format(*corner) for corner in corners)
     ply += "".join("3 {} {} {}\n".format(*face) for face in files.FACES)
     return {"t.stl": (stl, 5), "t.obj": (obj, 7), "t.ply": (ply, 13)}
@@ -76,7 +119,9 @@ def test_text_with_nan_or_infinity_is_refused(tmp_path, name):
     for word in FINITE:
         files.write_text(tmp_path / name, texts(word)[name][0])
         assert checked(tmp_path / name) is None, word
-    assert measured(files.write_text(tmp_path / name, texts("0")[name][0]))["volume"] == pytest.approx(1.0, rel=1e-6)
+    assert measured(files.write_text(tmp_path / name, texts("0")[name][0]))[
+        "volume"
+    ] == pytest.approx(1.0, rel=1e-6)
 
 
 @pytest.mark.parametrize("name", ["t.stl", "t.obj", "t.ply"])
@@ -113,7 +158,9 @@ def test_a_gltf_with_a_position_that_is_not_finite_is_refused(tmp_path, gltf):
     assert measured(path)["volume"] == pytest.approx(6.0, rel=1e-6)
     accessor, start = position(text)
     normals = text["accessors"][text["meshes"][0]["primitives"][0]["attributes"]["NORMAL"]]
-    struct.pack_into("<f", binary, text["bufferViews"][normals["bufferView"]]["byteOffset"], math.nan)
+    struct.pack_into(
+        "<f", binary, text["bufferViews"][normals["bufferView"]]["byteOffset"], math.nan
+    )
     (tmp_path / "box.bin").write_bytes(binary)
     assert checked(path) is None
     struct.pack_into("<f", binary, start + 12 * 5 + 4, math.nan)
@@ -124,10 +171,17 @@ def test_a_gltf_with_a_position_that_is_not_finite_is_refused(tmp_path, gltf):
     text["buffers"][0].pop("uri")
     head = json.dumps(text).encode()
     head += b" " * (-len(head) % 4)
-    body = struct.pack("<I4s", len(head), b"JSON") + head + struct.pack("<I4s", len(binary), b"BIN\0") + binary
+    body = (
+        struct.pack("<I4s", len(head), b"JSON")
+        + head
+        + struct.pack("<I4s", len(binary), b"BIN\0")
+        + binary
+    )
     (tmp_path / "box.glb").write_bytes(struct.pack("<4s2I", b"glTF", 2, 12 + len(body)) + body)
     said(tmp_path / "box.glb", 1, "at_row", element="mesh “{}”, row".format(name), row=5)
-    text["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
+    text["buffers"][0]["uri"] = (
+        "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
+    )
     files.write_text(path, json.dumps(text))
     said(path, 1, "at_row", element="mesh “{}”, row".format(name), row=5)
 
@@ -163,15 +217,35 @@ def test_gltf_checks_cover_only_placed_points(tmp_path):
     numbers[4, 1] = math.inf
     (tmp_path / "t.bin").write_bytes(numbers.tobytes())
     view = {"buffer": 0, "byteLength": numbers.nbytes, "byteStride": 16}
-    accessors = [{"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3"} for count in (4, 6)]
-    text = {"buffers": [{"uri": "t.bin", "byteLength": numbers.nbytes}], "bufferViews": [view], "accessors": accessors}
+    accessors = [
+        {"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3"} for count in (4, 6)
+    ]
+    text = {
+        "buffers": [{"uri": "t.bin", "byteLength": numbers.nbytes}],
+        "bufferViews": [view],
+        "accessors": accessors,
+    }
     instancing = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}}
     other = finding("at_row", element="accessor 1, row", row=4)
     of_mesh = finding("at_row", element="mesh “0”, row", row=4)
     for more, place in (
-        ({"meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 1}}]}]}, None),
+        (
+            {
+                "meshes": [
+                    {"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 1}}]}
+                ]
+            },
+            None,
+        ),
         ({"meshes": [{"primitives": [{"attributes": {"POSITION": 1}}]}]}, of_mesh),
-        ({"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]}]}]}, of_mesh),
+        (
+            {
+                "meshes": [
+                    {"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]}]}
+                ]
+            },
+            of_mesh,
+        ),
         ({"skins": [{"inverseBindMatrices": 1}]}, other),
         ({"animations": [{"samplers": [{"input": 0, "output": 1}]}]}, other),
         ({"animations": [{"samplers": [{"input": 1, "output": 0}]}]}, other),
@@ -179,7 +253,9 @@ def test_gltf_checks_cover_only_placed_points(tmp_path):
     ):
         files.write_text(tmp_path / "t.gltf", json.dumps(text | more))
         found = checked(tmp_path / "t.gltf")
-        assert found == (place and finding("non_finite_coordinates", count=1, place=place.as_record()))
+        assert found == (
+            place and finding("non_finite_coordinates", count=1, place=place.as_record())
+        )
     for name in ("EXT_meshopt_compression", "KHR_meshopt_compression"):
         view["extensions"] = {name: {}}
         files.write_text(tmp_path / "t.gltf", json.dumps(text | more))
@@ -210,8 +286,12 @@ def fbx_file(path, values, packed):
     stored = zlib.compress(data) if packed else data
     array = b"d" + struct.pack("<3I", len(values), packed, len(stored)) + stored
     other, inner = node(b"Any", None, 27), [b"Vertices", None]
-    objects = node(b"Objects", lambda at: node(b"Geometry", lambda at: node(*inner, at, array), at), 27 + 16)
-    path.write_bytes(b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<I", 7400) + other + objects + bytes(13))
+    objects = node(
+        b"Objects", lambda at: node(b"Geometry", lambda at: node(*inner, at, array), at), 27 + 16
+    )
+    path.write_bytes(
+        b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<I", 7400) + other + objects + bytes(13)
+    )
 
 
 @pytest.mark.parametrize("packed", [0, 1])
@@ -235,11 +315,15 @@ def test_the_vertices_of_an_fbx_of_text_are_looked_at(tmp_path, head):
         files.write_text(path, text + head + "0,0,0,1,0,0,0,\n" + word + ",0,\n0,0,3" + after)
         line = (text + head).count("\n") + 2
         values = {"text": word[:60], "expected": NUMBER}
-        assert checked(path) == (None if word in FINITE else finding("line_misread", line=line, **values))
+        assert checked(path) == (
+            None if word in FINITE else finding("line_misread", line=line, **values)
+        )
     values = {"text": "nan", "expected": NUMBER}
     files.write_text(path, "; Vertices: are numbers\nVertices: 0,0,0,nan,0,0")
     assert checked(path) == finding("line_misread", line=2, **values)
-    files.write_text(path, "Vertices: 0,0,0,1,\n0,0\nPolygonVertexIndex: 0,nan\nOther: *1 {\na: nan}")
+    files.write_text(
+        path, "Vertices: 0,0,0,1,\n0,0\nPolygonVertexIndex: 0,nan\nOther: *1 {\na: nan}"
+    )
     assert checked(path) is None
 
 

@@ -64,11 +64,15 @@ def test_area_moments_about_a_point_are_within_bounds(words, corner):
     sheet(RECTANGLE, location=(5, 6, 7))
     entry = shape("--order", "5", *words)
     moments = entry["moments"]
-    assert len(moments["area"]) == 21 and {one["name"] for one in entry["invariants"]} >= {"φ7", "c40 c12⁴"}
+    assert len(moments["area"]) == 21 and {one["name"] for one in entry["invariants"]} >= {
+        "φ7",
+        "c40 c12⁴",
+    }
     for key, value in moments["area"].items():
         p, q = map(int, key.split(","))
         x, y = (
-            ((low + side) ** (n + 1) - low ** (n + 1)) / (n + 1) for low, side, n in zip(corner, (3.0, 2.0), (p, q))
+            ((low + side) ** (n + 1) - low ** (n + 1)) / (n + 1)
+            for low, side, n in zip(corner, (3.0, 2.0), (p, q))
         )
         bound = moments["error"]["area"][key] + moments["input"]["area"][key]
         assert abs(value - x * y) <= bound + 1e-14 * abs(x * y)
@@ -104,11 +108,17 @@ def test_the_transform_of_a_flat_shape_is_in_its_plane(tmp_path, frame):
     out = tmp_path / "out.npz"
     shape("--fourier", out, "--q", tmp_path / "q.npy", "--frame", frame)
     low = np.array([5.0, 6.0] if frame == "world" else [0.0, 0.0])
-    true = np.prod([3.0, 2.0] * np.sinc(q * [3.0, 2.0] / (2 * np.pi)), axis=1) * np.exp(-1j * q @ (low + [1.5, 1.0]))
+    true = np.prod([3.0, 2.0] * np.sinc(q * [3.0, 2.0] / (2 * np.pi)), axis=1) * np.exp(
+        -1j * q @ (low + [1.5, 1.0])
+    )
     with np.load(out) as found:
-        assert (np.abs(found["F"] - true) <= found["error"] + 1e-14).all() and found["error"].max() < 1e-12
+        assert (np.abs(found["F"] - true) <= found["error"] + 1e-14).all() and found[
+            "error"
+        ].max() < 1e-12
         assert np.abs(found["axes"] - np.eye(3)[:2]).max() < 1e-12
-        assert np.abs(found["origin"] - ([0, 0, 7] if frame == "world" else [5, 6, 7])).max() < 1e-12
+        assert (
+            np.abs(found["origin"] - ([0, 0, 7] if frame == "world" else [5, 6, 7])).max() < 1e-12
+        )
     assert is_result(out)
     shape("--fourier", out, "--grid", "5", "--qmax", "2", "--frame", frame)
     with np.load(out) as found:
@@ -159,9 +169,16 @@ def exact_moments(points):
     after = [*range(1, len(x)), 0]
     cross = [x[i] * y[j] - x[j] * y[i] for i, j in enumerate(after)]
     area = sum(cross) / 2
-    center = [sum(c * (u[i] + u[j]) for i, (j, c) in enumerate(zip(after, cross))) / (6 * area) for u in (x, y)]
+    center = [
+        sum(c * (u[i] + u[j]) for i, (j, c) in enumerate(zip(after, cross))) / (6 * area)
+        for u in (x, y)
+    ]
     second = [
-        sum(c * (2 * u[i] * v[i] + 2 * u[j] * v[j] + u[i] * v[j] + u[j] * v[i]) for i, (j, c) in enumerate(pairs)) / 24
+        sum(
+            c * (2 * u[i] * v[i] + 2 * u[j] * v[j] + u[i] * v[j] + u[j] * v[i])
+            for i, (j, c) in enumerate(pairs)
+        )
+        / 24
         - area * center[one] * center[other]
         for u, v, one, other in ((x, x, 0, 0), (y, y, 1, 1), (x, y, 0, 1))
         for pairs in [list(zip(after, cross))]
@@ -172,10 +189,15 @@ def exact_moments(points):
 @pytest.mark.parametrize("far, least", [(0.0, 1e-3), (300.0, 1e-6)])
 def test_centroid_and_second_moments_have_tight_bounds(far, least):
     """Compare float32 polygons with fractions."""
-    rng, worst = np.random.default_rng(5), dict.fromkeys(("area", "centroid", "second_moments"), 0.0)
+    rng, worst = (
+        np.random.default_rng(5),
+        dict.fromkeys(("area", "centroid", "second_moments"), 0.0),
+    )
     for _ in range(12):
         turns = np.sort(rng.random(7)) * 2.0 * np.pi
-        points = far + rng.uniform(0.5, 1.5, (7, 1)) * np.column_stack([np.cos(turns), np.sin(turns)])
+        points = far + rng.uniform(0.5, 1.5, (7, 1)) * np.column_stack(
+            [np.cos(turns), np.sin(turns)]
+        )
         points = points.astype(np.float32)
         obj = sheet(points.tolist())
         entry, (area, center, second) = shape(), exact_moments(points)
@@ -185,7 +207,8 @@ def test_centroid_and_second_moments_have_tight_bounds(far, least):
             "area": [(entry["area"], area)],
             "centroid": zip(entry["centroid"], center),
             "second_moments": [
-                (entry["second_moments"][name], truth) for name, truth in zip(("xx", "yy", "xy"), second)
+                (entry["second_moments"][name], truth)
+                for name, truth in zip(("xx", "yy", "xy"), second)
             ],
         }
         for name, pairs in found.items():

@@ -48,7 +48,9 @@ def result(path, *found):
 
 
 def failed(name, status="crashed"):
-    return documents.failed_document(name, "It <b>failed</b>.", status, blender="5.2.2", frame="world")
+    return documents.failed_document(
+        name, "It <b>failed</b>.", status, blender="5.2.2", frame="world"
+    )
 
 
 def test_a_list_in_another_folder_has_absolute_names(main, tmp_path, monkeypatch):
@@ -57,10 +59,16 @@ def test_a_list_in_another_folder_has_absolute_names(main, tmp_path, monkeypatch
     (tmp_path / "in" / "a.stl").write_bytes(b"solid")
     monkeypatch.chdir(tmp_path)
     name = str(Path("in", "a.stl"))
-    for words, wanted in (([], name), (["--output", "list"], name), (["--output", "lists/list"], str(tmp_path / name))):
+    for words, wanted in (
+        ([], name),
+        (["--output", "list"], name),
+        (["--output", "lists/list"], str(tmp_path / name)),
+    ):
         code, out, _ = main("manifest", "in", *words)
         text = Path(words[1]).read_text(encoding="utf-8") if words else out
-        assert code == 0 and [json.loads(line)["path"] for line in text.splitlines()[1:]] == [wanted]
+        assert code == 0 and [json.loads(line)["path"] for line in text.splitlines()[1:]] == [
+            wanted
+        ]
 
 
 def test_summary_counts_files_by_status(main, tmp_path):
@@ -85,7 +93,9 @@ def whole(tmp_path_factory):
     box = files.add_box("Box")
     box.rotation_euler = (0.3, 0.2, 0.1)
     sheet([(0, 0), (3, 0), (2, 2), (0, 1)], "Sheet")
-    found = document("--flat", "--order", "3", "--pose", "--signature", "--surface-moments", "--about", "1,2,3")
+    found = document(
+        "--flat", "--order", "3", "--pose", "--signature", "--surface-moments", "--about", "1,2,3"
+    )
     found["assemblies"] = [{**found["objects"][0], "name": "All"}]
     found["bones"] = [{**found["objects"][0], "name": "Arm", "armature": "Rig"}]
     return json.dumps(found)
@@ -95,7 +105,13 @@ def places_of(value, path=()):
     """The paths of all values in a document."""
     if path:
         yield path
-    for key, part in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
+    for key, part in (
+        value.items()
+        if isinstance(value, dict)
+        else enumerate(value)
+        if isinstance(value, list)
+        else ()
+    ):
         yield from places_of(part, (*path, key))
 
 
@@ -129,7 +145,11 @@ def test_no_damaged_document_ends_in_a_traceback(main, tmp_path, whole):
     chance, good, path = random.Random(7), tmp_path / "good", tmp_path / "bad"
     good.write_text(whole)
     commands = [("merge", path), ("to-csv", path), ("summary", path), ("report", path)]
-    commands += [("compare", path, good), ("compare", good, path, "--align"), ("similar", path, "--to", "Box")]
+    commands += [
+        ("compare", path, good),
+        ("compare", good, path, "--align"),
+        ("similar", path, "--to", "Box"),
+    ]
     codes = set()
     for number in range(250):
         damaged = json.loads(whole)
@@ -141,19 +161,25 @@ def test_no_damaged_document_ends_in_a_traceback(main, tmp_path, whole):
             parent[place[-1]] = chance.choice(WRONG_VALUES)
         text = json.dumps(damaged)
         text = text[: chance.randrange(len(text))] if chance.random() < 0.1 else text
-        path.write_bytes((whole + "\n" + text).encode(chance.choice(["utf-8"] * 9 + ["utf-16"]), "surrogatepass"))
+        path.write_bytes(
+            (whole + "\n" + text).encode(chance.choice(["utf-8"] * 9 + ["utf-16"]), "surrogatepass")
+        )
         words = commands[number % len(commands)]
         code, _, said = main(*words)
         assert code in (0, 1, 2) and "Traceback" not in said, (place, said)
         assert code != 2 or words[0] == "similar" or str(path) in said and "line " in said, said
         codes.add((words[0], code))
-    assert {(word, code) for word in ("merge", "to-csv", "summary", "report") for code in (0, 2)} <= codes
+    assert {
+        (word, code) for word in ("merge", "to-csv", "summary", "report") for code in (0, 2)
+    } <= codes
 
 
 def part(path, options, *names):
     """A result of a run with these options."""
     run = {"addon": "1", "options": options}
-    return result(path, *(documents.document([], {}, [], file=name, blender="5", run=run) for name in names))
+    return result(
+        path, *(documents.document([], {}, [], file=name, blender="5", run=run) for name in names)
+    )
 
 
 def test_help_without_a_command_lists_the_commands(main):
@@ -167,8 +193,14 @@ def test_merge_refuses_parts_of_other_runs(main, tmp_path):
     steel, first = {"--density": 7850.0}, part(tmp_path / "1", {"--density": 7850.0}, "a", "b")
     code, out, _ = main("merge", first, part(tmp_path / "2", steel, "b", "c"))
     assert code == 0 and [json.loads(line)["file"] for line in out.splitlines()] == ["a", "b", "c"]
-    code, out, said = main("merge", first, part(tmp_path / "2", {"--density": 1.0, "--pose": True}, "c"))
-    assert (code, out) == (2, "") and "/2 was made with other options than " in said and "--density, --pose" in said
+    code, out, said = main(
+        "merge", first, part(tmp_path / "2", {"--density": 1.0, "--pose": True}, "c")
+    )
+    assert (
+        (code, out) == (2, "")
+        and "/2 was made with other options than " in said
+        and "--density, --pose" in said
+    )
 
 
 def test_merge_holds_parts_against_their_list(main, tmp_path):
@@ -176,14 +208,20 @@ def test_merge_holds_parts_against_their_list(main, tmp_path):
     listed = tmp_path / "list"
     listed.write_text("".join(listing.write_lines(names, 2)))
     assert [listing.read(listed, number) for number in (1, 2)] == [names[:2], names[2:]]
-    parts = [part(tmp_path / str(number), {}, *some) for number, some in enumerate((names[:2], names[2:]), 1)]
+    parts = [
+        part(tmp_path / str(number), {}, *some)
+        for number, some in enumerate((names[:2], names[2:]), 1)
+    ]
     code, out, _ = main("merge", *parts, "--manifest", listed)
     assert code == 0 and len(out.splitlines()) == 5
     (tmp_path / "f").touch()
     for others, words in (
         ([parts[0]], "no document of {}, {}, {}".format(*names[2:])),
         ([*parts, part(tmp_path / "3", {}, names[4])], "several documents of " + names[4]),
-        ([*parts, part(tmp_path / "4", {}, str(tmp_path / "f"))], "not in the list: {}/f".format(tmp_path)),
+        (
+            [*parts, part(tmp_path / "4", {}, str(tmp_path / "f"))],
+            "not in the list: {}/f".format(tmp_path),
+        ),
     ):
         code, out, said = main("merge", "--manifest", listed, *others)
         assert (code, out) == (2, "") and words in said
@@ -195,7 +233,10 @@ def test_wrong_value_is_named_with_its_place(main, tmp_path, whole):
     for change, place in (
         ({"mass": "heavy"}, "line 1: objects[0].mass is a text ('heavy'), not a number or null"),
         ({"inertia": [[1, 2, 3]]}, "line 1: objects[0].inertia has 1 entries, not 3"),
-        ({"moments": {"volume": {"a": 1}}}, "line 1: objects[0].moments.volume has the unknown entry “a”"),
+        (
+            {"moments": {"volume": {"a": 1}}},
+            "line 1: objects[0].moments.volume has the unknown entry “a”",
+        ),
     ):
         damaged = json.loads(whole)
         damaged["objects"][0] |= change
@@ -203,7 +244,9 @@ def test_wrong_value_is_named_with_its_place(main, tmp_path, whole):
         assert (code, out) == (2, "") and place in said
     (tmp_path / "bad").write_bytes(b"\xef\xbb\xbf" + whole.encode())  # as some editors save it
     assert main("summary", tmp_path / "bad")[0] == 0
-    (tmp_path / "bad").write_text(whole + "\n" + whole.replace('"schema": "body-moments/1"', '"schema": "x/1"'))
+    (tmp_path / "bad").write_text(
+        whole + "\n" + whole.replace('"schema": "body-moments/1"', '"schema": "x/1"')
+    )
     assert "line 2: schema is x/1, not body-moments/1" in main("to-csv", tmp_path / "bad")[2]
 
 
@@ -265,10 +308,18 @@ def test_a_point_that_moved_by_as_much_as_a_center_is_uncertain(main, tmp_path):
     about, bounds = entry["inertia_about"]["inertia"], entry["error_bound"]
     bound = bounds["center_of_mass"] + bounds["input"]["center_of_mass"]
     share = (bounds["volume"] + bounds["input"]["volume"]) / entry["volume"]
-    allowed = 2.0 * (2.0 * 6.0 * 1000.0 * bound + 6.0 * share * 1e6 + bounds["inertia"] + bounds["input"]["inertia"])
+    allowed = 2.0 * (
+        2.0 * 6.0 * 1000.0 * bound
+        + 6.0 * share * 1e6
+        + bounds["inertia"]
+        + bounds["input"]["inertia"]
+    )
     for factor, code in ((0.9, 0), (1.1, 1)):
         about[1][1] = first["objects"][0]["inertia_about"]["inertia"][1][1] + factor * allowed
-        words = (result(tmp_path / "a", first), result(tmp_path / "b", {**first, "objects": [entry]}))
+        words = (
+            result(tmp_path / "a", first),
+            result(tmp_path / "b", {**first, "objects": [entry]}),
+        )
         assert main("compare", *words)[0] == code
 
 
@@ -286,11 +337,17 @@ def test_report_is_one_page_with_escaped_names(tmp_path):
     text = page(tmp_path).read_text(encoding="utf-8")
     assert text.count("<script>") == 1 and "data:image/png;base64," in text and "<svg" in text
     assert "&lt;script&gt;" in text and r"\u202e" in text and "It &lt;b&gt;failed" in text
-    assert re.search(r"\d{4}-\d\d-\d\d \d\d:\d\d UTC", text) and "×" in text and "; --thumbnails" in text
+    assert (
+        re.search(r"\d{4}-\d\d-\d\d \d\d:\d\d UTC", text)
+        and "×" in text
+        and "; --thumbnails" in text
+    )
     assert not re.search(r"(src|href)=[\"']?(http|//|file)", text)
 
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+CHROMIUM = (
+    shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+)
 DRIVE = """
 <script>
 {
@@ -313,14 +370,28 @@ document.body.innerHTML="<pre></pre>";document.querySelector("pre").textContent=
 def test_the_report_sorts_and_filters_in_a_browser(tmp_path):
     """The page's own policy lets no other script run, so the one that drives it is let in by taking the policy away."""
     path = page(tmp_path)
-    words = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--user-data-dir=" + str(tmp_path / "user")]
+    words = [
+        CHROMIUM,
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--user-data-dir=" + str(tmp_path / "user"),
+    ]
     words += ["--virtual-time-budget=5000", "--dump-dom"]
-    shown = subprocess.run([*words, path.as_uri()], capture_output=True, timeout=240, check=True).stdout.decode()
-    assert "<title>Body Moments</title>" in shown and "4 of 4" in shown  # its script ran, that of a name did not
-    text = re.sub(r"<meta http-equiv[^>]*>", "", path.read_text(encoding="utf-8")).replace("</body>", DRIVE + "</body>")
+    shown = subprocess.run(
+        [*words, path.as_uri()], capture_output=True, timeout=240, check=True
+    ).stdout.decode()
+    assert (
+        "<title>Body Moments</title>" in shown and "4 of 4" in shown
+    )  # its script ran, that of a name did not
+    text = re.sub(r"<meta http-equiv[^>]*>", "", path.read_text(encoding="utf-8")).replace(
+        "</body>", DRIVE + "</body>"
+    )
     driven = tmp_path / "driven.html"
     driven.write_text(text, encoding="utf-8")
-    shown = subprocess.run([*words, driven.as_uri()], capture_output=True, timeout=240, check=True).stdout.decode()
+    shown = subprocess.run(
+        [*words, driven.as_uri()], capture_output=True, timeout=240, check=True
+    ).stdout.decode()
     title, count, up, down, found, late, pictures = json.loads(
         html.unescape(re.search(r"<pre>(.*)</pre>", shown, re.S)[1])
     )
@@ -388,7 +459,10 @@ def test_inertia_and_moments_about_a_point(frame):
         xx, yy, zz = second["2,0,0"], second["0,2,0"], second["0,0,2"]
         xy, xz, yz = second["1,1,0"], second["1,0,1"], second["0,1,1"]
         expected = np.array([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]])
-        assert np.abs(entry["inertia_about"]["inertia"] - expected).max() < 1e-12 * np.abs(expected).max()
+        assert (
+            np.abs(entry["inertia_about"]["inertia"] - expected).max()
+            < 1e-12 * np.abs(expected).max()
+        )
         first = np.array([second[key] for key in ("1,0,0", "0,1,0", "0,0,1")]) / entry["mass"]
         assert np.abs(first - (np.array(entry["center_of_mass"]) - point)).max() < 1e-12
         expected = {"center": entry["center_of_mass"], "0.5,-1,2": [0.5, -1.0, 2.0]}

@@ -156,7 +156,19 @@ def test_no_random_damage_of_options_files_is_our_fault(main, library, tmp_path)
         for _ in range(chance.randint(1, 4)):
             place = chance.randrange(len(data))
             data[place : place + chance.choice((0, 1, 1, 9))] = chance.choice(
-                (b"", b"\0", b"-", b"9" * 30, b"[", b"{", b'"', b"e9", b"(", b"nan", bytes([chance.randrange(256)]))
+                (
+                    b"",
+                    b"\0",
+                    b"-",
+                    b"9" * 30,
+                    b"[",
+                    b"{",
+                    b'"',
+                    b"e9",
+                    b"(",
+                    b"nan",
+                    bytes([chance.randrange(256)]),
+                )
             )
         return bytes(data)
 
@@ -165,7 +177,9 @@ def test_no_random_damage_of_options_files_is_our_fault(main, library, tmp_path)
         library.write_bytes(damage(whole))
         codes.add(main("similar", library, "--to", "a")[0])
         path.write_bytes(damage(Q))
-        codes.add(main("measure", "--object", "a", "--fourier", tmp_path / "out.npz", "--q", path)[0])
+        codes.add(
+            main("measure", "--object", "a", "--fourier", tmp_path / "out.npz", "--q", path)[0]
+        )
     assert codes <= {0, 1, 2} and {0, 2} < codes | {1}
 
 
@@ -234,10 +248,18 @@ def test_control_characters_are_shown_and_json_keeps_them(main, tmp_path):
     code, out, said = main("measure", "--object", HOSTILE_NAME)
     assert code == 1 and json.loads(out)["errors"][0]["name"] == HOSTILE_NAME
     (line,) = said.splitlines()
-    assert r"a\x1b[2J\nbody_moments: all fine\x07\u202egnp.\u2066\x9b1m\u2028" in line and line.isprintable()
+    assert (
+        r"a\x1b[2J\nbody_moments: all fine\x07\u202egnp.\u2066\x9b1m\u2028" in line
+        and line.isprintable()
+    )
     said = main("measure", tmp_path / "a\x1b]0;b\n")[2]
     assert r"a\x1b]0;b\n" in said and said.count("\n") == 1
-    for words in (("--output", "\x1b[2J/x"), ("--density", "\x1b[2J"), ("--\x1b[2J",), ("--object",) * 2):
+    for words in (
+        ("--output", "\x1b[2J/x"),
+        ("--density", "\x1b[2J"),
+        ("--\x1b[2J",),
+        ("--object",) * 2,
+    ):
         said = main("measure", *words)[2]
         assert "\x1b" not in said and "error: " in said
     assert visible("Würfel 立方体 \\n ‘’ é\u200d") == "Würfel 立方体 \\n ‘’ é\u200d"
@@ -257,7 +279,9 @@ def starts(tmp_path):
 def test_ctrl_c_ends_a_long_read(tmp_path):
     for words in starts(tmp_path):
         env = {**os.environ, "BODY_MOMENTS_LIMITS": "samples=1e12"}
-        reading = subprocess.Popen(list(map(str, words)), env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        reading = subprocess.Popen(
+            list(map(str, words)), env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        )
         try:
             assert any(b"samples read" in line for line in reading.stderr)
             reading.send_signal(signal.SIGINT)
@@ -290,13 +314,26 @@ def test_scripts_that_blender_may_have_run_before_are_a_finding(tmp_path):
 
     def findings(name, *switches, named=False):
         start = [BLENDER, "--factory-startup", "-b", *switches]
-        words = [*(() if named else (paths[name],)), "--python", SCRIPT, "--", "measure", "--output"]
+        words = [
+            *(() if named else (paths[name],)),
+            "--python",
+            SCRIPT,
+            "--",
+            "measure",
+            "--output",
+        ]
         ended = process(*start, *words, tmp_path / "out.json", *((paths[name],) if named else ()))
         assert ended.returncode == 0, ended.stderr
         (found,) = (json.loads((tmp_path / "out.json").read_text()),)
-        return [one["values"]["names"] for one in found["total"]["findings"] if one["code"] == "scripts_allowed"]
+        return [
+            one["values"]["names"]
+            for one in found["total"]["findings"]
+            if one["code"] == "scripts_allowed"
+        ]
 
     assert findings("text", "-y") == [["rig.py"]]
     assert findings("driver", "-Y", "-y") == [["Box"]]
     assert findings("simple", "-y") == []
-    assert findings("text", "-y", "-Y") == findings("text") == findings("text", "-y", named=True) == []
+    assert (
+        findings("text", "-y", "-Y") == findings("text") == findings("text", "-y", named=True) == []
+    )

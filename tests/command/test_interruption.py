@@ -81,10 +81,26 @@ def test_unwritable_result_fails_every_command(tmp_path, capsys):
     (tmp_path / "list").write_text("")
     np.savez(tmp_path / "a.npz", points=np.eye(3, 2), simplices=[[0, 1, 2]])
     np.save(tmp_path / "a.npy", np.ones((2, 2, 2)))
-    assert batch.main(["measure", "--signature", "--format", "jsonl", "--output", str(result)], channel=-1) == 0
+    assert (
+        batch.main(
+            ["measure", "--signature", "--format", "jsonl", "--output", str(result)], channel=-1
+        )
+        == 0
+    )
     commands = [
-        *(["measure"], ["--help"], ["measure", "-h"], ["audit", tmp_path / "a.urdf"], ["simplex", tmp_path / "a.npz"]),
-        *(["similar", result, "--to", "Box"], ["summary", result], ["merge", result], ["to-csv", result]),
+        *(
+            ["measure"],
+            ["--help"],
+            ["measure", "-h"],
+            ["audit", tmp_path / "a.urdf"],
+            ["simplex", tmp_path / "a.npz"],
+        ),
+        *(
+            ["similar", result, "--to", "Box"],
+            ["summary", result],
+            ["merge", result],
+            ["to-csv", result],
+        ),
         *(["report", result], ["compare", result, result], ["manifest", tmp_path / "a.npy"]),
     ]
     with open("/dev/full", "wb") as full, open(tmp_path / "out", "wb") as out:

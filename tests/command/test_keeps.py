@@ -80,7 +80,11 @@ def test_force_replaces_a_foreign_file(tmp_path, main):
     target.write_text("old")
     arrays.write_text("old")
     code, _ = main(part, "--force", "--output", target, "--fourier", arrays, *WAVES)
-    assert code == 0 and json.loads(target.read_text())["objects"] and np.load(arrays)["F"].shape == (8,)
+    assert (
+        code == 0
+        and json.loads(target.read_text())["objects"]
+        and np.load(arrays)["F"].shape == (8,)
+    )
 
 
 def test_older_results_are_replaced_and_keep_their_mode(tmp_path, main):
@@ -111,8 +115,15 @@ def test_force_keeps_inputs(tmp_path, main, no_measuring, option):
     kept = Path(files.box_file(part)).read_bytes()
     os.link(part, link)
     for target in (part, link):
-        code, said = main("--force", part, option, target, *(WAVES if option == "--fourier" else ["--flat"]))
-        assert code == 2 and str(target) in said and "Use another name" in said and "--force" not in said
+        code, said = main(
+            "--force", part, option, target, *(WAVES if option == "--fourier" else ["--flat"])
+        )
+        assert (
+            code == 2
+            and str(target) in said
+            and "Use another name" in said
+            and "--force" not in said
+        )
     assert part.read_bytes() == kept
 
 

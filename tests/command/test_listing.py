@@ -7,7 +7,15 @@ import os
 import pytest
 from body_moments.command.supervisor.listing import expand
 
-FILES = "a.stl", "b.NRRD", "c_2x3x4_uint8.raw", "d.nii.gz", "e.body_moments.blend.blend", "f/g.blend", "f/h/i.iges"
+FILES = (
+    "a.stl",
+    "b.NRRD",
+    "c_2x3x4_uint8.raw",
+    "d.nii.gz",
+    "e.body_moments.blend.blend",
+    "f/g.blend",
+    "f/h/i.iges",
+)
 OTHERS = "a.txt", "b", "c.raw", "d.gz", "e.body_moments.blend", ".f.stl", ".g/h.stl", "f/stl"
 
 
@@ -17,7 +25,9 @@ def test_folders_list_their_measurable_files(tmp_path):
         (tmp_path / name).write_bytes(b"")
     if os.name == "posix":
         (tmp_path / "f" / "around").symlink_to(tmp_path)
-    found = [os.path.relpath(path, tmp_path).replace(os.sep, "/") for path in expand([str(tmp_path)])]
+    found = [
+        os.path.relpath(path, tmp_path).replace(os.sep, "/") for path in expand([str(tmp_path)])
+    ]
     assert found == list(FILES)
     assert [*expand([str(tmp_path / "a.txt"), "nowhere"])] == [str(tmp_path / "a.txt"), "nowhere"]
 

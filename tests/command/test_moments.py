@@ -38,7 +38,8 @@ def box_surface_moment(powers, low, high):
         return (high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1)
 
     return sum(
-        (low[i] ** powers[i] + high[i] ** powers[i]) * math.prod(one(j, powers[j]) for j in range(3) if j != i)
+        (low[i] ** powers[i] + high[i] ** powers[i])
+        * math.prod(one(j, powers[j]) for j in range(3) if j != i)
         for i in range(3)
     )
 
@@ -63,7 +64,9 @@ def test_a_flat_part_adds_its_area_to_every_order(kind):
     box = files.add_box(center=(0, 0, 0), size=(2, 2, 2))
     bm = bmesh.new()
     bm.from_mesh(box.data)
-    *rim, middle = (bm.verts.new(place) for place in ((3, -1, 0), (4, -1, 0), (4, 1, 0), (3, 1, 0), (3.5, 0, 0)))
+    *rim, middle = (
+        bm.verts.new(place) for place in ((3, -1, 0), (4, -1, 0), (4, 1, 0), (3, 1, 0), (3.5, 0, 0))
+    )
     bm.faces.new(rim)
     for one, other in zip(rim, rim[1:] + rim[:1]):  # the other side of the sheet
         bm.faces.new((other, one, middle))
@@ -73,7 +76,9 @@ def test_a_flat_part_adds_its_area_to_every_order(kind):
     assert measured("--kind", kind, "--thickness", "1")["area"] == pytest.approx(28.0, rel=1e-13)
     assert surface[0, 0, 0] == pytest.approx(28.0, rel=1e-13)
     assert surface[1, 0, 0] == pytest.approx(2 * 2 * 3.5, rel=1e-13)
-    assert surface[4, 0, 0] == pytest.approx(4 * 4 / 5 + 2 * 4 + 2 * 2 * (4**5 - 3**5) / 5, rel=1e-13)
+    assert surface[4, 0, 0] == pytest.approx(
+        4 * 4 / 5 + 2 * 4 + 2 * 2 * (4**5 - 3**5) / 5, rel=1e-13
+    )
     assert close(volume[0, 0, 0], 8.0 if kind == "solid" else 28.0, rel=1e-13)
 
 
@@ -99,7 +104,17 @@ def test_high_orders_of_united_shells_count_overlap_once():
 def test_a_thick_wall_has_moments_to_any_order():
     box = files.add_box(size=(1, 1, 1), center=(0, 0, 0))
     box.body_moments.wall = "INWARD"
-    entry = measured("--order", "20", "--kind", "shell", "--thickness", "0.1", "--density", "1000", "--surface-moments")
+    entry = measured(
+        "--order",
+        "20",
+        "--kind",
+        "shell",
+        "--thickness",
+        "0.1",
+        "--density",
+        "1000",
+        "--surface-moments",
+    )
     moments = entry["moments"]
     for p, q, r in itertools.product(range(0, 21, 4), repeat=3):
         if p + q + r <= 20:
@@ -108,7 +123,10 @@ def test_a_thick_wall_has_moments_to_any_order():
             exact -= math.prod(2 * 0.4 ** (n + 1) / (n + 1) for n in powers)
             bound = moments["error"]["volume"][key]
             # A thickness of 0.1 is no float32 number, and the box's size is one.
-            assert abs(moments["volume"][key] - exact) <= bound + 1e-13 * exact and bound < 1e-9 * exact
+            assert (
+                abs(moments["volume"][key] - exact) <= bound + 1e-13 * exact
+                and bound < 1e-9 * exact
+            )
             assert close(moments["mass"][key], 1000.0 * moments["volume"][key], rel=1e-14)
     assert close(moments["surface"]["0,0,0"], 6.0, rel=1e-13)
 

@@ -77,7 +77,9 @@ def left_out(found):
 
 
 def test_unrendered_objects_and_wire_operands_are_listed():
-    body, cutter, joined, helper, blank = map(files.add_box, ("Body", "Cutter", "Joined", "Helper", "Blank"))
+    body, cutter, joined, helper, blank = map(
+        files.add_box, ("Body", "Cutter", "Joined", "Helper", "Blank")
+    )
     for number, operand in enumerate((cutter, joined)):
         cut = body.modifiers.new("Cut", "BOOLEAN")
         cut.object, cut.solver = operand, "FLOAT" if bpy.app.version >= (5, 0) else "FAST"
@@ -91,21 +93,33 @@ def test_unrendered_objects_and_wire_operands_are_listed():
     found = document()
     assert names(found) == ["Body", "Helper"] and found["errors"] == []
     operand = sentence("boolean_operand")
-    assert left_out(found) == {"Cutter": operand, "Joined": operand, "Blank": sentence("not_rendered")}
+    assert left_out(found) == {
+        "Cutter": operand,
+        "Joined": operand,
+        "Blank": sentence("not_rendered"),
+    }
     assert [entry["name"] for entry in found["left_out"]] == ["Blank", "Cutter", "Joined"]
     assert found["total"]["mass"] == pytest.approx(12000.0)
     assert codes(found["total"]) == ["total_doubtful_parts", "density_defaulted"]
     assert values(found["total"], "total_doubtful_parts")["objects"] == ["Helper"]
     every = document("--all")
-    assert names(every) == ["Blank", "Body", "Cutter", "Helper", "Joined"] and every["left_out"] == []
+    assert (
+        names(every) == ["Blank", "Body", "Cutter", "Helper", "Joined"] and every["left_out"] == []
+    )
     assert codes(every["total"]) == ["total_doubtful_parts"] * 2 + ["density_defaulted"]
-    assert every["total"]["findings"][0]["values"]["objects"] == [["Cutter", "Body"], ["Joined", "Body"]]
+    assert every["total"]["findings"][0]["values"]["objects"] == [
+        ["Cutter", "Body"],
+        ["Joined", "Body"],
+    ]
     named = document("--object", "Blank", "--object", "Cutter")
     assert names(named) == ["Blank", "Cutter"] and named["left_out"] == []
     assert codes(named["total"]) == ["density_defaulted"] and codes(named["objects"][0]) == []
     for modifier in body.modifiers:
         modifier.show_viewport = modifier.show_render = False
-    assert left_out(document()) == {"Blank": sentence("not_rendered"), "Joined": sentence("not_rendered")}
+    assert left_out(document()) == {
+        "Blank": sentence("not_rendered"),
+        "Joined": sentence("not_rendered"),
+    }
 
 
 def test_an_operand_drawn_as_a_solid_is_a_part_with_a_warning():
@@ -137,7 +151,10 @@ def test_collection_operands_and_unrendered_ones_are_left_out():
     cut.operand_type, cut.collection, cut.operation = "COLLECTION", cutters, "UNION"
     found = document()
     assert names(found) == ["Body", "Both", "Two"]
-    assert left_out(found) == {"One": sentence("boolean_operand"), "Other": sentence("not_rendered")}
+    assert left_out(found) == {
+        "One": sentence("boolean_operand"),
+        "Other": sentence("not_rendered"),
+    }
     assert values(found["total"], "total_doubtful_parts")["objects"] == [["Two", "Body"]]
 
 
@@ -150,12 +167,16 @@ def test_objects_rendered_by_another_view_layer_count():
     assert left_out(document()) == {"hidden": sentence("not_rendered")}
     second = bpy.context.scene.view_layers.new("Second")
     found = document()
-    assert errors(found) == {"hidden": sentence("hidden_in_viewport", name="Away", switch="check box")}
+    assert errors(found) == {
+        "hidden": sentence("hidden_in_viewport", name="Away", switch="check box")
+    }
     assert found["left_out"] == []
     second.use = False
     assert left_out(document()) == {"hidden": sentence("not_rendered")}
     bpy.context.view_layer.use = False  # none is rendered: the open one decides
-    assert left_out(document()) == {"hidden": sentence("not_rendered")} and names(document()) == ["shown"]
+    assert left_out(document()) == {"hidden": sentence("not_rendered")} and names(document()) == [
+        "shown"
+    ]
 
 
 def test_file_without_measurable_objects_is_an_error(tmp_path):
@@ -166,10 +187,15 @@ def test_file_without_measurable_objects_is_an_error(tmp_path):
         files.add_box(name).hide_render = True
     path = files.save(tmp_path / "hidden.blend")
     line = run(path)
-    assert errors(line.documents[0]) == {None: sentence("nothing_rendered", count=2)} and line.errors == 1
+    assert (
+        errors(line.documents[0]) == {None: sentence("nothing_rendered", count=2)}
+        and line.errors == 1
+    )
     assert list(left_out(line.documents[0])) == ["a", "b"]
     assert document(path, "--all")["errors"] == []
-    assert errors(document(path, "--object", "z")) == {"z": sentence("no_such_name", kind="object", name="z")}
+    assert errors(document(path, "--object", "z")) == {
+        "z": sentence("no_such_name", kind="object", name="z")
+    }
 
 
 def test_a_density_that_nobody_set_is_a_finding():
@@ -178,7 +204,11 @@ def test_a_density_that_nobody_set_is_a_finding():
     assert codes(entry) == ["density_defaulted"] and entry["density"] == 1000.0
     files.add_box("Heavy")
     whole = document()  # once a file in which nobody asked for a density
-    assert [codes(one) for one in (*whole["objects"], whole["total"])] == [[], [], ["density_defaulted"]]
+    assert [codes(one) for one in (*whole["objects"], whole["total"])] == [
+        [],
+        [],
+        ["density_defaulted"],
+    ]
     bpy.data.objects["Heavy"].body_moments.density = 7.0
     assert [codes(one) for one in document()["objects"]] == [[], ["density_defaulted"]]
     bpy.data.objects.remove(bpy.data.objects["Heavy"])
@@ -277,9 +307,9 @@ def test_settings_stored_in_a_blend_file_are_used(tmp_path):
     box.body_moments.mass_from, box.body_moments.mass = "MASS", 7.0
     shell = files.add_box("Shell")
     shell.body_moments.kind, shell.body_moments.thickness = "SHELL", 0.5
-    solid, sheet = sorted(document(files.save(tmp_path / "part.blend"))["objects"], key=lambda entry: entry["kind"])[
-        ::-1
-    ]
+    solid, sheet = sorted(
+        document(files.save(tmp_path / "part.blend"))["objects"], key=lambda entry: entry["kind"]
+    )[::-1]
     assert solid["kind"] == "solid" and solid["mass"] == pytest.approx(7.0)
     assert sheet["kind"] == "shell" and sheet["method"] == "shell"
     assert sheet["mass"] == pytest.approx(22.0 * 0.5 * 1000.0)
@@ -307,7 +337,9 @@ def test_the_frame_is_the_worlds_or_the_objects_own():
 
 def box_moment(powers, center=files.CENTER, size=(1, 2, 3)):
     bounds = [(c - s / 2, c + s / 2) for c, s in zip(center, size, strict=True)]
-    return math.prod((b ** (n + 1) - a ** (n + 1)) / (n + 1) for (a, b), n in zip(bounds, powers, strict=True))
+    return math.prod(
+        (b ** (n + 1) - a ** (n + 1)) / (n + 1) for (a, b), n in zip(bounds, powers, strict=True)
+    )
 
 
 def test_no_result_is_written_over_the_wave_vectors(tmp_path, capfd, standard_output):

@@ -24,7 +24,8 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 SCRIPT = str(ROOT / "operators" / "batch.py")
 BLENDER = os.environ.get("BLENDER") or shutil.which("blender")
 in_blender = pytest.mark.skipif(
-    not BLENDER, reason="needs a real Blender: put one on the PATH or name it with the variable BLENDER"
+    not BLENDER,
+    reason="needs a real Blender: put one on the PATH or name it with the variable BLENDER",
 )
 
 
@@ -61,13 +62,19 @@ def test_closed_standard_output_matters_only_without_output_file(folder, tmp_pat
         return process(*shell, sys.executable, SCRIPT, "measure", folder / "part.glb", *words)
 
     ended = closed()
-    assert ended.returncode == 1 and b"cannot be written" in ended.stderr and b"Traceback" not in ended.stderr
+    assert (
+        ended.returncode == 1
+        and b"cannot be written" in ended.stderr
+        and b"Traceback" not in ended.stderr
+    )
     assert closed("--output", tmp_path / "out.json").returncode == 0
     assert json.loads((tmp_path / "out.json").read_text())["objects"]
 
 
 def test_a_broken_file_gives_1_and_the_others_are_there(folder):
-    ended = script("measure", "part.glb", "bad.blend", "gone.stl", "part.stl", "--format", "jsonl", cwd=folder)
+    ended = script(
+        "measure", "part.glb", "bad.blend", "gone.stl", "part.stl", "--format", "jsonl", cwd=folder
+    )
     found = [json.loads(line) for line in ended.stdout.splitlines()]
     assert ended.returncode == 1
     assert [len(document["objects"]) for document in found] == [1, 0, 0, 1]
@@ -80,7 +87,9 @@ def test_fourier_transform_is_written_into_a_pipe(folder, tmp_path):
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
     reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
-    ended = script("measure", "part.stl", "--fourier", pipe, "--grid", "2", "--qmax", "1", cwd=folder)
+    ended = script(
+        "measure", "part.stl", "--fourier", pipe, "--grid", "2", "--qmax", "1", cwd=folder
+    )
     found = np.load(io.BytesIO(os.read(reader, 1 << 16)))
     os.close(reader)
     assert ended.returncode == 0 and found["F"].shape == (8,) and pipe.is_fifo()
@@ -99,13 +108,23 @@ def test_the_script_leaves_no_folder_behind(folder, tmp_path):
 
 def test_a_program_that_has_imported_bpy_may_run_the_script(folder):
     code = "import bpy, runpy, sys; sys.argv = sys.argv[1:]; runpy.run_path(sys.argv[0], run_name='__main__')"
-    ended = process(sys.executable, "-c", code, SCRIPT, "measure", "--no-supervisor", "part.stl", cwd=folder)
+    ended = process(
+        sys.executable, "-c", code, SCRIPT, "measure", "--no-supervisor", "part.stl", cwd=folder
+    )
     document = ended.stdout[ended.stdout.index(b"{") :]  # Blender may warn of the system before
     assert ended.returncode == 0 and json.loads(document)["file"] == "part.stl"
 
 
 def test_script_without_bpy_names_what_needs_blender(folder):
-    for words, name in (([folder / "part.blend"], "part.blend"), ([folder / "part.stl", "--flat"], "--flat")):
+    for words, name in (
+        ([folder / "part.blend"], "part.blend"),
+        ([folder / "part.stl", "--flat"], "--flat"),
+    ):
         ended = process(sys.executable, "-S", SCRIPT, "measure", *words)
         said = ended.stderr.decode()
-        assert ended.returncode == 2 and ended.stdout == b"" and name in said and "--blender PATH" in said
+        assert (
+            ended.returncode == 2
+            and ended.stdout == b""
+            and name in said
+            and "--blender PATH" in said
+        )

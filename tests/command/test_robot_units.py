@@ -73,11 +73,17 @@ def test_bones_are_links_in_meters(tmp_path, name, unit):
     assert max(link.sides.max() for link in links.values()) < (high - low).max() * unit
 
 
-@pytest.mark.parametrize("option", [("--material", "Aluminum"), ("--kind", "shell", "--thickness", "0.001")])
+@pytest.mark.parametrize(
+    "option", [("--material", "Aluminum"), ("--kind", "shell", "--thickness", "0.001")]
+)
 def test_collections_follow_the_density_options(tmp_path, option):
     path = box_stl(tmp_path)
-    (link,) = exported(tmp_path, "urdf", "--links", "collection", "--unit-scale", "0.001", *option, path).values()
-    assert close(link.mass, document(*option, "--unit-scale", "0.001", path)["total"]["mass"], 1e-12)
+    (link,) = exported(
+        tmp_path, "urdf", "--links", "collection", "--unit-scale", "0.001", *option, path
+    ).values()
+    assert close(
+        link.mass, document(*option, "--unit-scale", "0.001", path)["total"]["mass"], 1e-12
+    )
 
 
 @pytest.mark.parametrize("links", ["collection", "bone"])

@@ -112,12 +112,23 @@ def test_the_other_formats_hold_the_same_bodies(tmp_path, unit):
     usd = text("measure", "--format", "usd")
     for name, record in records.items():
         prim = usd[usd.index('"{}"'.format(name.replace(" ", "_"))) :]
-        xx, yy, zz, xy, xz, yz = map(float, re.search(r"newton:inertia = \[(.*)\]", prim)[1].split(","))
+        xx, yy, zz, xy, xz, yz = map(
+            float, re.search(r"newton:inertia = \[(.*)\]", prim)[1].split(",")
+        )
         mass = float(re.search(r"physics:mass = (.*)", prim)[1])
-        check(record, record["mass"], record["center_of_mass"], [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        check(
+            record,
+            record["mass"],
+            record["center_of_mass"],
+            [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
+        )
         assert close(mass, record["mass"], 1e-7)
     gltf = json.loads(text("measure", "--format", "gltf"))
-    bodies = {node["name"]: node for node in gltf["nodes"] if "motion" in node.get("extensions", {}).get(KHR, ())}
+    bodies = {
+        node["name"]: node
+        for node in gltf["nodes"]
+        if "motion" in node.get("extensions", {}).get(KHR, ())
+    }
     assert bodies.keys() == records.keys() and "meshes" not in gltf
     for name, node in bodies.items():
         motion = node["extensions"][KHR]["motion"]
@@ -138,7 +149,9 @@ def test_unmeasured_parent_passes_link_to_its_own_parent():
     between = add(None, "Between")
     between.parent, tool.parent = forearm, between
     bpy.context.view_layer.update()
-    root = ElementTree.fromstring(text("measure", "--format", "urdf", "--object", "Upper", "--object", "Tool"))
+    root = ElementTree.fromstring(
+        text("measure", "--format", "urdf", "--object", "Upper", "--object", "Tool")
+    )
     (joint,) = root.iter("joint")
     assert (joint.find("parent").get("link"), joint.find("child").get("link")) == ("Upper", "Tool")
 
@@ -156,18 +169,29 @@ def test_meshes_are_written_along_link_axes(tmp_path):
     arm(0.001)
     path = tmp_path / "robot.urdf"
     text("measure", "--format", "urdf", "--output", str(path))
-    record = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}["Fore arm"]
+    record = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}[
+        "Fore arm"
+    ]
     named = [mesh.get("filename") for mesh in ElementTree.parse(path).getroot().iter("mesh")]
     assert {tmp_path / name for name in named} == {*(tmp_path / "meshes" / "robot").iterdir()}
-    for name, times in (("usd", 2), ("gltf", 1)):  # These formats embed meshes; in USD one is seen and one collides.
+    for name, times in (
+        ("usd", 2),
+        ("gltf", 1),
+    ):  # These formats embed meshes; in USD one is seen and one collides.
         path = tmp_path / name / ("robot." + name)
         path.parent.mkdir()
         text("measure", "--format", name, "--output", str(path))
         assert [*path.parent.iterdir()] == [path]
-        assert len(re.findall(r'def Mesh|"primitives"', path.read_text(encoding="utf-8"))) == 3 * times
-    again = document(str(tmp_path / "meshes" / "robot" / "fore_arm.stl"), "--unit-scale", "1")["objects"][0]
+        assert (
+            len(re.findall(r'def Mesh|"primitives"', path.read_text(encoding="utf-8"))) == 3 * times
+        )
+    again = document(str(tmp_path / "meshes" / "robot" / "fore_arm.stl"), "--unit-scale", "1")[
+        "objects"
+    ][0]
     assert close(again["volume"], record["volume"], 1e-6)
-    assert np.abs(np.subtract(again["center_of_mass"], record["center_of_mass"])).max() < 1e-6 * 0.005
+    assert (
+        np.abs(np.subtract(again["center_of_mass"], record["center_of_mass"])).max() < 1e-6 * 0.005
+    )
 
 
 @pytest.mark.parametrize("name", SUFFIXES)
@@ -175,7 +199,12 @@ def test_meshes_are_left_out_of_streams_and_on_request(tmp_path, name):
     """A robot on the standard output has no files beside it to name."""
     arm()
     path = tmp_path / ("robot" + SUFFIXES[name])
-    for words in ((), ("--output", "/dev/stdout"), ("--output", "/dev/null"), ("--no-meshes", "--output", path)):
+    for words in (
+        (),
+        ("--output", "/dev/stdout"),
+        ("--output", "/dev/null"),
+        ("--no-meshes", "--output", path),
+    ):
         line = Run(parsed("measure", "--format", name, *words))
         line.measure()
         found = line.documents[0]["robot"]
@@ -214,7 +243,10 @@ def test_meshes_in_blocks_are_links_without_geometry(tmp_path, name):
     path.write_bytes(stl(box((0, 0, 0), (1, 2, 3))))
     (link,) = exported(tmp_path, name, "--stream", "always", path).values()
     assert close(link.mass, 6000.0, 1e-12) and not len(link.corners)
-    assert sorted(file.name for file in tmp_path.iterdir()) == ["part.stl", "robot" + SUFFIXES[name]]
+    assert sorted(file.name for file in tmp_path.iterdir()) == [
+        "part.stl",
+        "robot" + SUFFIXES[name],
+    ]
 
 
 def test_robots_in_one_folder_keep_their_own_meshes(tmp_path):
@@ -224,7 +256,9 @@ def test_robots_in_one_folder_keep_their_own_meshes(tmp_path):
     body.scale = (2, 2, 2)
     bpy.context.view_layer.update()
     text("measure", "--format", "urdf", "--output", tmp_path / "large.urdf")
-    small, large = (exported_links(tmp_path / (name + ".urdf"))["Part"] for name in ("small", "large"))
+    small, large = (
+        exported_links(tmp_path / (name + ".urdf"))["Part"] for name in ("small", "large")
+    )
     assert close(large.sides, 2.0 * small.sides, 1e-6)
 
 
@@ -241,7 +275,11 @@ def test_only_meshes_of_ours_are_replaced(tmp_path):
     line.measure()
     (entry,) = line.documents[0]["errors"]
     assert str(tool) in entry["reason"] and "would be lost" in entry["reason"]
-    assert tool.read_bytes() == b"mine" * 30 and not upper.exists() and "mesh" not in line.documents[0]["robot"]
+    assert (
+        tool.read_bytes() == b"mine" * 30
+        and not upper.exists()
+        and "mesh" not in line.documents[0]["robot"]
+    )
     text(*words, "--force")
     assert upper.is_file() and tool.read_bytes().startswith(b"Body Moments")
     tool.write_bytes(b"")
@@ -255,7 +293,16 @@ def test_the_mesh_that_is_measured_is_never_replaced(tmp_path):
     text("measure", "--format", "urdf", "--output", tmp_path / "robot.urdf")
     path = tmp_path / "meshes" / "robot" / "part.stl"
     before = path.read_bytes()
-    words = ("measure", "--format", "urdf", "--unit-scale", "0.001", "--output", tmp_path / "robot.urdf", "--force")
+    words = (
+        "measure",
+        "--format",
+        "urdf",
+        "--unit-scale",
+        "0.001",
+        "--output",
+        tmp_path / "robot.urdf",
+        "--force",
+    )
     line = Run(parsed(*words, path))
     line.measure()
     assert line.errors == 1 and path.read_bytes() == before
@@ -278,22 +325,32 @@ def test_collections_and_bones_are_links_too(tmp_path):
     for obj in (upper, forearm):
         bpy.context.scene.collection.objects.unlink(obj)
         hand.objects.link(obj)
-    root = ElementTree.fromstring(text("measure", "--format", "mjcf", "--links", "collection", "--density", "2000"))
+    root = ElementTree.fromstring(
+        text("measure", "--format", "mjcf", "--links", "collection", "--density", "2000")
+    )
     (body,) = root.iter("body")
     total = document("--density", "2000", "--object", "Upper", "--object", "Fore arm")["total"]
-    assert body.get("name") == "Hand" and close(float(body.find("inertial").get("mass")), total["mass"], 1e-14)
+    assert body.get("name") == "Hand" and close(
+        float(body.find("inertial").get("mass")), total["mass"], 1e-14
+    )
     character = characters.box_skeleton()
     armature = armature_of(character, parents=PARENTS)
     skin_of(character, armature)
     path = tmp_path / "rig.urdf"
-    root = ElementTree.fromstring(text("measure", "--format", "urdf", "--links", "bone", "--output", path))
+    root = ElementTree.fromstring(
+        text("measure", "--format", "urdf", "--links", "bone", "--output", path)
+    )
     assert {*character.names} <= {link.get("name") for link in root.iter("link")}
     assert len([*(tmp_path / "meshes" / "rig").iterdir()]) == len(character.names)
     for words, factor in ((("--density", "2000"), 2.0), (("--material", "Steel, Carbon"), 7.82)):
-        given = ElementTree.fromstring(text("measure", "--format", "urdf", "--links", "bone", *words))
+        given = ElementTree.fromstring(
+            text("measure", "--format", "urdf", "--links", "bone", *words)
+        )
         for mass, other in zip(root.iter("mass"), given.iter("mass"), strict=True):
             assert close(float(other.get("value")), factor * float(mass.get("value")), 1e-12)
-    given = ElementTree.fromstring(text("measure", "--format", "urdf", "--links", "bone", "--mass", "5"))
+    given = ElementTree.fromstring(
+        text("measure", "--format", "urdf", "--links", "bone", "--mass", "5")
+    )
     assert close(sum(float(mass.get("value")) for mass in given.iter("mass")), 5.0, 1e-12)
 
 
@@ -313,7 +370,10 @@ def test_a_robot_without_links_is_an_error():
     line = Run(parsed("measure", "--format", "urdf", "--links", "bone"))
     line.measure()
     (entry,) = line.documents[0]["errors"]
-    assert line.errors == 1 and entry == {"name": None, "reason": str(finding("robot_without_links"))}
+    assert line.errors == 1 and entry == {
+        "name": None,
+        "reason": str(finding("robot_without_links")),
+    }
 
 
 def test_unwritable_meshes_are_an_error_beside_the_robot(tmp_path):
@@ -324,7 +384,13 @@ def test_unwritable_meshes_are_an_error_beside_the_robot(tmp_path):
     line = Run(parsed("measure", "--format", "urdf", "--output", str(path)))
     line.measure()
     (entry,) = line.documents[0]["errors"]
-    assert line.errors == 1 and line.internal_errors == 0 and (tmp_path / "meshes").read_text() == "mine"
+    assert (
+        line.errors == 1
+        and line.internal_errors == 0
+        and (tmp_path / "meshes").read_text() == "mine"
+    )
     expected = finding("file_not_written", file=str(tmp_path / "meshes"), error="File exists")
     assert entry == {"name": None, "reason": str(expected)}
-    assert line.documents[0]["robot"].startswith("<?xml") and "mesh" not in line.documents[0]["robot"]
+    assert (
+        line.documents[0]["robot"].startswith("<?xml") and "mesh" not in line.documents[0]["robot"]
+    )

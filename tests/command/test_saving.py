@@ -68,11 +68,28 @@ def test_written_results_are_current_after_opening(tmp_path):
     path = files.box_file(tmp_path / "part.blend")
     measured(path, "--write", "--density", "5.123456789")
     box = reopened(path)[files.BOX_NAME]
-    assert box["body_density"] == 5.123456789 and box.body_moments.density == np.float32(5.123456789)
+    assert box["body_density"] == 5.123456789 and box.body_moments.density == np.float32(
+        5.123456789
+    )
     assert staleness.stale_reason(box, bpy.context.scene) is None
-    measured(path, "--write", "--kind", "shell", "--thickness", "0.002", "--wall", "inward", "--mass", "3")
+    measured(
+        path,
+        "--write",
+        "--kind",
+        "shell",
+        "--thickness",
+        "0.002",
+        "--wall",
+        "inward",
+        "--mass",
+        "3",
+    )
     box = reopened(path)[files.BOX_NAME]
-    assert (box.body_moments.kind, box.body_moments.wall, box.body_moments.mass_from) == ("SHELL", "INWARD", "MASS")
+    assert (box.body_moments.kind, box.body_moments.wall, box.body_moments.mass_from) == (
+        "SHELL",
+        "INWARD",
+        "MASS",
+    )
     assert staleness.stale_reason(box, bpy.context.scene) is None
 
 
@@ -112,9 +129,13 @@ def test_a_file_that_cannot_be_replaced_is_left_as_it_was(tmp_path, monkeypatch)
     (error,) = found["errors"]
     assert error == {
         "name": None,
-        "reason": files.sentence("file_not_written", file="part.blend", error="No space left on device"),
+        "reason": files.sentence(
+            "file_not_written", file="part.blend", error="No space left on device"
+        ),
     }
-    assert path.read_bytes() == before and [file.name for file in tmp_path.iterdir()] == ["part.blend"]
+    assert path.read_bytes() == before and [file.name for file in tmp_path.iterdir()] == [
+        "part.blend"
+    ]
 
 
 def test_a_link_to_a_file_stays_a_link(tmp_path):
@@ -228,7 +249,9 @@ def test_changes_saved_meanwhile_are_kept(tmp_path, monkeypatch, change, opened)
     assert [entry["name"] for entry in found["objects"]] == [files.BOX_NAME]
     (error,) = found["errors"]
     assert "Measure it again" in error["reason"] and line.internal_errors == 0
-    assert [path.read_bytes()] == saved and [file.name for file in tmp_path.iterdir()] == ["part.blend"]
+    assert [path.read_bytes()] == saved and [file.name for file in tmp_path.iterdir()] == [
+        "part.blend"
+    ]
 
 
 def test_a_file_that_is_gone_does_not_come_back(tmp_path, monkeypatch):
@@ -258,7 +281,16 @@ def test_process_ended_while_saving_leaves_the_file(tmp_path, number):
     path = tmp_path / "part.blend"
     files.box_file(path)
     kept = path.read_bytes()
-    words = [sys.executable, "-c", _SAVING, SCRIPT, "measure", "--no-supervisor", str(path), "--write"]
+    words = [
+        sys.executable,
+        "-c",
+        _SAVING,
+        SCRIPT,
+        "measure",
+        "--no-supervisor",
+        str(path),
+        "--write",
+    ]
     with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as saving:
         while b"saving" not in (line := saving.stderr.readline()):
             assert line

@@ -29,7 +29,10 @@ def corners(obj):
 def shape_file(tmp_path, *flags):
     path = tmp_path / "library.jsonl"
     channel = os.open(os.devnull, os.O_WRONLY)
-    code = batch.main(["measure", "--signature", "--format", "jsonl", "--output", str(path), *flags], channel=channel)
+    code = batch.main(
+        ["measure", "--signature", "--format", "jsonl", "--output", str(path), *flags],
+        channel=channel,
+    )
     os.close(channel)
     return path, code
 
@@ -54,11 +57,15 @@ def test_copies_have_one_pose_and_its_matrix_aligns_them():
     assert np.linalg.det(np.array(poses[0]["matrix"])) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("sides, group, order", [(6, "D6h", 6), (8, "D8h", 30), (12, "D12h", 30), (32, "D∞h", 30)])
+@pytest.mark.parametrize(
+    "sides, group, order", [(6, "D6h", 6), (8, "D8h", 30), (12, "D12h", 30), (32, "D∞h", 30)]
+)
 def test_turned_prisms_have_one_pose_and_symmetry_group(sides, group, order):
     turns = (0.0, 0.0, 0.0), (0.0, 0.0, 0.2), (1.3, 2.4, -0.5)
     for turn in turns:
-        bpy.ops.mesh.primitive_cylinder_add(vertices=sides, depth=3.0, location=(1, 2, 3), rotation=turn)
+        bpy.ops.mesh.primitive_cylinder_add(
+            vertices=sides, depth=3.0, location=(1, 2, 3), rotation=turn
+        )
     prisms = bpy.context.scene.objects[-3:]
     entries = document("--pose")["objects"]
     poses = {entry["name"]: entry["pose"] for entry in entries}
@@ -68,9 +75,13 @@ def test_turned_prisms_have_one_pose_and_symmetry_group(sides, group, order):
         assert (pose["symmetry"], pose["symmetry_order"], pose["unique"]) == (group, order, False)
         matrix = np.array(pose["matrix"])
         laid.append(corners(prism) @ matrix[:3, :3].T + matrix[:3, 3])
-    apart = [np.linalg.norm(other[:, None] - laid[0], axis=2).min(axis=1).max() for other in laid[1:]]
+    apart = [
+        np.linalg.norm(other[:, None] - laid[0], axis=2).min(axis=1).max() for other in laid[1:]
+    ]
     assert max(apart) < 1e-5
-    for entry in entries[:2] if group != "D6h" else ():  # Stored axes stay near the object's own axes.
+    for entry in (
+        entries[:2] if group != "D6h" else ()
+    ):  # Stored axes stay near the object's own axes.
         assert abs(abs(entry["principal_axes"][2][0]) - 1.0) < 1e-5
 
 
@@ -111,7 +122,9 @@ def test_similar_tells_copies_mirror_images_and_sizes(tmp_path):
     for name, scale in (("Hand", (1, 1, 1)), ("Other hand", (-1, 1, 1)), ("Big hand", (2, 2, 2))):
         mesh = bpy.data.meshes.new(name)
         mesh.from_pydata(
-            [(0, 0, 0), (1, 0.2, 0), (0.3, 2, 0.1), (0.2, 0.4, 3)], [], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+            [(0, 0, 0), (1, 0.2, 0), (0.3, 2, 0.1), (0.2, 0.4, 3)],
+            [],
+            [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)],
         )
         add(mesh, name, location=(4, 5, 6), rotation=(1, 0, 2), scale=scale)
     add_box("Box")
@@ -120,24 +133,36 @@ def test_similar_tells_copies_mirror_images_and_sizes(tmp_path):
     code, text = ask(tmp_path, path, "--to", "Hand")
     assert code == 0
     rows = {
-        line.split()[-1] if "Other" not in line and "Big" not in line else " ".join(line.split()[-2:]): line
+        line.split()[-1]
+        if "Other" not in line and "Big" not in line
+        else " ".join(line.split()[-2:]): line
         for line in text.splitlines()[1:]
     }
     assert " mirror image " in rows["Other hand"] and " scaled copy " in rows["Big hand"]
     assert "different" in rows["Box"]
     order = [line.split()[-1] for line in text.splitlines()[1:]]
-    assert order[-1] in ("Box", "Copy", "Part")  # Mirrored and enlarged bodies are nearer than other shapes.
+    assert order[-1] in (
+        "Box",
+        "Copy",
+        "Part",
+    )  # Mirrored and enlarged bodies are nearer than other shapes.
     code, text = ask(tmp_path, path, "--to", "Hand", "--any-hand", "--any-size")
     assert sum(float(line.split()[0]) < 1e-5 for line in text.splitlines()[1:]) == 2
     code, text = ask(tmp_path, path, "--to", "Part", "--count", 1)
-    assert text.splitlines()[1].split()[-1] == "Copy" and " copy " in text and len(text.splitlines()) == 2
+    assert (
+        text.splitlines()[1].split()[-1] == "Copy"
+        and " copy " in text
+        and len(text.splitlines()) == 2
+    )
 
 
 def test_a_name_may_hold_any_character(tmp_path):
     for name in ("Box", "a\u2028b", "c\x85d", "e\nf", 'g"h'):
         add_box(name)
     path, _ = shape_file(tmp_path)
-    assert {entry.name for entry in read_library(path)[0]} == {obj.name for obj in bpy.context.scene.objects}
+    assert {entry.name for entry in read_library(path)[0]} == {
+        obj.name for obj in bpy.context.scene.objects
+    }
 
 
 def test_a_wrong_question_is_wrong_usage(tmp_path, capsys):
@@ -165,14 +190,18 @@ def test_bodies_of_one_name_are_told_apart_by_their_files(tmp_path):
         path.write_text(json.dumps({**library, "file": name + ".blend"}) + "\n", encoding="utf-8")
     for asked, other in ("ab", "ba"):
         code, text = ask(tmp_path, *paths, "--to", asked + ".blend:Box")
-        assert code == 0 and [line.split()[-1] for line in text.splitlines()[1:]] == [other + ".blend:Box"]
+        assert code == 0 and [line.split()[-1] for line in text.splitlines()[1:]] == [
+            other + ".blend:Box"
+        ]
     assert ask(tmp_path, *paths, "--to", "c.blend:Box")[0] == 2
 
 
 def test_nurbs_signature_is_of_display_mesh_and_wire_has_none():
     bpy.ops.surface.primitive_nurbs_surface_sphere_add(location=(1, 2, 3))
     ball = document("--pose", "--signature")["objects"][0]
-    assert ball["method"].startswith("NURBS") and ball["pose"]["unique"] is False and ball["signature"]
+    assert (
+        ball["method"].startswith("NURBS") and ball["pose"]["unique"] is False and ball["signature"]
+    )
     assert "signature_of_display_mesh" in codes(ball)
     bpy.ops.curve.primitive_nurbs_path_add()
     wire = bpy.context.object
@@ -187,8 +216,14 @@ def test_a_wall_of_curved_patches_has_a_pose_and_no_signature():
     torus = bpy.context.object.body_moments
     torus.kind, torus.thickness = "SHELL", 0.125
     (entry,) = document("--pose", "--signature")["objects"]
-    assert entry["method"] == "NURBS shell" and entry["pose"]["symmetry"] == "D∞h" and entry["signature"] is None
-    assert codes(entry).count("signature_needs_polygons") == 1 and "signature_of_display_mesh" not in codes(entry)
+    assert (
+        entry["method"] == "NURBS shell"
+        and entry["pose"]["symmetry"] == "D∞h"
+        and entry["signature"] is None
+    )
+    assert codes(entry).count(
+        "signature_needs_polygons"
+    ) == 1 and "signature_of_display_mesh" not in codes(entry)
     (entry,) = document("--pose")["objects"]
     assert "signature" not in entry and "signature_needs_polygons" not in codes(entry)
 

@@ -21,7 +21,9 @@ from tests.records import valid
 
 def answered(path, *words):
     ended = script("simplex", path, *words)
-    return ended.returncode, valid(json.loads(ended.stdout)) if ended.stdout else ended.stderr.decode()
+    return ended.returncode, valid(
+        json.loads(ended.stdout)
+    ) if ended.stdout else ended.stderr.decode()
 
 
 def corner(dimension, exponents) -> Fraction:
@@ -45,7 +47,9 @@ def test_moments_of_a_corner_in_n_dimensions_are_fractions(tmp_path, capfd, dime
     record = valid(json.loads(text))
     assert text == json.dumps(record, indent=1) + "\n"  # one number a line
     assert record["dimension"] == dimension and record["closed"] is True
-    powers = [row for row in itertools.product(range(order + 1), repeat=dimension) if sum(row) <= order]
+    powers = [
+        row for row in itertools.product(range(order + 1), repeat=dimension) if sum(row) <= order
+    ]
     assert len(record["moments"]) == len(powers)
     for row in powers:
         key, truth = ",".join(map(str, row)), corner(dimension, row)
@@ -63,7 +67,9 @@ def test_simplices_report_about_boundary_and_openness(tmp_path):
     assert record["boundary"]["moments"]["0,0"] == pytest.approx(8.0, rel=1e-14)
     np.savez(tmp_path / "a.npz", points=square, simplices=[[0, 1], [1, 2], [2, 3]])
     record = answered(tmp_path / "a.npz")[1]
-    assert record["closed"] is False and [one["code"] for one in record["findings"]] == ["simplex_open"]
+    assert record["closed"] is False and [one["code"] for one in record["findings"]] == [
+        "simplex_open"
+    ]
 
 
 def test_wrong_files_and_options_are_said(tmp_path, capfd):
@@ -95,17 +101,29 @@ def test_wrong_files_and_options_are_said(tmp_path, capfd):
     np.savez(tmp_path / "a.npz", points=np.eye(9, 8), simplices=[range(9)])
     assert batch.main(["simplex", str(tmp_path / "a.npz"), "--about", "1,2"], channel=1) == 1
     for words in (["--order", "31"], ["--about", "1,x"], []):
-        assert batch.main(["simplex", *([str(tmp_path / "a.npz")] if words else []), *words], channel=1) == 2
+        assert (
+            batch.main(
+                ["simplex", *([str(tmp_path / "a.npz")] if words else []), *words], channel=1
+            )
+            == 2
+        )
 
 
 def test_overflowing_moment_bounds_are_refused(tmp_path, capfd):
     """Moments of odd order about the middle of a square are zero, however large it is."""
     square = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])
     for scale, order, code in ((1e106, 1, 0), (1e109, 1, 1), (1e109, 0, 0), (1e160, 0, 1)):
-        np.savez(tmp_path / "a.npz", points=scale * square, simplices=[[0, 1], [1, 2], [2, 3], [3, 0]])
-        assert batch.main(["simplex", str(tmp_path / "a.npz"), "--order", str(order)], channel=1) == code
+        np.savez(
+            tmp_path / "a.npz", points=scale * square, simplices=[[0, 1], [1, 2], [2, 3], [3, 0]]
+        )
+        assert (
+            batch.main(["simplex", str(tmp_path / "a.npz"), "--order", str(order)], channel=1)
+            == code
+        )
         said = capfd.readouterr()
-        assert bool(said.out) == (not code) and (sentence("moments_overflow", order=order) in said.err) == bool(code)
+        assert bool(said.out) == (not code) and (
+            sentence("moments_overflow", order=order) in said.err
+        ) == bool(code)
 
 
 def test_archives_that_are_damaged_or_something_else_are_said(tmp_path, capfd):

@@ -27,7 +27,9 @@ FORMS = {"part.stl": stl, "part text.stl": stl_text, "part.ply": lambda part: pl
 
 def run(tmp_path, *words):
     out = tmp_path / "out.json"
-    code = batch.main(in_process("measure", "--force", "--output", out, *words), channel=2, file_needed=True)
+    code = batch.main(
+        in_process("measure", "--force", "--output", out, *words), channel=2, file_needed=True
+    )
     document = json.loads(out.read_text(encoding="utf-8"))
     assert valid(document)
     return code, document
@@ -81,11 +83,19 @@ def test_streamed_record_agrees_with_an_import(tmp_path, name, kind):
 def test_open_and_inside_out_meshes_are_said_to_be(tmp_path):
     _, document = run(tmp_path, written(tmp_path, body=without(part(), 5)), "--stream", "always")
     (entry,) = document["objects"]
-    assert entry["method"] == "open" and not entry["health"]["closed"] and "streamed_open" in codes(entry)
-    _, document = run(tmp_path, written(tmp_path, body=inverted(part())), "--stream", "always", "--order", "3")
+    assert (
+        entry["method"] == "open"
+        and not entry["health"]["closed"]
+        and "streamed_open" in codes(entry)
+    )
+    _, document = run(
+        tmp_path, written(tmp_path, body=inverted(part())), "--stream", "always", "--order", "3"
+    )
     (entry,) = document["objects"]
     assert entry["method"] == "reoriented" and "inverted_components" in codes(entry)
-    assert close(entry["volume"], run(tmp_path, written(tmp_path))[1]["objects"][0]["volume"], rel=1e-12)
+    assert close(
+        entry["volume"], run(tmp_path, written(tmp_path))[1]["objects"][0]["volume"], rel=1e-12
+    )
     assert min(entry["moments"]["volume"][key] for key in ("0,0,0", "2,0,0", "0,2,0")) > 0.0
 
 
@@ -105,7 +115,16 @@ def test_huge_file_is_read_in_blocks_unless_switched_off(tmp_path, monkeypatch):
 
 
 def test_the_usual_findings_are_there(tmp_path):
-    _, document = run(tmp_path, written(tmp_path), "--stream", "always", "--pose", "--signature", "--spacing", "1,1,1")
+    _, document = run(
+        tmp_path,
+        written(tmp_path),
+        "--stream",
+        "always",
+        "--pose",
+        "--signature",
+        "--spacing",
+        "1,1,1",
+    )
     (entry,) = document["objects"]
     assert {"unit_assumed", "density_defaulted", "options_unused"} <= {*codes(entry)}
     assert entry["pose"] is None and entry["signature"] is None and entry["density"] == 1000.0
@@ -113,7 +132,11 @@ def test_the_usual_findings_are_there(tmp_path):
     assert document["objects"][0]["mass"] == pytest.approx(7.0, rel=1e-14)
     assert "density_defaulted" not in codes(document["objects"][0])
     code, document = run(tmp_path, written(tmp_path), "--stream", "always", "--object", "other")
-    assert code == 1 and [error["name"] for error in document["errors"]] == ["other"] and not document["objects"]
+    assert (
+        code == 1
+        and [error["name"] for error in document["errors"]] == ["other"]
+        and not document["objects"]
+    )
 
 
 @pytest.mark.parametrize(
@@ -128,8 +151,14 @@ def test_the_usual_findings_are_there(tmp_path):
 )
 def test_options_that_need_the_mesh_are_refused(tmp_path, words, code):
     exit_code, document = run(tmp_path, written(tmp_path), "--stream", "always", *words)
-    options = {"options": [words[-2] if "--wall" not in words else "--wall"]} if code == "stream_options" else {}
-    assert exit_code == 1 and [error["reason"] for error in document["errors"]] == [sentence(code, **options)]
+    options = (
+        {"options": [words[-2] if "--wall" not in words else "--wall"]}
+        if code == "stream_options"
+        else {}
+    )
+    assert exit_code == 1 and [error["reason"] for error in document["errors"]] == [
+        sentence(code, **options)
+    ]
 
 
 def test_damaged_and_empty_files_are_errors(tmp_path):
@@ -150,7 +179,10 @@ def test_damaged_and_empty_files_are_errors(tmp_path):
         assert code == 1 and [error["reason"] for error in document["errors"]] == [reason]
     code, document = run(tmp_path, tmp_path / "missing.stl", "--stream", "always")
     assert code == 1 and document["status"] == "missing"
-    flat = written(tmp_path, body=(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2], [0, 2, 1]])))
+    flat = written(
+        tmp_path,
+        body=(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2], [0, 2, 1]])),
+    )
     assert run(tmp_path, flat, "--stream", "always")[0] == 1
 
 
@@ -158,12 +190,25 @@ def test_five_million_triangles_are_measured_in_little_memory(tmp_path):
     """By a child, which would be ended if it took more."""
     path, out = tmp_path / "large.stl", tmp_path / "out.json"
     volume = write_large_torus(path, 2500, 1000)
-    words = ["measure", "--memory-mb", str(MEMORY_MB), "--jobs", "1", "--density", "1", "--output", out, path]
+    words = [
+        "measure",
+        "--memory-mb",
+        str(MEMORY_MB),
+        "--jobs",
+        "1",
+        "--density",
+        "1",
+        "--output",
+        out,
+        path,
+    ]
     ended = script(*words)
     document = valid(json.loads(out.read_text(encoding="utf-8")))
     assert ended.returncode == 0 and document["status"] == "ok", ended.stderr
     (entry,) = document["objects"]
-    assert {one["values"]["count"] for one in entry["findings"] if one["code"] == "mesh_streamed"} == {5_000_000}
+    assert {
+        one["values"]["count"] for one in entry["findings"] if one["code"] == "mesh_streamed"
+    } == {5_000_000}
     assert entry["health"]["closed"] and entry["method"] == "exact"
     assert abs(entry["volume"] - volume) <= entry["error_bound"]["volume"] + 1e-12 * volume
     assert entry["error_bound"]["volume"] < 1e-10 * volume

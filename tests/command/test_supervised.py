@@ -22,7 +22,9 @@ from tests.blender import batch_files as files
 from tests.command.test_process import BLENDER, SCRIPT, in_blender, process, script
 from tests.soak import commands, hostile, kills
 
-on_linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="not on this system: /proc")
+on_linux = pytest.mark.skipif(
+    not sys.platform.startswith("linux"), reason="not on this system: /proc"
+)
 signals = pytest.mark.skipif(os.name == "nt", reason="not on this system: signals")
 
 
@@ -47,21 +49,45 @@ def scans(tmp_path_factory):
 def killer(tmp_path_factory):
     """A file that kills Blender."""
     corpus = Path(__file__).resolve().parent.parent / "soak" / "crash_corpus"
-    return Path(shutil.copy(corpus / "damaged_block.blend", tmp_path_factory.mktemp("killer") / "killer.blend"))
+    return Path(
+        shutil.copy(
+            corpus / "damaged_block.blend", tmp_path_factory.mktemp("killer") / "killer.blend"
+        )
+    )
 
 
 def test_file_that_kills_blender_is_a_record(scans, killer, tmp_path):
     first, second = sorted(scans.iterdir())[:2]
     out = tmp_path / "out.jsonl"
-    words = ("measure", first, killer, tmp_path / "none.stl", second, first, "--jobs", "1", "--format", "jsonl")
+    words = (
+        "measure",
+        first,
+        killer,
+        tmp_path / "none.stl",
+        second,
+        first,
+        "--jobs",
+        "1",
+        "--format",
+        "jsonl",
+    )
     ended = script(*words, "--output", out)
     assert ended.returncode == 1 and b"Traceback" not in ended.stderr
     found = lines(out)
-    assert [Path(one["file"]) for one in found] == [first, killer, tmp_path / "none.stl", second, first]
+    assert [Path(one["file"]) for one in found] == [
+        first,
+        killer,
+        tmp_path / "none.stl",
+        second,
+        first,
+    ]
     assert [one["status"] for one in found] == ["ok", "crashed", "missing", "ok", "ok"]
     assert found[0] == found[4] and "2 times" in found[1]["errors"][0]["reason"]
     assert b"4 files in" in ended.stderr and b"killer.blend: Blender crashed" in ended.stderr
-    attempts = {Path(one["key"]["path"]).name: one["attempts"] for one in lines(tmp_path / "out.jsonl.journal")}
+    attempts = {
+        Path(one["key"]["path"]).name: one["attempts"]
+        for one in lines(tmp_path / "out.jsonl.journal")
+    }
     assert attempts == {first.name: 1, killer.name: 2, "none.stl": 1, second.name: 1}
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.jsonl", "out.jsonl.journal"]
 
@@ -95,13 +121,25 @@ def test_folders_manifests_and_ranges_name_the_same_files(scans, tmp_path):
     parts = []
     for part in ("0:5", "5:12"):
         parts.append(tmp_path / "part {}.jsonl".format(part[0]))
-        words = ("measure", "--manifest", listed, "--range", part, "--format", "jsonl", "--output", parts[-1])
+        words = (
+            "measure",
+            "--manifest",
+            listed,
+            "--range",
+            part,
+            "--format",
+            "jsonl",
+            "--output",
+            parts[-1],
+        )
         assert script(*words).returncode == 0
     merged = tmp_path / "merged.jsonl"
     assert script("merge", *parts, parts[1], "--output", merged).returncode == 0
     whole = script("measure", tmp_path / "in", "--format", "jsonl")
     assert whole.returncode == 0 and whole.stdout == merged.read_bytes()
-    assert [one["objects"][0]["mass"] for one in lines(merged)] == [60.0 * (number + 1) for number in range(12)]
+    assert [one["objects"][0]["mass"] for one in lines(merged)] == [
+        60.0 * (number + 1) for number in range(12)
+    ]
     assert script("measure", tmp_path / "in" / "nothing", "--manifest", scans).returncode == 2
     (tmp_path / "empty").mkdir()
     assert script("measure", tmp_path / "empty").returncode == 2
@@ -129,7 +167,9 @@ def test_resuming_measures_only_missing_or_changed_files(scans, tmp_path):
     assert not (tmp_path / "out.json.old").exists()
     before = out.read_bytes()
     assert script(*words).returncode == 0
-    assert (tmp_path / "out.json.old").read_bytes() == before and (tmp_path / "out.json.journal.old").exists()
+    assert (tmp_path / "out.json.old").read_bytes() == before and (
+        tmp_path / "out.json.journal.old"
+    ).exists()
 
 
 @pytest.mark.parametrize("name", ["out.json.old", "out.json.journal"])
@@ -155,12 +195,16 @@ def test_a_signal_ends_a_run_at_once_and_it_can_be_resumed(tmp_path, number):
     out, journal = tmp_path / "out.jsonl", tmp_path / "out.jsonl.journal"
     words = (folder, "--jobs", "1", "--format", "jsonl", "--output", out)
     running = commands.start(*words)
-    assert commands.wait_until(lambda: journal.exists() and journal.read_bytes().count(b"\n") == 4, 120)
+    assert commands.wait_until(
+        lambda: journal.exists() and journal.read_bytes().count(b"\n") == 4, 120
+    )
     born = commands.children(running.pid)
     sent = time.monotonic()
     running.send_signal(number)
     _, said = running.communicate(timeout=20)
-    assert time.monotonic() - sent < 10.0  # within a second on a machine at rest, where the file would take minutes
+    assert (
+        time.monotonic() - sent < 10.0
+    )  # within a second on a machine at rest, where the file would take minutes
     assert running.returncode == 3 and b"interrupted after 4 of 5" in said and not out.exists()
     assert not any(map(commands.is_running, born))
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.jsonl.journal", "scans"]
@@ -173,7 +217,10 @@ def test_a_signal_ends_a_run_at_once_and_it_can_be_resumed(tmp_path, number):
 def test_children_that_do_not_listen_end_together():
     """One period of grace for all of them: with one each these would take 8 s."""
     stubborn = ["sh", "-c", "trap '' TERM; echo; while :; do sleep 1; done"]
-    children = [subprocess.Popen(stubborn, stdout=subprocess.PIPE, start_new_session=True) for _ in range(20)]
+    children = [
+        subprocess.Popen(stubborn, stdout=subprocess.PIPE, start_new_session=True)
+        for _ in range(20)
+    ]
     for child in children:
         child.stdout.readline()
         child.stdout.close()
@@ -228,7 +275,15 @@ def test_results_of_many_files_are_known_when_resuming(tmp_path):
         files.add_box("Box")
         files.save(tmp_path / "{}.blend".format(name))
     out = tmp_path / "out.jsonl"
-    words = ("measure", tmp_path / "a.blend", tmp_path / "b.blend", "--density", "2", "--format", "jsonl")
+    words = (
+        "measure",
+        tmp_path / "a.blend",
+        tmp_path / "b.blend",
+        "--density",
+        "2",
+        "--format",
+        "jsonl",
+    )
     assert script(*words, "--write", "--output", out).returncode == 0
     stored = (tmp_path / "a.blend").read_bytes()
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
@@ -241,9 +296,17 @@ def test_resuming_notices_changed_sample_positions(tmp_path):
     np.save(tmp_path / "scan.npy", np.full((2, 2, 2), 3, "u2"))
     along, out = tmp_path / "x.npy", tmp_path / "out.json"
     np.save(along, np.array([0.0, 1.0]))
-    words = ("measure", tmp_path / "scan.npy", tmp_path / "scan.npy", "--positions", "x={}".format(along))
+    words = (
+        "measure",
+        tmp_path / "scan.npy",
+        tmp_path / "scan.npy",
+        "--positions",
+        "x={}".format(along),
+    )
     ended = script(*words, "--output", along, "--force")
-    assert ended.returncode == 2 and b"x.npy" in ended.stderr and np.load(along).tolist() == [0.0, 1.0]
+    assert (
+        ended.returncode == 2 and b"x.npy" in ended.stderr and np.load(along).tolist() == [0.0, 1.0]
+    )
     assert script(*words, "--output", out).returncode == 0
     before = json.loads(out.read_text())[0]["objects"][0]["mass"]
     np.save(along, np.array([0.0, 2.0]))
@@ -276,10 +339,14 @@ def test_resuming_notices_changed_references(tmp_path):
     files.empty_scene()
     files.add_box("Box")
     files.save(tmp_path / "part.gltf")
-    header = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\ndata file: samples.bin\n"
+    header = (
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\ndata file: samples.bin\n"
+    )
     (tmp_path / "scan.nhdr").write_text(header)
     (tmp_path / "samples.bin").write_bytes(bytes([1] * 8))
-    (tmp_path / "broken.gltf").write_text((tmp_path / "part.gltf").read_text().replace("part.bin", "absent.bin"))
+    (tmp_path / "broken.gltf").write_text(
+        (tmp_path / "part.gltf").read_text().replace("part.bin", "absent.bin")
+    )
     out = tmp_path / "out.jsonl"
     named = [tmp_path / name for name in ("main.blend", "part.gltf", "scan.nhdr", "broken.gltf")]
     words = ("measure", *named, "--jobs", "1", "--format", "jsonl", "--output", out)
@@ -288,7 +355,9 @@ def test_resuming_notices_changed_references(tmp_path):
 
     def measured_again():
         ended = script(*words, "--resume")
-        return ended.stderr.decode().rpartition(" file")[0].split()[-1], [one["status"] for one in lines(out)]
+        return ended.stderr.decode().rpartition(" file")[0].split()[-1], [
+            one["status"] for one in lines(out)
+        ]
 
     assert measured_again()[0] == "0"
     files.empty_scene()
@@ -298,7 +367,10 @@ def test_resuming_notices_changed_references(tmp_path):
     os.utime(tmp_path / "samples.bin", ns=(1, 1))
     shutil.copy(tmp_path / "part.bin", tmp_path / "absent.bin")
     assert measured_again() == ("3", ["ok"] * 4)
-    assert lines(out)[0]["objects"][0]["volume"] == pytest.approx(8.0) and lines(out)[2]["objects"][0]["mass"] == 24.0
+    assert (
+        lines(out)[0]["objects"][0]["volume"] == pytest.approx(8.0)
+        and lines(out)[2]["objects"][0]["mass"] == 24.0
+    )
     (tmp_path / "part.bin").unlink()
     (tmp_path / "inner.blend").unlink()
     assert measured_again() == ("2", ["error", "error", "ok", "ok"])

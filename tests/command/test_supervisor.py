@@ -23,7 +23,9 @@ from body_moments.operators import batch
 
 from tests.blender.batch_files import sentence
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="not on this system: /proc")
+pytestmark = pytest.mark.skipif(
+    not sys.platform.startswith("linux"), reason="not on this system: /proc"
+)
 
 CHILD = r"""
 import json, os, signal, sys, time
@@ -119,31 +121,64 @@ def main(tmp_path, fake, capsys):
 
     def run(*words, reads=True):
         out = tmp_path / "out" / "result"
-        code = batch.main(["measure", *map(str, words), "--format", "jsonl", "--output", str(out)], channel=-1)
+        code = batch.main(
+            ["measure", *map(str, words), "--format", "jsonl", "--output", str(out)], channel=-1
+        )
         said = re.sub(r"in [\d.]+ s", "in 0 s", capsys.readouterr().err).splitlines()
-        documents = [json.loads(line) for line in out.read_text().splitlines()] if reads and out.exists() else []
+        documents = (
+            [json.loads(line) for line in out.read_text().splitlines()]
+            if reads and out.exists()
+            else []
+        )
         journal = out.with_name("result.journal")
-        lines = [json.loads(line) for line in journal.read_text().splitlines()] if journal.exists() else []
-        assert {path.name for path in out.parent.iterdir()} <= {"result", "result.journal", "result.old"} | {
-            "result.journal.old"
-        }
+        lines = (
+            [json.loads(line) for line in journal.read_text().splitlines()]
+            if journal.exists()
+            else []
+        )
+        assert {path.name for path in out.parent.iterdir()} <= {
+            "result",
+            "result.journal",
+            "result.old",
+        } | {"result.journal.old"}
         return code, documents, said, lines
 
     return run
 
 
 def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
-    names = ["ok 1", "crash", "exit", "once", "mad", "short", "empty", "note", "bad", "refers", "ok 2"]
+    names = [
+        "ok 1",
+        "crash",
+        "exit",
+        "once",
+        "mad",
+        "short",
+        "empty",
+        "note",
+        "bad",
+        "refers",
+        "ok 2",
+    ]
     paths = [str(tmp_path / name) for name in names]
     begun = time.monotonic()
-    code, documents, said, journal = main(*paths, paths[0], "--jobs", "1", "--memory-mb", "150", "--timeout", "60")
+    code, documents, said, journal = main(
+        *paths, paths[0], "--jobs", "1", "--memory-mb", "150", "--timeout", "60"
+    )
     assert sum(line["seconds"] for line in journal) < time.monotonic() - begun
     assert code == 1 and [one["file"] for one in documents] == [*paths, paths[0]]
-    ends = {"crash": ("SIGSEGV", 2), "exit": ("exit code 3", 2), "mad": ("SIGKILL", 2), "short": ("exit code 0", 2)}
+    ends = {
+        "crash": ("SIGSEGV", 2),
+        "exit": ("exit code 3", 2),
+        "mad": ("SIGKILL", 2),
+        "short": ("exit code 0", 2),
+    }
     ends["empty"] = "no answer", 1
     status = dict.fromkeys(names, "ok") | dict.fromkeys(ends, "crashed") | {"bad": "error"}
     assert [one["status"] for one in documents] == [*(status[name] for name in names), "ok"]
-    reasons = {name: sentence("file_crashed", how=how, count=count) for name, (how, count) in ends.items()}
+    reasons = {
+        name: sentence("file_crashed", how=how, count=count) for name, (how, count) in ends.items()
+    }
     for document in documents:
         name = Path(document["file"]).name
         if name in reasons:
@@ -170,7 +205,9 @@ def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
     for one in fake("verb"):
         first_of.setdefault(one["pid"], one["path"])
     for name in ("crash", "exit", "mad", "short", "once"):
-        assert [one["path"] for one in fake("verb") if one["path"] == str(tmp_path / name)][1] in first_of.values()
+        assert [one["path"] for one in fake("verb") if one["path"] == str(tmp_path / name)][
+            1
+        ] in first_of.values()
 
 
 @pytest.mark.parametrize(
@@ -180,7 +217,9 @@ def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
         ("fat", "memory", ("--memory-mb", "100"), sentence("file_took_memory", megabytes=100.0)),
     ],
 )
-def test_child_over_its_time_or_memory_is_ended(name, status, words, reason, tmp_path, main, monkeypatch):
+def test_child_over_its_time_or_memory_is_ended(
+    name, status, words, reason, tmp_path, main, monkeypatch
+):
     """One at a time: what takes too much may take long, too, where memory is slow. What is late may clean up first."""
     monkeypatch.setattr(processes, "_GRACE", 10.0)  # A busy machine may need as much.
     code, documents, said, journal = main(tmp_path / name, tmp_path / "ok", *words, "--jobs", "1")
@@ -215,7 +254,10 @@ def test_recorded_file_is_not_measured_again(tmp_path, main, fake):
     os.utime(paths[0], ns=(7, 8))
     _, again, said, journal = main(*words, "--resume")
     assert again == documents and said[-1] == totals.format("2 files")
-    assert said[0] == "body_moments: 3 of 5 files reused; to measure: 1 changed, 1 whose references have changed"
+    assert (
+        said[0]
+        == "body_moments: 3 of 5 files reused; to measure: 1 changed, 1 whose references have changed"
+    )
     assert {one["path"] for one in fake("verb")[asked:]} == {str(paths[0]), str(paths[2])}
     assert len(journal) == 7
     samples.write_text("1")
@@ -223,8 +265,14 @@ def test_recorded_file_is_not_measured_again(tmp_path, main, fake):
         os.utime(path, ns=(time_ns, time_ns))
     asked = len(fake("verb"))
     code, again, said, _ = main(*words, "--retry-failed")
-    assert said[0] == "body_moments: 3 of 5 files reused; to measure: 2 failed" and said[-1] == totals.format("2 files")
-    assert [Path(one["path"]).name for one in fake("verb")[asked:]] == ["bad", "crash", "crash"] and code == 1
+    assert said[0] == "body_moments: 3 of 5 files reused; to measure: 2 failed" and said[
+        -1
+    ] == totals.format("2 files")
+    assert [Path(one["path"]).name for one in fake("verb")[asked:]] == [
+        "bad",
+        "crash",
+        "crash",
+    ] and code == 1
     _, _, said, _ = main(*words, "--resume", "--unit-scale", "0.001", "--density", "7")
     reason = "made with other options: --density --unit-scale"
     assert said[0] == "body_moments: 0 of 5 files reused; to measure: 5 " + reason
@@ -252,7 +300,10 @@ def test_a_run_that_is_interrupted_says_how_far_it_is(tmp_path, main, fake):
         count = len([one for one in fake("path") if "hang" in one["path"]]) if words else 0
 
         def interrupt(count=count):
-            while not (tmp_path / "log").exists() or sum("hang" in one["path"] for one in fake("path")) == count:
+            while (
+                not (tmp_path / "log").exists()
+                or sum("hang" in one["path"] for one in fake("path")) == count
+            ):
                 time.sleep(0.02)
             time.sleep(0.3)
             os.kill(os.getpid(), signal.SIGINT)
@@ -262,7 +313,10 @@ def test_a_run_that_is_interrupted_says_how_far_it_is(tmp_path, main, fake):
         code, documents, said, journal = main(*paths, "--jobs", "1", *words)
         thread.join()
         assert code == 3 and documents == [] and len(journal) == 2
-        assert said[-1].startswith("body_moments: interrupted after 2 of 3 files") and "--resume" in said[-1]
+        assert (
+            said[-1].startswith("body_moments: interrupted after 2 of 3 files")
+            and "--resume" in said[-1]
+        )
 
 
 def test_file_that_ended_a_child_waits_for_a_fresh_one(tmp_path, fake):
@@ -271,9 +325,13 @@ def test_file_that_ended_a_child_waits_for_a_fresh_one(tmp_path, fake):
         outcomes = []
         while not found.is_done:
             outcomes += found.step()
-    assert sorted((one.status, one.how) for one in outcomes) == [("answered", "")] * 6 + [("crashed", "SIGSEGV")]
+    assert sorted((one.status, one.how) for one in outcomes) == [("answered", "")] * 6 + [
+        ("crashed", "SIGSEGV")
+    ]
     first, second = [one["pid"] for one in fake("path") if one["path"] == "crash"]
-    assert first != second and [one["path"] for one in fake("path") if one["pid"] == second] == ["crash"]
+    assert first != second and [one["path"] for one in fake("path") if one["pid"] == second] == [
+        "crash"
+    ]
 
 
 def test_a_line_behind_a_torn_one_is_whole(tmp_path):
@@ -299,7 +357,9 @@ def test_run_ends_with_the_window_that_started_it():
     run = [sys.executable, "-c", code.format("import time; time.sleep(600)")]
     window = "import subprocess, time; subprocess.Popen({!r}); time.sleep(600)".format(run)
     environment = {**os.environ, lifeline.WINDOW: "1"}
-    with subprocess.Popen([sys.executable, "-c", window], env=environment, stdout=subprocess.PIPE) as started:
+    with subprocess.Popen(
+        [sys.executable, "-c", window], env=environment, stdout=subprocess.PIPE
+    ) as started:
         assert started.stdout.read(1) == b"."
         started.kill()
         assert started.stdout.read() == b""  # the pipe is closed as soon as the run has ended, too

@@ -24,7 +24,9 @@ def test_an_iges_body_in_its_own_unit(tmp_path, end):
     entry = measured(file.write(tmp_path / ("ball" + end)), "--density", "1")
     assert (entry["name"], entry["method"]) == ("ball", "NURBS exact")
     assert close(entry["volume"], BALL * 1e-9, 1e-14)
-    assert not {"surfaces_rounded", "unit_assumed", "faces_not_read"} & {found["code"] for found in entry["findings"]}
+    assert not {"surfaces_rounded", "unit_assumed", "faces_not_read"} & {
+        found["code"] for found in entry["findings"]
+    }
 
 
 def test_refused_entity_is_an_error_beside_other_records(tmp_path):
@@ -36,11 +38,15 @@ def test_refused_entity_is_an_error_beside_other_records(tmp_path):
     (error,) = found["errors"]
     assert "VASE" in error["reason"] and "Surface of Revolution (120)" in error["reason"]
     assert [
-        found["values"]["count"] for found in found["objects"][0]["findings"] if found["code"] == "faces_not_read"
+        found["values"]["count"]
+        for found in found["objects"][0]["findings"]
+        if found["code"] == "faces_not_read"
     ] == [1]
 
 
-CUBE = "o Cube\n" + "".join("v {} {} {}\n".format(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1))
+CUBE = "o Cube\n" + "".join(
+    "v {} {} {}\n".format(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)
+)
 FACES = "f -8 -7 -5 -6\nf -4 -2 -1 -3\nf -8 -4 -3 -7\nf -6 -5 -1 -2\nf -8 -6 -2 -4\nf -7 -3 -1 -5\n"
 
 
@@ -51,6 +57,10 @@ def test_faces_and_surfaces_of_one_file(tmp_path):
     volumes = {entry["name"]: entry["volume"] for entry in found["objects"]}
     assert set(volumes) == {"Ring", "Cube"}
     assert close(volumes["Ring"], DONUT, 4e-7) and close(volumes["Cube"], 1.0, 1e-7)
-    path.write_text(obj_text([unrolled(torus())]).replace("end\n", "trim 0 1 1\nend\n") + CUBE + FACES)
+    path.write_text(
+        obj_text([unrolled(torus())]).replace("end\n", "trim 0 1 1\nend\n") + CUBE + FACES
+    )
     found = document(path, "--density", "1")
-    assert [entry["name"] for entry in found["objects"]] == ["Cube"] and "trimmed" in found["errors"][0]["reason"]
+    assert [entry["name"] for entry in found["objects"]] == ["Cube"] and "trimmed" in found[
+        "errors"
+    ][0]["reason"]

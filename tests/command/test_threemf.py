@@ -55,7 +55,11 @@ ONE = '<object id="1" name="Tetra">{}</object>'.format(mesh())
 def test_a_mesh_has_its_files_unit(tmp_path, unit):
     attributes = 'unit="{}"'.format(unit) if unit else ""
     scale = threemf.UNITS[unit or "millimeter"]
-    entry = measured(package(tmp_path / "a.3mf", model(ONE, '<item objectid="1"/>', attributes)), "--density", "1")
+    entry = measured(
+        package(tmp_path / "a.3mf", model(ONE, '<item objectid="1"/>', attributes)),
+        "--density",
+        "1",
+    )
     assert entry["name"] == "Tetra" and entry["method"] == "exact"
     assert close(entry["volume"], scale**3, 1e-12)
     assert close(entry["center_of_mass"], np.array([0.25, 0.5, 0.75]) * scale, 1e-12)
@@ -64,24 +68,32 @@ def test_a_mesh_has_its_files_unit(tmp_path, unit):
 def test_components_and_the_build_place_meshes(tmp_path):
     pair = '<object id="2"><components><component objectid="1"/><component objectid="1" transform="{}"/></components>'
     text = model(
-        ONE + pair.format(TURNED) + "</object>", '<item objectid="2" transform="{}"/>'.format(MOVED), 'unit="meter"'
+        ONE + pair.format(TURNED) + "</object>",
+        '<item objectid="2" transform="{}"/>'.format(MOVED),
+        'unit="meter"',
     )
     found = document(package(tmp_path / "a.3mf", text), "--density", "1")
     first, second = found["objects"]
     assert close(found["total"]["volume"], 9.0, 1e-12)
     assert close(first["center_of_mass"], [10.25, 20.5, 30.75], 1e-12)
-    assert close(second["center_of_mass"], [10.0 - 2.0 * 0.5, 20.0 + 2.0 * 0.25, 30.0 + 2.0 * 0.75], 1e-7)
+    assert close(
+        second["center_of_mass"], [10.0 - 2.0 * 0.5, 20.0 + 2.0 * 0.25, 30.0 + 2.0 * 0.75], 1e-7
+    )
 
 
 def test_a_sheared_place_is_kept(tmp_path):
     item = '<item objectid="1" transform="1 0 0 0.5 1 0 0 0 1 0 0 0"/>'  # x grows by half of y
     entry = measured(package(tmp_path / "a.3mf", model(ONE, item, 'unit="meter"')))
-    assert close(entry["volume"], 1.0, 1e-6) and close(entry["center_of_mass"], [0.5, 0.5, 0.75], 1e-6)
+    assert close(entry["volume"], 1.0, 1e-6) and close(
+        entry["center_of_mass"], [0.5, 0.5, 0.75], 1e-6
+    )
 
 
 def test_objects_of_other_parts(tmp_path):
     other = model(ONE, "")
-    text = model("", '<item objectid="1" p:path="/3D/other.model"/>', 'unit="meter" requiredextensions="p"')
+    text = model(
+        "", '<item objectid="1" p:path="/3D/other.model"/>', 'unit="meter" requiredextensions="p"'
+    )
     entry = measured(package(tmp_path / "a.3mf", text, [("3D/other.model", other)]))
     assert close(entry["volume"], 1.0, 1e-12)
 
@@ -90,19 +102,30 @@ BOMB = '<!DOCTYPE m [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;">]>'
 ITEM = '<item objectid="1"/>'
 WRONG = {
     "entities": model(ONE, ITEM, head=BOMB),
-    "a circle": model('<object id="1"><components><component objectid="1"/></components></object>', ITEM),
+    "a circle": model(
+        '<object id="1"><components><component objectid="1"/></components></object>', ITEM
+    ),
     "no such object": model(ONE, '<item objectid="7"/>'),
-    "nan": model('<object id="1">{}</object>'.format(mesh(((0, 0, 0), ("nan", 0, 0), (0, 2, 0), (0, 0, 3)))), ITEM),
-    "too large": model('<object id="1">{}</object>'.format(mesh(((0, 0, 0), (1e39, 0, 0), (0, 2, 0)))), ITEM),
+    "nan": model(
+        '<object id="1">{}</object>'.format(mesh(((0, 0, 0), ("nan", 0, 0), (0, 2, 0), (0, 0, 3)))),
+        ITEM,
+    ),
+    "too large": model(
+        '<object id="1">{}</object>'.format(mesh(((0, 0, 0), (1e39, 0, 0), (0, 2, 0)))), ITEM
+    ),
     "no such vertex": model('<object id="1">{}</object>'.format(mesh(faces=((0, 1, 4),))), ITEM),
-    "a negative vertex": model('<object id="1">{}</object>'.format(mesh(faces=((0, 1, -1),))), ITEM),
+    "a negative vertex": model(
+        '<object id="1">{}</object>'.format(mesh(faces=((0, 1, -1),))), ITEM
+    ),
     "half a transform": model(ONE, '<item objectid="1" transform="1 0 0"/>'),
     "an infinite transform": model(ONE, '<item objectid="1" transform="inf{}"/>'.format(MOVED[1:])),
     "unit": model(ONE, ITEM, 'unit="parsec"'),
     "not xml": "<model",
     "words": model('<object id="1">{}</object>'.format(mesh((("a", 0, 0),))), ITEM),
     "beams": model(
-        ONE, ITEM, 'xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02" requiredextensions="b"'
+        ONE,
+        ITEM,
+        'xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02" requiredextensions="b"',
     ),
 }
 
@@ -111,7 +134,11 @@ WRONG = {
 def test_a_wrong_file_is_an_error_with_a_reason(tmp_path, name):
     found = document(package(tmp_path / "a.3mf", WRONG[name]))
     (error,) = found["errors"]
-    assert found["objects"] == [] and "3mf" in error["reason"].lower() and "Internal" not in error["reason"]
+    assert (
+        found["objects"] == []
+        and "3mf" in error["reason"].lower()
+        and "Internal" not in error["reason"]
+    )
 
 
 @pytest.mark.parametrize("word", ["1_0", "٣", "1.0D0", "0x1", "--1", "", "1 2", "1,0", "INF"])
@@ -120,10 +147,16 @@ def test_a_wrong_file_is_an_error_with_a_reason(tmp_path, name):
     [("vertex", 'x="1"'), ("triangle", 'v2="1"'), ("item", MOVED), ("component", MOVED)],
 )
 def test_word_for_a_number_is_named_with_its_element(tmp_path, element, field, word):
-    parts = '<object id="2"><components><component objectid="1" transform="{}"/></components></object>'.format(MOVED)
+    parts = '<object id="2"><components><component objectid="1" transform="{}"/></components></object>'.format(
+        MOVED
+    )
     text = model(ONE + "\n" + parts, '\n<item objectid="2" transform="{}"/>'.format(MOVED))
     at = text.index(field, text.index("<" + element + " ") if element != "vertex" else 0)
-    wrong = field[: field.rindex("1")] + word + field[field.rindex("1") + 1 :] if field != MOVED else word + field[1:]
+    wrong = (
+        field[: field.rindex("1")] + word + field[field.rindex("1") + 1 :]
+        if field != MOVED
+        else word + field[1:]
+    )
     path = package(tmp_path / "a.3mf", text[:at] + wrong + text[at + len(field) :])
     with pytest.raises(FileError) as caught:
         threemf.read_3mf(str(path))
@@ -135,9 +168,16 @@ def test_word_for_a_number_is_named_with_its_element(tmp_path, element, field, w
 
 
 def test_numbers_of_xml_schema_are_read(tmp_path):
-    corners = [(" 0 ", "+0", "-0.0"), ("+1.", "0e5", ".0"), ("0", "\t2E0\n", "0"), ("0", "0", "3.0e+00")]
+    corners = [
+        (" 0 ", "+0", "-0.0"),
+        ("+1.", "0e5", ".0"),
+        ("0", "\t2E0\n", "0"),
+        ("0", "0", "3.0e+00"),
+    ]
     text = model('<object id="1">{}</object>'.format(mesh(corners)), ITEM)
-    assert close(measured(package(tmp_path / "a.3mf", text), "--unit-scale", 1)["volume"], 1e-9, rel=1e-6)
+    assert close(
+        measured(package(tmp_path / "a.3mf", text), "--unit-scale", 1)["volume"], 1e-9, rel=1e-6
+    )
 
 
 def test_no_random_damage_is_our_fault(tmp_path):
@@ -153,16 +193,23 @@ def test_no_random_damage_is_our_fault(tmp_path):
 
 
 def test_limits_of_the_archive(tmp_path):
-    path = package(tmp_path / "a.3mf", model(ONE, ITEM), [("x{}".format(number), "") for number in range(50)])
+    path = package(
+        tmp_path / "a.3mf", model(ONE, ITEM), [("x{}".format(number), "") for number in range(50)]
+    )
     assert len(threemf.read_3mf(str(path))[0]) == 1
     for limits in (Limits(entries=20), Limits(unpacked_bytes=100)):
         with pytest.raises(FileError) as refused:
             threemf.read_3mf(str(path), limits)
         assert refused.value.finding.code == "file_exceeds_limit"
     wide = '<object id="{}"><components>{}</components></object>'
-    many = "".join(wide.format(number, '<component objectid="{}"/>'.format(number - 1) * 10) for number in range(2, 12))
+    many = "".join(
+        wide.format(number, '<component objectid="{}"/>'.format(number - 1) * 10)
+        for number in range(2, 12)
+    )
     with pytest.raises(FileError) as refused:
-        threemf.read_3mf(str(package(tmp_path / "b.3mf", model(ONE + many, '<item objectid="11"/>'))))
+        threemf.read_3mf(
+            str(package(tmp_path / "b.3mf", model(ONE + many, '<item objectid="11"/>')))
+        )
     assert refused.value.finding.code == "file_too_large"
 
 
@@ -175,8 +222,13 @@ def test_package_without_relations_has_its_model_in_place(tmp_path):
 
 def test_items_that_are_no_printed_models_are_left_out(tmp_path):
     types = ["model", "support", "solidsupport", "surface", "other"]
-    parts = ['<object id="{}" type="{}" name="{}">{}</object>'.format(9 + i, t, t, mesh()) for i, t in enumerate(types)]
-    group = '<object id="20" name="group"><components><component objectid="10"/></components></object>'
+    parts = [
+        '<object id="{}" type="{}" name="{}">{}</object>'.format(9 + i, t, t, mesh())
+        for i, t in enumerate(types)
+    ]
+    group = (
+        '<object id="20" name="group"><components><component objectid="10"/></components></object>'
+    )
     items = ['<item objectid="{}"/>'.format(9 + i) for i in range(len(types))]
     items += ['<item objectid="9" printable="0"/>', '<item objectid="20"/>']
     path = package(tmp_path / "a.3mf", model("".join([*parts, group]), "".join(items)))

@@ -19,7 +19,12 @@ pytestmark = [
     pytest.mark.skipif(not bpy.app.usd.supported, reason="this Blender is built without USD"),
 ]
 BALL = 4.0 * pi / 3.0
-MATRIX = ((1, 0, 0, 0), (0.5, 2, 0, 0), (0, 0, -3, 0), (10, 20, 30, 1))  # sheared, mirrored and moved
+MATRIX = (
+    (1, 0, 0, 0),
+    (0.5, 2, 0, 0),
+    (0, 0, -3, 0),
+    (10, 20, 30, 1),
+)  # sheared, mirrored and moved
 CAGE = """
     int[] faceVertexCounts = [3, 3, 3, 3]
     int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]
@@ -39,7 +44,9 @@ def moved(matrix=MATRIX):
 
 def measure(tmp_path, *prims, up="Z", unit=1, options=(), is_whole=True):
     head = '#usda 1.0\n(\n upAxis = "{}"\n metersPerUnit = {}\n)\n'.format(up, unit)
-    found = document(files.write_text(tmp_path / "t.usda", head + "".join(prims)), "--density", "1", *options)
+    found = document(
+        files.write_text(tmp_path / "t.usda", head + "".join(prims)), "--density", "1", *options
+    )
     assert not is_whole or found["errors"] == []
     return found
 
@@ -69,11 +76,21 @@ def test_round_usd_solids_match_closed_forms(tmp_path, kind, sizes, volume, cent
     found = measure(
         tmp_path,
         *(prim(kind, "Plain" + axis, *lines, turn) for axis, turn in turns.items()),
-        prim("Xform", "Top", moved(), *(prim(kind, "Turned" + axis, *lines, turn) for axis, turn in turns.items())),
+        prim(
+            "Xform",
+            "Top",
+            moved(),
+            *(prim(kind, "Turned" + axis, *lines, turn) for axis, turn in turns.items()),
+        ),
         up="Y",
         unit=0.01,
     )
-    matrix = np.diag([0.01, 0.01, 0.01, 1.0]) @ [[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]
+    matrix = np.diag([0.01, 0.01, 0.01, 1.0]) @ [
+        [1, 0, 0, 0],
+        [0, 0, -1, 0],
+        [0, 1, 0, 0],
+        [0, 0, 0, 1],
+    ]
     for name, entry in by_name(found).items():
         place = matrix @ (np.array(MATRIX, float).T if name.startswith("Turned") else np.eye(4))
         axis = np.eye(3)["XYZ".index(name[-1])] if name[-1] in axes else np.zeros(3)
@@ -84,11 +101,21 @@ def test_round_usd_solids_match_closed_forms(tmp_path, kind, sizes, volume, cent
 
 
 def test_sheared_usd_meshes_and_solids_keep_their_shear(tmp_path):
-    turned = prim("Xform", "Top", moved(), prim("Mesh", "Mesh", PLAIN), prim("Sphere", "Ball", "double radius = 1"))
+    turned = prim(
+        "Xform",
+        "Top",
+        moved(),
+        prim("Mesh", "Mesh", PLAIN),
+        prim("Sphere", "Ball", "double radius = 1"),
+    )
     found = by_name(measure(tmp_path, turned))
-    assert close(found["Mesh"]["volume"], 1.0, 1e-6) and close(found["Ball"]["volume"], 6 * BALL, 1e-6)
+    assert close(found["Mesh"]["volume"], 1.0, 1e-6) and close(
+        found["Ball"]["volume"], 6 * BALL, 1e-6
+    )
     matrix = np.array(MATRIX, float)
-    assert close(found["Mesh"]["center_of_mass"], np.array([0.25, 0.25, 0.25, 1.0]) @ matrix[:, :3], 1e-6)
+    assert close(
+        found["Mesh"]["center_of_mass"], np.array([0.25, 0.25, 0.25, 1.0]) @ matrix[:, :3], 1e-6
+    )
     second = 6 * BALL / 5.0 * matrix[:3, :3].T @ matrix[:3, :3]
     assert close(found["Ball"]["inertia"], np.trace(second) * np.eye(3) - second, 1e-5)
 
@@ -100,10 +127,14 @@ def test_instances_of_usd_solids_are_measured_with_them(tmp_path):
     assert entry["name"] == "A" and close(entry["volume"], BALL, 1e-7)
     model = model.replace("double", 'token visibility = "invisible"\ndouble')
     found = measure(tmp_path, model, prim("Xform", "A", arcs=arcs), prim("Mesh", "Mesh", PLAIN))
-    assert list(by_name(found)) == ["Mesh"] and [entry["name"] for entry in found["left_out"]] == ["S"]
+    assert list(by_name(found)) == ["Mesh"] and [entry["name"] for entry in found["left_out"]] == [
+        "S"
+    ]
 
 
-@pytest.mark.parametrize("scheme, warned", [("catmullClark", True), ("loop", True), (None, True), ("none", False)])
+@pytest.mark.parametrize(
+    "scheme, warned", [("catmullClark", True), ("loop", True), (None, True), ("none", False)]
+)
 def test_usd_subdivision_cages_are_reported(tmp_path, scheme, warned):
     line = 'uniform token subdivisionScheme = "{}"'.format(scheme) if scheme else ""
     (entry,) = measure(tmp_path, prim("Mesh", "Cage", CAGE, line))["objects"]
@@ -133,6 +164,10 @@ def test_usd_prims_that_are_not_rendered_are_left_out(tmp_path):
 
 @pytest.mark.parametrize("kind", ["NurbsPatch", "TetMesh"])
 def test_usd_shapes_that_blender_leaves_out_are_errors(tmp_path, kind):
-    prims = [prim("Mesh", "Shown", PLAIN), prim(kind, "Lost"), prim(kind, "Hidden", 'token visibility = "invisible"')]
+    prims = [
+        prim("Mesh", "Shown", PLAIN),
+        prim(kind, "Lost"),
+        prim(kind, "Hidden", 'token visibility = "invisible"'),
+    ]
     (error,) = measure(tmp_path, *prims, is_whole=False)["errors"]
     assert error["reason"] == sentence("usd_unread", names=["/Lost ({})".format(kind)])

@@ -41,7 +41,17 @@ f -12 -11 -5 -6\nf -11 -10 -4 -5\nf -10 -9 -3 -4\nf -9 -8 -2 -3\nf -8 -7 -1 -2\n
 OPTIONS = (
     [],
     ["--kind", "shell", "--thickness", "0.01", "--wall", "inward", "--mass", "3"],
-    ["--order", "4", "--surface-moments", "--about", "center", "--frame", "object", "--unit-scale", "0.001"]
+    [
+        "--order",
+        "4",
+        "--surface-moments",
+        "--about",
+        "center",
+        "--frame",
+        "object",
+        "--unit-scale",
+        "0.001",
+    ]
     + ["--material", "Steel, Carbon", "--thumbnails"],
 )
 
@@ -82,10 +92,18 @@ def run(folder, *words, blocked=False):
 @pytest.mark.parametrize("options", OPTIONS)
 def test_records_without_blender_equal_those_with_it(tmp_path, options):
     names = write_files(tmp_path)
-    alone, beside = (json.loads(run(tmp_path, *names, *options, blocked=way).stdout) for way in (True, False))
-    assert [document["file"] for document in alone] == names and sum(len(one["objects"]) for one in alone) >= 7
+    alone, beside = (
+        json.loads(run(tmp_path, *names, *options, blocked=way).stdout) for way in (True, False)
+    )
+    assert [document["file"] for document in alone] == names and sum(
+        len(one["objects"]) for one in alone
+    ) >= 7
     for one, other in zip(alone, beside):
-        assert valid(one) and one.pop("blender") is None and other.pop("blender") == bpy.app.version_string.split()[0]
+        assert (
+            valid(one)
+            and one.pop("blender") is None
+            and other.pop("blender") == bpy.app.version_string.split()[0]
+        )
         assert one == other
 
 
@@ -112,10 +130,15 @@ def test_polygons_are_cut_as_blender_draws_them():
         angle = np.sort(rng.uniform(0.0, 2.0 * np.pi, sides))
         radius = 1.0 if trial % 3 == 0 else rng.uniform(0.2, 1.0, sides)
         height = rng.normal(0.0, 0.1, sides) if trial % 3 == 2 else np.zeros(sides)
-        points = np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=1) @ rotation(trial).T
+        points = (
+            np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=1)
+            @ rotation(trial).T
+        )
         mesh = bpy.data.meshes.new("")
         mesh.from_pydata(points.tolist(), [], [range(sides)])
         mesh.calc_loop_triangles()
         drawn = {frozenset(triangle.vertices) for triangle in mesh.loop_triangles}
         bpy.data.meshes.remove(mesh)
-        assert {frozenset(each) for each in tessellate(points, np.arange(sides)[None])[0].tolist()} == drawn
+        assert {
+            frozenset(each) for each in tessellate(points, np.arange(sides)[None])[0].tolist()
+        } == drawn

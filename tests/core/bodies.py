@@ -8,7 +8,9 @@ import numpy as np
 from body_moments.core.mesh.surface import Surface
 
 CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
-SIDES = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+SIDES = np.array(
+    [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+)
 TOP = (2, 3)  # the two triangles of a box that lie in its upper side
 
 
@@ -60,28 +62,39 @@ def grid(n):
     """The unit square in z = 0 facing up, in n x n quads."""
     x, y = np.meshgrid(np.arange(n + 1) / n, np.arange(n + 1) / n, indexing="ij")
     index = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
-    quads = np.stack([index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]], axis=-1).reshape(-1, 4)
+    quads = np.stack(
+        [index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]], axis=-1
+    ).reshape(-1, 4)
     return np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1), split(quads)
 
 
 def sphere(level=3):
     """The octahedron, each triangle cut in four `level` times, its points on the unit sphere."""
     points = np.concatenate([np.eye(3), -np.eye(3)])
-    triangles = np.array([[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]])
+    triangles = np.array(
+        [[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]]
+    )
     for _ in range(level):
-        sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+        sides = np.sort(
+            np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]),
+            axis=1,
+        )
         ends, middle = np.unique(sides, axis=0, return_inverse=True)
         ab, bc, ca = middle.reshape(3, -1) + len(points)
         a, b, c = triangles.T
         middles = points[ends].sum(axis=1)
         points = np.concatenate([points, middles / np.linalg.norm(middles, axis=1)[:, None]])
-        triangles = np.concatenate([np.stack(t, axis=1) for t in ((a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca))])
+        triangles = np.concatenate(
+            [np.stack(t, axis=1) for t in ((a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca))]
+        )
     return points, triangles
 
 
 def ring(nu, nv, twist=False, major=1.0, minor=0.35):
     """A closed strip of nu x nv quads as (points, quads): a torus; with `twist`, a Klein bottle (the figure-8 one)."""
-    u, v = np.meshgrid(np.arange(nu) * 2 * np.pi / nu, np.arange(nv) * 2 * np.pi / nv, indexing="ij")
+    u, v = np.meshgrid(
+        np.arange(nu) * 2 * np.pi / nu, np.arange(nv) * 2 * np.pi / nv, indexing="ij"
+    )
     if twist:
         r = major + minor * (np.cos(u / 2) * np.sin(v) - np.sin(u / 2) * np.sin(2 * v))
         z = minor * (np.sin(u / 2) * np.sin(v) + np.cos(u / 2) * np.sin(2 * v))
@@ -95,7 +108,9 @@ def ring(nu, nv, twist=False, major=1.0, minor=0.35):
         j = np.where(around % 2 == 1, -j, j) if twist else j
         return i % nu * nv + j % nv
 
-    quads = np.stack([vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)], axis=1)
+    quads = np.stack(
+        [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)], axis=1
+    )
     return points, quads
 
 
@@ -156,7 +171,10 @@ def mesh(points, faces, dtype=np.float64):
 
 def volume(part):
     """The signed volume about a point of the body, added up without rounding."""
-    a, b, c = (part[0][part[1][:, k]].astype(float) - part[0][part[1][0, 0]].astype(float) for k in range(3))
+    a, b, c = (
+        part[0][part[1][:, k]].astype(float) - part[0][part[1][0, 0]].astype(float)
+        for k in range(3)
+    )
     return math.fsum(np.einsum("ij,ij->i", a, np.cross(b, c))) / 6.0
 
 

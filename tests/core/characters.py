@@ -44,7 +44,11 @@ class Character:
         matrix = np.asarray(matrix, float)
         quads = self.quads[:, ::-1] if np.linalg.det(matrix) < 0 else self.quads
         return Character(
-            self.points @ matrix.T + offset, quads, self.bones @ matrix.T + offset, self.weights, self.names
+            self.points @ matrix.T + offset,
+            quads,
+            self.bones @ matrix.T + offset,
+            self.weights,
+            self.names,
         )
 
 
@@ -109,7 +113,14 @@ NAMES = tuple(LIMBS)
 def bend(points):
     """A bend that keeps the plane x = 0 and the two sides alike, with nothing flat left."""
     x, y, z = points.T
-    return np.stack([x * (1 + 0.03 * np.sin(z) + 0.02 * y), y + 0.05 * x * x / 9 + 0.1 * np.cos(z), z + 0.1 * y * y], 1)
+    return np.stack(
+        [
+            x * (1 + 0.03 * np.sin(z) + 0.02 * y),
+            y + 0.05 * x * x / 9 + 0.1 * np.cos(z),
+            z + 0.1 * y * y,
+        ],
+        1,
+    )
 
 
 def humanoid(cells=2, unweighted=(), bent=True):
@@ -129,7 +140,9 @@ def cylinder_chain(lengths=(1.0, 2.5, 0.75), radius=0.5, sides=24):
     stations = np.concatenate([[0.0], np.cumsum(lengths)])
     turn = 2 * np.pi * np.arange(sides) / sides
     ring = np.stack([np.zeros(sides), radius * np.cos(turn), radius * np.sin(turn)], axis=1)
-    points = np.concatenate([*(ring + (x, 0, 0) for x in stations), [(0, 0, 0), (stations[-1], 0, 0)]])
+    points = np.concatenate(
+        [*(ring + (x, 0, 0) for x in stations), [(0, 0, 0), (stations[-1], 0, 0)]]
+    )
     quads = []
     for s in range(len(lengths)):
         for i in range(sides):
@@ -144,7 +157,11 @@ def cylinder_chain(lengths=(1.0, 2.5, 0.75), radius=0.5, sides=24):
     bones = np.array([[(a, 0, 0), (b, 0, 0)] for a, b in zip(stations, stations[1:])])
     boxes = [((a, -9, -9), (b, 9, 9)) for a, b in zip(stations, stations[1:])]
     return Character(
-        points, quads, bones, rigid_weights(points, quads, boxes), tuple(f"b{i}" for i in range(len(lengths)))
+        points,
+        quads,
+        bones,
+        rigid_weights(points, quads, boxes),
+        tuple(f"b{i}" for i in range(len(lengths))),
     )
 
 
@@ -157,7 +174,11 @@ def ball(bones=6, seed=3, unweighted=()):
     ends *= 1.5 / np.linalg.norm(ends, axis=1)[:, None]
     segments = np.stack([np.zeros((bones, 3)), ends], axis=1)
     return Character(
-        points, quads, segments, smooth_weights(points, segments, 0.8, unweighted), tuple("abcdef"[:bones])
+        points,
+        quads,
+        segments,
+        smooth_weights(points, segments, 0.8, unweighted),
+        tuple("abcdef"[:bones]),
     )
 
 

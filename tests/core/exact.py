@@ -23,7 +23,9 @@ def monomials(order: int) -> list[tuple[int, int, int]]:
 MONOMIALS = monomials(3)
 
 
-def volume_moments(points, triangles, about=(0.0, 0.0, 0.0), order: int = 3, absolute: bool = False) -> list[Fraction]:
+def volume_moments(
+    points, triangles, about=(0.0, 0.0, 0.0), order: int = 3, absolute: bool = False
+) -> list[Fraction]:
     """The moments ∫ x^p y^q z^r dV to an order about a point, of the cones from that point over the triangles.
 
     absolute: ∫ |x^p y^q z^r| |dV| instead, where no triangle crosses a coordinate plane (else more than that).
@@ -41,10 +43,15 @@ def volume_moments(points, triangles, about=(0.0, 0.0, 0.0), order: int = 3, abs
         if det:
             for i, value in enumerate(_means(a, b, c, table)):
                 sums[i] += det * value
-    return [Fraction(total, factorial(sum(m) + 3) * scale ** (sum(m) + 3)) for m, total in zip(table, sums)]
+    return [
+        Fraction(total, factorial(sum(m) + 3) * scale ** (sum(m) + 3))
+        for m, total in zip(table, sums)
+    ]
 
 
-def area_moments(points, triangles, about=(0.0, 0.0, 0.0), digits: int = 40, order: int = 3) -> list[Fraction]:
+def area_moments(
+    points, triangles, about=(0.0, 0.0, 0.0), digits: int = 40, order: int = 3
+) -> list[Fraction]:
     """The moments ∫ x^p y^q z^r dA, right to `digits` digits (areas are square roots)."""
     integers, scale = _integers(points, about)
     root = 10**digits
@@ -57,7 +64,10 @@ def area_moments(points, triangles, about=(0.0, 0.0, 0.0), digits: int = 40, ord
         if double:
             for i, value in enumerate(_means(a, b, c, table)):
                 sums[i] += double * value
-    return [Fraction(total, factorial(sum(m) + 2) * root * scale ** (sum(m) + 2)) for m, total in zip(table, sums)]
+    return [
+        Fraction(total, factorial(sum(m) + 2) * root * scale ** (sum(m) + 2))
+        for m, total in zip(table, sums)
+    ]
 
 
 def _integers(points, about) -> tuple[list[tuple[int, int, int]], int]:
@@ -123,7 +133,9 @@ BOX_QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4
 
 def box(low, high) -> list[tuple[float, float, float]]:
     """The corners of an axis-aligned box, for BOX_QUADS."""
-    return [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+    return [
+        (x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])
+    ]
 
 
 def fan(polygons) -> list[tuple[int, int, int]]:
@@ -131,7 +143,9 @@ def fan(polygons) -> list[tuple[int, int, int]]:
     return [(face[0], face[i], face[i + 1]) for face in polygons for i in range(1, len(face) - 1)]
 
 
-def prism(outline, low, high, caps) -> tuple[list[tuple[float, float, float]], list[tuple[int, ...]]]:
+def prism(
+    outline, low, high, caps
+) -> tuple[list[tuple[float, float, float]], list[tuple[int, ...]]]:
     """A straight prism: the corners and the faces, polygons, of a counter-clockwise outline of (x, y).
 
     caps: the outline cut into convex polygons of its indices.
@@ -139,4 +153,6 @@ def prism(outline, low, high, caps) -> tuple[list[tuple[float, float, float]], l
     n = len(outline)
     points = [(x, y, z) for z in (low, high) for x, y in outline]
     sides = [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n)]
-    return points, sides + [tuple(n + i for i in cap) for cap in caps] + [tuple(reversed(cap)) for cap in caps]
+    return points, sides + [tuple(n + i for i in cap) for cap in caps] + [
+        tuple(reversed(cap)) for cap in caps
+    ]

@@ -52,8 +52,13 @@ def flux_moment(patch: Patch, exponents: tuple[int, int, int]) -> Fraction:
         for k in t_space.spans:
             t_basis = span_polynomials(t_space, int(k))
             columns = t_space.controls_of_spans(np.array([k]))[0]
-            x, y, z = (_surface(patch.points[..., axis], rows, columns, s_basis, t_basis) for axis in range(3))
-            integrand = _minus(_times(_derived(x, 0), _derived(y, 1)), _times(_derived(x, 1), _derived(y, 0)))
+            x, y, z = (
+                _surface(patch.points[..., axis], rows, columns, s_basis, t_basis)
+                for axis in range(3)
+            )
+            integrand = _minus(
+                _times(_derived(x, 0), _derived(y, 1)), _times(_derived(x, 1), _derived(y, 0))
+            )
             for factor, power in ((x, p), (y, q), (z, r + 1)):
                 for _ in range(power):
                     integrand = _times(integrand, factor)
@@ -70,7 +75,9 @@ def _surface(values, rows, columns, s_basis, t_basis) -> np.ndarray:
 
 
 def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    result = np.full((a.shape[0] + b.shape[0] - 1, a.shape[1] + b.shape[1] - 1), Fraction(0), object)
+    result = np.full(
+        (a.shape[0] + b.shape[0] - 1, a.shape[1] + b.shape[1] - 1), Fraction(0), object
+    )
     for (i, j), value in np.ndenumerate(b):
         if value:
             result[i : i + a.shape[0], j : j + a.shape[1]] += value * a
@@ -103,7 +110,9 @@ def _integral(a: np.ndarray, s, t) -> Fraction:
 
 def circle() -> tuple[np.ndarray, np.ndarray]:
     """(8, 2) and (8,): the unit circle as four quarters of order 3, for cyclic, Bézier and endpoint flags."""
-    corners = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)], float)
+    corners = np.array(
+        [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)], float
+    )
     return corners, np.array([1.0, HALF] * 4)
 
 
@@ -123,7 +132,10 @@ def torus(major: float = 0.75, minor: float = 0.25) -> Patch:
     """A torus about the z axis, outward."""
     around, weights = circle()
     points = np.array(
-        [[(x * (major + minor * u), y * (major + minor * u), minor * v) for u, v in around] for x, y in around]
+        [
+            [(x * (major + minor * u), y * (major + minor * u), minor * v) for u, v in around]
+            for x, y in around
+        ]
     )
     return Patch((ROUND, ROUND), points, np.outer(weights, weights))
 
@@ -132,4 +144,6 @@ def tube(radius: float = 1.0, half: float = 1.0) -> Patch:
     """The lateral surface of a cylinder about the z axis, outward."""
     around, weights = circle()
     points = np.array([[(x * radius, y * radius, z) for z in (-half, half)] for x, y in around])
-    return Patch((ROUND, blender_space(2, 2, False, False, True)), points, np.outer(weights, [1.0, 1.0]))
+    return Patch(
+        (ROUND, blender_space(2, 2, False, False, True)), points, np.outer(weights, [1.0, 1.0])
+    )

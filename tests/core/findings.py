@@ -13,8 +13,12 @@ from body_moments.core.verdict.finding import Code, Finding, MeasureError
 
 def declarations() -> dict[str, Code]:
     """Return every declared code by its name."""
-    modules = [import_module(".".join((catalog.ROOT, package, "findings"))) for package in catalog.PACKAGES]
-    return {code: code for module in modules for code in vars(module).values() if isinstance(code, Code)}
+    modules = [
+        import_module(".".join((catalog.ROOT, package, "findings"))) for package in catalog.PACKAGES
+    ]
+    return {
+        code: code for module in modules for code in vars(module).values() if isinstance(code, Code)
+    }
 
 
 def codes(found) -> list[str]:

@@ -19,9 +19,20 @@ class IgesFile:
         self._parameters: list[str] = []
         self.delimiter, self.end = ",", ";"
 
-    def add(self, kind: int, fields, form: int = 0, matrix: int = 0, status: str = "00000000", label: str = "") -> int:
+    def add(
+        self,
+        kind: int,
+        fields,
+        form: int = 0,
+        matrix: int = 0,
+        status: str = "00000000",
+        label: str = "",
+    ) -> int:
         number = 2 * len(self._directory) // 2 + 1
-        words = [str(kind), *(word if isinstance(word, str) else "{!r}".format(word) for word in fields)]
+        words = [
+            str(kind),
+            *(word if isinstance(word, str) else "{!r}".format(word) for word in fields),
+        ]
         lines, line = [], ""
         for word in [*(word + self.delimiter for word in words[:-1]), words[-1] + self.end]:
             if len(line) + len(word) > 64:
@@ -34,7 +45,9 @@ class IgesFile:
         top = (kind, first, 0, 0, 0, 0, matrix, 0)
         self._directory.append("".join("{:>8}".format(word) for word in top) + status)
         self._directory.append(
-            "".join("{:>8}".format(word) for word in (kind, 0, 0, len(lines), form, "", "", label, 0))
+            "".join(
+                "{:>8}".format(word) for word in (kind, 0, 0, len(lines), form, "", "", label, 0)
+            )
         )
         return number
 
@@ -42,14 +55,35 @@ class IgesFile:
         return self.add(128, surface_fields(patch, domain), **more)
 
     def transformation(self, rows, **more) -> int:
-        return self.add(124, [float(value) for value in np.asarray(rows, float)[:3].ravel()], **more)
+        return self.add(
+            124, [float(value) for value in np.asarray(rows, float)[:3].ravel()], **more
+        )
 
     def text(self) -> str:
         d, e = self.delimiter, self.end
         unit = "" if self._unit is None else str(self._unit)
         opening = "1H{}{}1H{}".format(d, d, e)
-        fields = ["4Htest", "6Ha.iges", "1Ha", "1Ha", "32", "38", "6", "308", "15", "1Ha", repr(self._scale), unit]
-        fields += ["{}H{}".format(len(self._unit_name), self._unit_name), "1", "0.1", "15H20260101.000000", "1e-7"]
+        fields = [
+            "4Htest",
+            "6Ha.iges",
+            "1Ha",
+            "1Ha",
+            "32",
+            "38",
+            "6",
+            "308",
+            "15",
+            "1Ha",
+            repr(self._scale),
+            unit,
+        ]
+        fields += [
+            "{}H{}".format(len(self._unit_name), self._unit_name),
+            "1",
+            "0.1",
+            "15H20260101.000000",
+            "1e-7",
+        ]
         text = opening + d + d.join(fields) + e
         rows = [("S", ["Written by a test"])]
         rows.append(("G", [text[at : at + 72] for at in range(0, len(text), 72)]))
@@ -74,7 +108,17 @@ def surface_fields(patch: Patch, domain=None) -> list:
     weights = np.ones(counts) if patch.weights is None else patch.weights
     ends = domain or (s.domain, t.domain)
     return [
-        *(counts[0] - 1, counts[1] - 1, s.order - 1, t.order - 1, 0, 0, int(patch.weights is None), 0, 0),
+        *(
+            counts[0] - 1,
+            counts[1] - 1,
+            s.order - 1,
+            t.order - 1,
+            0,
+            0,
+            int(patch.weights is None),
+            0,
+            0,
+        ),
         *map(float, (*s.knots, *t.knots, *weights.T.ravel(), *patch.points.swapaxes(0, 1).ravel())),
         *map(float, (*ends[0], *ends[1])),
     ]
@@ -86,7 +130,9 @@ def obj_text(patches, kind: str = "bspline", name: str | None = None) -> str:
     for patch in patches:
         lines += ["o " + name] if name else []
         weights = np.ones(patch.points.shape[:2]) if patch.weights is None else patch.weights
-        for (x, y, z), w in zip(patch.points.swapaxes(0, 1).reshape(-1, 3).tolist(), weights.T.ravel().tolist()):
+        for (x, y, z), w in zip(
+            patch.points.swapaxes(0, 1).reshape(-1, 3).tolist(), weights.T.ravel().tolist()
+        ):
             lines.append("v {!r} {!r} {!r} {!r}".format(x, z, -y, w))
         s, t = patch.spaces
         lines.append("cstype rat " + kind)

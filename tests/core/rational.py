@@ -36,7 +36,9 @@ def pulled_back(exponents, start, vectors):
             for powers, value in polynomial.items():
                 image[powers] += value * start[axis]
                 for i in range(d):
-                    image[(*powers[:i], powers[i] + 1, *powers[i + 1 :])] += value * vectors[i][axis]
+                    image[(*powers[:i], powers[i] + 1, *powers[i + 1 :])] += (
+                        value * vectors[i][axis]
+                    )
             polynomial = image
     return polynomial
 

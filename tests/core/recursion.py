@@ -23,6 +23,7 @@ def moments(part, order, about=None):
                 lower[axis] -= 1
                 table[monomial_index(*row)] += corner[axis] * table[monomial_index(*lower)]
     weight = [
-        factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 3) for p, q, r in monomials(order).tolist()
+        factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 3)
+        for p, q, r in monomials(order).tolist()
     ]
     return Moments(np.array(weight) * (table @ det), about)

@@ -21,7 +21,17 @@ NRRD_NAMES = {
     "f4": "float",
     "f8": "double",
 }
-NIFTI_CODES = {"u1": 2, "i2": 4, "i4": 8, "f4": 16, "f8": 64, "i1": 256, "u2": 512, "u4": 768, "i8": 1024}
+NIFTI_CODES = {
+    "u1": 2,
+    "i2": 4,
+    "i4": 8,
+    "f4": 16,
+    "f8": 64,
+    "i1": 256,
+    "u2": 512,
+    "u4": 768,
+    "i8": 1024,
+}
 
 
 def nrrd(values: np.ndarray, *lines: str, encoding: str = "raw", head: bool = True) -> bytes:
@@ -59,7 +69,9 @@ def nifti(
     head = bytearray(352)
     struct.pack_into(order + "i", head, 0, 348)
     struct.pack_into(order + "8h", head, 40, dims, *values.shape, 1, 1, 1, 1)
-    struct.pack_into(order + "2h", head, 70, NIFTI_CODES[values.dtype.str[1:]], 8 * values.dtype.itemsize)
+    struct.pack_into(
+        order + "2h", head, 70, NIFTI_CODES[values.dtype.str[1:]], 8 * values.dtype.itemsize
+    )
     struct.pack_into(order + "8f", head, 76, qfac, *spacing, 0, 0, 0, 0)
     struct.pack_into(order + "3f", head, 108, 352.0, slope, intercept)
     head[123] = unit

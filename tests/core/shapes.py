@@ -13,8 +13,12 @@ def prism(n, height=1.7, top=1.0, twist=0.0):
     """A straight prism over a regular polygon; `top` shrinks its upper end and `twist` turns it."""
     angle = np.arange(n) * 2 * np.pi / n
     low = np.stack([np.cos(angle), np.sin(angle), np.zeros(n)], axis=1)
-    high = np.stack([top * np.cos(angle + twist), top * np.sin(angle + twist), np.full(n, height)], axis=1)
-    fans = [(0, i + 1, i) for i in range(1, n - 1)] + [(n, n + i, n + i + 1) for i in range(1, n - 1)]
+    high = np.stack(
+        [top * np.cos(angle + twist), top * np.sin(angle + twist), np.full(n, height)], axis=1
+    )
+    fans = [(0, i + 1, i) for i in range(1, n - 1)] + [
+        (n, n + i, n + i + 1) for i in range(1, n - 1)
+    ]
     sides = [t for i in range(n) for j in [(i + 1) % n] for t in ((i, j, n + j), (i, n + j, n + i))]
     return np.concatenate([low, high]), np.array(fans + sides)
 
@@ -48,7 +52,9 @@ def refined(part, seed=None):
     inner = np.einsum("nk,nki->ni", share, points[triangles])
     new = len(points) + np.arange(len(triangles))
     a, b, c = triangles.T
-    cut = np.concatenate([np.stack([a, b, new], 1), np.stack([b, c, new], 1), np.stack([c, a, new], 1)])
+    cut = np.concatenate(
+        [np.stack([a, b, new], 1), np.stack([b, c, new], 1), np.stack([c, a, new], 1)]
+    )
     if seed is not None:
         cut = np.random.default_rng(seed).permutation(cut)
     return np.concatenate([points, inner]), cut
@@ -63,7 +69,9 @@ def distance(part, points):
     a, b, c = (part[0][part[1][:, k]] for k in range(3))
     best = np.full(len(points), np.inf)
     for start in range(0, len(points), 256):
-        best[start : start + 256] = _distances(points[start : start + 256, None], a[None], b[None], c[None]).min(axis=1)
+        best[start : start + 256] = _distances(
+            points[start : start + 256, None], a[None], b[None], c[None]
+        ).min(axis=1)
     return best
 
 
@@ -81,7 +89,9 @@ def _distances(p, a, b, c):
 
 PHI = (1 + 5**0.5) / 2
 TETRAHEDRON = hull([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)])
-ICOSAHEDRON = hull([np.roll((0, a, b * PHI), k) for a in (1, -1) for b in (1, -1) for k in range(3)])
+ICOSAHEDRON = hull(
+    [np.roll((0, a, b * PHI), k) for a in (1, -1) for b in (1, -1) for k in range(3)]
+)
 WEDGE = (
     np.array([[0, 0, 0], [1, 0.2, 0], [0.3, 2, 0.1], [0.2, 0.4, 3]]),
     np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]),
@@ -89,20 +99,29 @@ WEDGE = (
 SHEARED = bodies.moved(bodies.box((0, 0, 0), (3, 2, 1)), [[1, 0.4, 0], [0, 1, 0], [0, 0, 1]])
 L_PRISM = bodies.joined(bodies.box((0, 0, 0), (3, 1, 1)), bodies.box((0, 1, 0), (1, 4, 1)))
 THREE_BOXES = bodies.joined(
-    bodies.box((0, 0, 0), (4, 1, 1)), bodies.box((0, 1, 0), (1, 3, 1)), bodies.box((0, 0, 1), (1, 1, 2.5))
+    bodies.box((0, 0, 0), (4, 1, 1)),
+    bodies.box((0, 1, 0), (1, 3, 1)),
+    bodies.box((0, 0, 1), (1, 1, 2.5)),
 )
 # An S: two arms reach out to opposite sides. Half a turn about the stroke's normal, and no other, leaves it as it is.
 S_PRISM = bodies.joined(
-    bodies.box((0, 0, 0), (1, 6, 1)), bodies.box((1, 5, 0), (3, 6, 1)), bodies.box((-2, 0, 0), (0, 1, 1))
+    bodies.box((0, 0, 0), (1, 6, 1)),
+    bodies.box((1, 5, 0), (3, 6, 1)),
+    bodies.box((-2, 0, 0), (0, 1, 1)),
 )
-STEPPED = bodies.joined(bodies.box((-1, -1, -1), (1, 1, 1)), bodies.box((-0.5, -0.5, 1), (0.5, 0.5, 2)))
+STEPPED = bodies.joined(
+    bodies.box((-1, -1, -1), (1, 1, 1)), bodies.box((-0.5, -0.5, 1), (0.5, 0.5, 2))
+)
 
 ASYMMETRIC = {
     "wedge": WEDGE,
     "three boxes": THREE_BOXES,
     "blob": bodies.moved(bodies.sphere(2), [[1, 0.2, 0], [0, 2, 0.3], [0.1, 0, 3]]),
 }
-ASYMMETRIC["blob"] = (ASYMMETRIC["blob"][0] + 0.2 * ASYMMETRIC["blob"][0][:, [1, 2, 0]] ** 2, ASYMMETRIC["blob"][1])
+ASYMMETRIC["blob"] = (
+    ASYMMETRIC["blob"][0] + 0.2 * ASYMMETRIC["blob"][0][:, [1, 2, 0]] ** 2,
+    ASYMMETRIC["blob"][1],
+)
 SYMMETRIC = {
     "L prism": (L_PRISM, "Cs"),
     "box": (bodies.box((0, 0, 0), (3, 2, 1)), "D2h"),

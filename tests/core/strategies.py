@@ -6,7 +6,12 @@ import numpy as np
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
-SHAPES = {"round": (1.0, 1.0, 1.0), "flat": (1.0, 1.0, 1e-9), "needle": (1.0, 1e-7, 1e-7), "sheet": (1e3, 1.0, 1e-6)}
+SHAPES = {
+    "round": (1.0, 1.0, 1.0),
+    "flat": (1.0, 1.0, 1e-9),
+    "needle": (1.0, 1e-7, 1e-7),
+    "sheet": (1e3, 1.0, 1e-6),
+}
 PLACES = {"centred": 0.0, "near": 1.0, "far": 1e4, "very far": 1e8}
 SIZES = (1.0, 1e-9, 1e12)
 
@@ -27,11 +32,19 @@ def holds(examples):
 @st.composite
 def random_meshes(draw, max_faces, extreme):
     """Points and triangles between them, at random. extreme: the smallest size."""
-    shape, place, size = (draw(st.sampled_from(each)) for each in (sorted(SHAPES), sorted(PLACES), (*SIZES, extreme)))
-    turned, single, rng = draw(st.booleans()), draw(st.booleans()), np.random.default_rng(draw(seeds))
+    shape, place, size = (
+        draw(st.sampled_from(each)) for each in (sorted(SHAPES), sorted(PLACES), (*SIZES, extreme))
+    )
+    turned, single, rng = (
+        draw(st.booleans()),
+        draw(st.booleans()),
+        np.random.default_rng(draw(seeds)),
+    )
     count = draw(st.integers(4, 13))
     turn = np.linalg.qr(rng.standard_normal((3, 3)))[0] if turned else np.eye(3)
-    points = (rng.standard_normal((count, 3)) * SHAPES[shape]) @ turn + PLACES[place] * rng.standard_normal(3)
+    points = (rng.standard_normal((count, 3)) * SHAPES[shape]) @ turn + PLACES[
+        place
+    ] * rng.standard_normal(3)
     points *= size
     if single and size > 1e-20:
         points = points.astype(np.float32)

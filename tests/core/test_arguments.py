@@ -40,7 +40,13 @@ from body_moments.core.nurbs import (
 from body_moments.core.polyhedron import enclosed_moments, facet_moments, facets_of
 from body_moments.core.scans import Scan, sample_matrix
 from body_moments.core.shape import rank, similarity, symmetry
-from body_moments.core.statics import area_gradient, balance, find_support, resting_poses, volume_gradient
+from body_moments.core.statics import (
+    area_gradient,
+    balance,
+    find_support,
+    resting_poses,
+    volume_gradient,
+)
 from body_moments.core.wall import offset_solid, wall_moments
 
 POINTS = np.eye(4, 3, -1) * (3.0, 2.0, 1.0)
@@ -70,22 +76,42 @@ CALLS = {
     "Curve.transform": (CURVE.transform, {"matrix": MATRIX}),
     "Curve.velocity": (CURVE.velocity, {"parameters": np.array([0.0, 0.5])}),
     "Hull.transform": (convex_hull(POINTS).transform, {"linear": AXES}),
-    "MassProperties.from_moments": (MassProperties.from_moments, {"moments": VOLUME, "preferred_axes": AXES}),
+    "MassProperties.from_moments": (
+        MassProperties.from_moments,
+        {"moments": VOLUME, "preferred_axes": AXES},
+    ),
     "MassProperties.in_frame": (PROPERTIES.in_frame, {"rotation": AXES, "origin": ORIGIN}),
     "MassProperties.inertia_about": (PROPERTIES.inertia_about, {"point": ORIGIN}),
     "Moments": (
         Moments,
-        {"raw": np.ones(4), "about": ORIGIN, "rounding_error": np.zeros(4), "input_error": np.zeros(4)},
+        {
+            "raw": np.ones(4),
+            "about": ORIGIN,
+            "rounding_error": np.zeros(4),
+            "input_error": np.zeros(4),
+        },
     ),
     "Moments.about_point": (VOLUME.about_point, {"point": np.ones(3)}),
     "Moments.in_frame": (VOLUME.in_frame, {"rotation": AXES, "origin": ORIGIN}),
     "Moments.transform": (VOLUME.transform, {"matrix": MATRIX}),
-    "Patch": (Patch, {"spaces": (LINE, LINE), "points": PATCH_POINTS, "weights": np.array([[1.0, 2.0], [3.0, 4.0]])}),
+    "Patch": (
+        Patch,
+        {
+            "spaces": (LINE, LINE),
+            "points": PATCH_POINTS,
+            "weights": np.array([[1.0, 2.0], [3.0, 4.0]]),
+        },
+    ),
     "Patch.transform": (PATCH.transform, {"matrix": MATRIX}),
     "SplineSpace": (SplineSpace, {"knots": np.arange(4.0), "order": 2, "count": 2}),
     "Surface": (
         Surface,
-        {"points": POINTS, "triangles": TRIANGLES, "quads": np.array([[0, 1, 2, 3]]), "displacement": ORIGIN},
+        {
+            "points": POINTS,
+            "triangles": TRIANGLES,
+            "quads": np.array([[0, 1, 2, 3]]),
+            "displacement": ORIGIN,
+        },
     ),
     "Surface.from_triangles": (Surface.from_triangles, {"points": POINTS, "triangles": TRIANGLES}),
     "Surface.transform": (SURFACE.transform, {"linear": AXES, "offset": ORIGIN}),
@@ -105,14 +131,29 @@ CALLS = {
     "directed_edges": (lambda loops: directed_edges([loops]), {"loops": np.arange(4)}),
     "enclosed_moments": (
         enclosed_moments,
-        {"points": POINTS, "simplices": TRIANGLES, "order": 2, "about": ORIGIN, "signs": np.ones(4)},
+        {
+            "points": POINTS,
+            "simplices": TRIANGLES,
+            "order": 2,
+            "about": ORIGIN,
+            "signs": np.ones(4),
+        },
     ),
-    "facet_moments": (facet_moments, {"points": POINTS, "simplices": TRIANGLES, "order": 2, "about": ORIGIN}),
+    "facet_moments": (
+        facet_moments,
+        {"points": POINTS, "simplices": TRIANGLES, "order": 2, "about": ORIGIN},
+    ),
     "facets_of": (facets_of, {"points": POINTS, "simplices": np.array([[0, 1, 2, 3]])}),
     "find_support": (find_support, {"points": POINTS, "center": CENTRAL.about, "down": -AXES[2]}),
     "fit_plane": (
         fit_plane,
-        {"points": FLAT_POINTS, "triangles": TRIANGLES[:1], "prefer": AXES, "origin": ORIGIN, "facing": AXES[2]},
+        {
+            "points": FLAT_POINTS,
+            "triangles": TRIANGLES[:1],
+            "prefer": AXES,
+            "origin": ORIGIN,
+            "facing": AXES[2],
+        },
     ),
     "grid_moments": (grid_moments, {"samples": SAMPLES, "shape": (2, 2, 2), "matrix": MATRIX}),
     "length_moments": (lambda curves: length_moments([curves]), {"curves": CURVE}),
@@ -124,17 +165,28 @@ CALLS = {
     "measure_section": (measure_section, {"plane": PLANE, "points": FLAT_POINTS, "edges": EDGES}),
     "measure_solid": (measure_solid, {"surface": SURFACE}),
     "offset_solid": (offset_solid, {"surface": SURFACE}),
-    "polygon_transform": (lambda loops, q: polygon_transform([loops], q), {"loops": SQUARE, "q": Q[:, :2]}),
+    "polygon_transform": (
+        lambda loops, q: polygon_transform([loops], q),
+        {"loops": SQUARE, "q": Q[:, :2]},
+    ),
     "polyhedron_moments": (polyhedron_moments, {"body": SURFACE, "about": ORIGIN}),
     "pose_matrix": (pose_matrix, {"center": ORIGIN, "axes": AXES}),
     "principal_frame": (principal_frame, {"moments": VOLUME, "preferred_axes": AXES}),
     "quaternion": (quaternion, {"rotation": AXES}),
     "rank": (rank, {"query": SHAPE, "entries": []}),
-    "region_moments": (region_moments, {"points": SQUARE, "edges": EDGES, "order": 2, "about": ORIGIN[:2]}),
+    "region_moments": (
+        region_moments,
+        {"points": SQUARE, "edges": EDGES, "order": 2, "about": ORIGIN[:2]},
+    ),
     "resting_poses": (resting_poses, {"hull": convex_hull(POINTS), "center": CENTRAL.about}),
     "sample_matrix": (
         sample_matrix,
-        {"scan": Scan(SAMPLES, MATRIX), "spacing": np.ones(3), "origin": ORIGIN, "unit_scale": None},
+        {
+            "scan": Scan(SAMPLES, MATRIX),
+            "spacing": np.ones(3),
+            "origin": ORIGIN,
+            "unit_scale": None,
+        },
     ),
     "signature": (signature, {"moments": CENTRAL, "radius": 2.0}),
     "similarity": (similarity, {"a": SHAPE, "b": SHAPE}),
@@ -143,10 +195,18 @@ CALLS = {
     "symmetry": (symmetry, {"moments": VOLUME}),
     "threshold_body": (threshold_body, {"samples": SAMPLES, "threshold": 3.5, "matrix": MATRIX}),
     "volume_gradient": (volume_gradient, {"surface": SURFACE, "about": ORIGIN}),
-    "wall_moments": (wall_moments, {"wall": offset_solid(SURFACE), "inward": 0.0, "outward": 0.1, "order": 3}),
+    "wall_moments": (
+        wall_moments,
+        {"wall": offset_solid(SURFACE), "inward": 0.0, "outward": 0.1, "order": 3},
+    ),
 }
 CALLS["solid_transform"][1]["q"] = Q
-ARRAYS = [(call, name) for call, (_, given) in CALLS.items() for name in given if isinstance(given[name], np.ndarray)]
+ARRAYS = [
+    (call, name)
+    for call, (_, given) in CALLS.items()
+    for name in given
+    if isinstance(given[name], np.ndarray)
+]
 OBJECTS = [
     (call, name)
     for call, (_, given) in CALLS.items()
@@ -163,13 +223,17 @@ def numbers(result):
         return [numbers(getattr(result, field.name)) for field in dataclasses.fields(result)]
     if isinstance(result, (tuple, list)):
         return [numbers(item) for item in result]
-    return np.asarray(result).tolist() if isinstance(result, (np.ndarray, np.generic, float)) else None
+    return (
+        np.asarray(result).tolist() if isinstance(result, (np.ndarray, np.generic, float)) else None
+    )
 
 
 @pytest.mark.parametrize(("call", "name"), ARRAYS)
 def test_lists_give_the_same_as_arrays(call, name):
     function, given = CALLS[call]
-    found, truth = (function(**{**given, name: value}) for value in (given[name].tolist(), given[name]))
+    found, truth = (
+        function(**{**given, name: value}) for value in (given[name].tolist(), given[name])
+    )
     assert str(numbers(found)) == str(numbers(truth))
 
 
@@ -180,13 +244,17 @@ def test_misshapen_arguments_are_refused_by_name_and_shape(call, name):
     if call in ("Moments.in_frame", "MassProperties.in_frame"):
         array = array[..., :2]  # there are stacks of these
     expected = r"{} must be \(.+\) (real numbers|integers), not {} {}"
-    with pytest.raises(ValueError, match=expected.format(name, re.escape(str(array.shape)), array.dtype)):
+    with pytest.raises(
+        ValueError, match=expected.format(name, re.escape(str(array.shape)), array.dtype)
+    ):
         function(**{**given, name: array})
 
 
 @pytest.mark.parametrize(("call", "name"), ARRAYS_OF_CALLERS)
 @pytest.mark.parametrize(
-    "value", [object(), "text", [[1.0], [1.0, 2.0]], 1j], ids=["object", "text", "ragged", "complex"]
+    "value",
+    [object(), "text", [[1.0], [1.0, 2.0]], 1j],
+    ids=["object", "text", "ragged", "complex"],
 )
 def test_nonnumeric_arguments_are_refused_by_name(call, name, value):
     function, given = CALLS[call]
@@ -197,5 +265,7 @@ def test_nonnumeric_arguments_are_refused_by_name(call, name, value):
 @pytest.mark.parametrize(("call", "name"), OBJECTS)
 def test_objects_of_another_class_are_refused_by_name(call, name):
     function, given = CALLS[call]
-    with pytest.raises((TypeError, ValueError), match=r"\b(surface|{}) must be a \w+, not".format(name)):
+    with pytest.raises(
+        (TypeError, ValueError), match=r"\b(surface|{}) must be a \w+, not".format(name)
+    ):
         function(**{**given, name: 3.0})

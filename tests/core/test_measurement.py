@@ -13,13 +13,19 @@ from body_moments.core.verdict.finding import finding
 
 from tests.core import bodies
 
-VOLUME, AREA = polyhedron_moments(bodies.surface(bodies.moved(bodies.box(), np.diag([1.0, 2.0, 3.0]))), 5, area_order=4)
+VOLUME, AREA = polyhedron_moments(
+    bodies.surface(bodies.moved(bodies.box(), np.diag([1.0, 2.0, 3.0]))), 5, area_order=4
+)
 
 
 def measured(**changes):
     """A body with `mass_moments` known to third order, others to higher orders."""
     nothing = dict.fromkeys(field.name for field in fields(Measurement))
-    known = {"mass_moments": (VOLUME.truncate(3), 7.0), "volume_moments": VOLUME, "area_moments": AREA}
+    known = {
+        "mass_moments": (VOLUME.truncate(3), 7.0),
+        "volume_moments": VOLUME,
+        "area_moments": AREA,
+    }
     return Measurement(**{**nothing, "density_from": DENSITY_FROM_MASS, **known, **changes})
 
 
@@ -45,7 +51,11 @@ def test_varying_density_uses_its_own_moments():
 
 @pytest.mark.parametrize(
     "changes",
-    [{"density_from": finding("density_from_polynomial")}, {"length": 2.0}, {"volume_moments": VOLUME.truncate(3)}],
+    [
+        {"density_from": finding("density_from_polynomial")},
+        {"length": 2.0},
+        {"volume_moments": VOLUME.truncate(3)},
+    ],
 )
 def test_missing_order_is_none(changes):
     assert measured(**changes).moments_of_mass(4) is None

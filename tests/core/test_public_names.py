@@ -27,23 +27,29 @@ PUBLIC = {
     (package, name): getattr(module, name)
     for package, module in FACES.items()
     for name in module.__all__
-    if inspect.isclass(getattr(module, name)) or inspect.isfunction(inspect.unwrap(getattr(module, name)))
+    if inspect.isclass(getattr(module, name))
+    or inspect.isfunction(inspect.unwrap(getattr(module, name)))
 }
 # core.papers offers modules; their functions are the public names.
 PUBLIC |= {
     (module.__name__, name): thing
     for module in (getattr(FACES[".papers"], name) for name in FACES[".papers"].__all__)
     for name, thing in vars(module).items()
-    if inspect.isfunction(thing) and thing.__module__ == module.__name__ and not name.startswith("_")
+    if inspect.isfunction(thing)
+    and thing.__module__ == module.__name__
+    and not name.startswith("_")
 }
 # A class or function is documented once, wherever it is offered.
-DOCUMENTED = {"{0.__module__}.{0.__qualname__}".format(inspect.unwrap(thing)): thing for thing in PUBLIC.values()}
+DOCUMENTED = {
+    "{0.__module__}.{0.__qualname__}".format(inspect.unwrap(thing)): thing
+    for thing in PUBLIC.values()
+}
 
 
 def documented(function):
-    return pytest.mark.parametrize("name", sorted(DOCUMENTED), ids=lambda name: name.removeprefix("body_moments."))(
-        function
-    )
+    return pytest.mark.parametrize(
+        "name", sorted(DOCUMENTED), ids=lambda name: name.removeprefix("body_moments.")
+    )(function)
 
 
 def section(doc: str, title: str) -> str:
@@ -80,11 +86,17 @@ def test_a_public_name_is_documented(name):
     assert first.endswith((".", ":")) and not rest.startswith(" ")
     assert ">>>" in section(doc, "Examples")
     if inspect.isclass(thing):
-        parameters = [] if issubclass(thing, (str, Exception)) else inspect.signature(thing).parameters
+        parameters = (
+            [] if issubclass(thing, (str, Exception)) else inspect.signature(thing).parameters
+        )
         attributes = entries(section(doc, "Parameters")) | entries(section(doc, "Attributes"))
-        assert set(parameters) <= attributes, "undocumented: {}".format(set(parameters) - attributes)
+        assert set(parameters) <= attributes, "undocumented: {}".format(
+            set(parameters) - attributes
+        )
         for method, function in vars(thing).items():
-            if not method.startswith("_") and (callable(function) or isinstance(function, (property, classmethod))):
+            if not method.startswith("_") and (
+                callable(function) or isinstance(function, (property, classmethod))
+            ):
                 assert inspect.getdoc(getattr(thing, method)), method
     else:
         signature = inspect.signature(thing)
@@ -111,7 +123,9 @@ def run_with_package(code, *arguments):
         "sys.modules['body_moments'] = module = importlib.util.module_from_spec(spec)\n"
         "spec.loader.exec_module(module)\n"
     )
-    subprocess.run([sys.executable, "-P", "-c", load + code, str(ROOT), *arguments], check=True, timeout=120)
+    subprocess.run(
+        [sys.executable, "-P", "-c", load + code, str(ROOT), *arguments], check=True, timeout=120
+    )
 
 
 def test_library_names_load_nothing_before_use():
@@ -149,7 +163,9 @@ def test_readme_example_runs_as_printed(capsys):
     assert names["properties"].mass == pytest.approx(7850.0, rel=1e-12, abs=0.0)
     assert names["volume"].total == pytest.approx(1.0, rel=1e-12, abs=0.0)
     assert names["volume"][4, 0, 2] == pytest.approx(1.0 / 15.0, rel=1e-12, abs=0.0)
-    assert names["area"].total == pytest.approx(5.0, rel=1e-12, abs=0.0)  # the faces that were given: no cap
+    assert names["area"].total == pytest.approx(
+        5.0, rel=1e-12, abs=0.0
+    )  # the faces that were given: no cap
     assert names["area"].about.tolist() == [0.5, 0.5, 0.5]  # the middle of the bounding box
     assert "capped" in capsys.readouterr().out
 

@@ -34,7 +34,12 @@ def pieces(knots: list[Fraction], i: int, k: int) -> dict[int, list[Fraction]]:
 
 
 def integral(
-    knots: list, i: int, k: int, power: int, low: Fraction | None = None, high: Fraction | None = None
+    knots: list,
+    i: int,
+    k: int,
+    power: int,
+    low: Fraction | None = None,
+    high: Fraction | None = None,
 ) -> Fraction:
     """∫ t^power B_{i,k}(t) dt over [low, high], by default over the whole support."""
     knots = [Fraction(knot) for knot in knots]
@@ -44,7 +49,8 @@ def integral(
         a, b = (a if low is None else max(a, low)), (b if high is None else min(b, high))
         if a < b:
             total += sum(
-                c * (b ** (n + power + 1) - a ** (n + power + 1)) / (n + power + 1) for n, c in enumerate(polynomial)
+                c * (b ** (n + power + 1) - a ** (n + power + 1)) / (n + power + 1)
+                for n, c in enumerate(polynomial)
             )
     return total
 
@@ -55,7 +61,10 @@ def exact_moments(coefficients: np.ndarray, axes, order: int, about) -> list[Fra
     for axis, center in zip(axes, about):
         knots = [Fraction(float(knot)) - Fraction(float(center)) for knot in axis.knots]
         tables.append(
-            [[integral(knots, i, axis.order, power) for i in range(axis.count)] for power in range(order + 1)]
+            [
+                [integral(knots, i, axis.order, power) for i in range(axis.count)]
+                for power in range(order + 1)
+            ]
         )
     result = []
     for p, q, r in monomials(order).tolist():

@@ -28,7 +28,9 @@ from pathlib import Path
 from types import ModuleType
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-if __name__ == "__main__":  # The folder of the checkout would hide other packages if it were on the path.
+if (
+    __name__ == "__main__"
+):  # The folder of the checkout would hide other packages if it were on the path.
     tests = ModuleType("tests")
     tests.__path__ = [str(ROOT / "tests")]
     sys.modules["tests"] = tests
@@ -49,7 +51,9 @@ def save(path: Path, table: dict[str, object]) -> None:
         text = summary.write(table)
     else:
         lines = [
-            "{}: {}".format(json.dumps(key, ensure_ascii=False), json.dumps(table[key], ensure_ascii=False))
+            "{}: {}".format(
+                json.dumps(key, ensure_ascii=False), json.dumps(table[key], ensure_ascii=False)
+            )
             for key in sorted(table)
         ]
         text = "{\n" + ",\n".join(lines) + "\n}\n"
@@ -58,7 +62,13 @@ def save(path: Path, table: dict[str, object]) -> None:
 
 def leaves(value: object, path: str = "") -> Iterator[tuple[str, object]]:
     """Yield the place and value of each leaf; an empty table or list is a leaf."""
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else None
+    items = (
+        value.items()
+        if isinstance(value, dict)
+        else enumerate(value)
+        if isinstance(value, list)
+        else None
+    )
     if not items:
         yield path, value
         return
@@ -84,7 +94,9 @@ def differences(before: dict, after: dict) -> Iterator[tuple[str, object, object
 def _prepare() -> str:
     """Load the add-on from this checkout as a module, with a new user folder. Return that folder."""
     folder = tempfile.mkdtemp(prefix="body_moments_corpus_")
-    for name in [name for name in os.environ if name.startswith(("BLENDER_USER_", "BLENDER_SYSTEM_"))]:
+    for name in [
+        name for name in os.environ if name.startswith(("BLENDER_USER_", "BLENDER_SYSTEM_"))
+    ]:
         del os.environ[name]
     os.environ["BLENDER_USER_RESOURCES"] = folder
     spec = importlib.util.spec_from_file_location(
@@ -111,7 +123,9 @@ def _measure() -> dict[str, object]:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description="Measures the corpus, and keeps or compares the numbers.")
+    parser = argparse.ArgumentParser(
+        description="Measures the corpus, and keeps or compares the numbers."
+    )
     parser.add_argument("reference", nargs="?", type=Path, metavar="REFERENCE")
     parser.add_argument("--write", type=Path, metavar="OUT")
     parser.add_argument(

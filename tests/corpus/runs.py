@@ -36,7 +36,10 @@ RUNS = {
     "object": (("--frame", "object", "--order", "2"), PLAIN),
     "signature": (("--order", "8", "--surface-moments", "--pose", "--signature"), ["shapes"]),
     "union": (("--overlap", "union", "--order", "3"), ["overlaps"]),
-    "shell": (("--kind", "shell", "--thickness", "0.015", "--order", "3", "--surface-moments"), ["shapes", "overlaps"]),
+    "shell": (
+        ("--kind", "shell", "--thickness", "0.015", "--order", "3", "--surface-moments"),
+        ["shapes", "overlaps"],
+    ),
     "density": (("--density", "2700", "--frame", "object"), ["faulty", "shells"]),
     "mass": (("--mass", "7.5"), ["faulty", "nurbs"]),
 }
@@ -81,7 +84,11 @@ def _operators(folder: Path, name: str) -> dict[str, object]:
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / (name + ".blend")), copy=True)
     for obj in bpy.context.view_layer.objects:
         obj.select_set(True)
-    measure = bpy.ops.object.body_moments_measure_section if name == "sections" else bpy.ops.object.body_moments_measure
+    measure = (
+        bpy.ops.object.body_moments_measure_section
+        if name == "sections"
+        else bpy.ops.object.body_moments_measure
+    )
     measure()
     found = {}
     for obj in bpy.context.scene.objects:
@@ -114,7 +121,16 @@ def _measured(folder: Path, run: str, options, files) -> dict[str, object]:
     results = folder / "results"
     results.mkdir(exist_ok=True)
     output = results / (run + " " + files[0].stem + ".jsonl")
-    words = [ROOT / "operators" / "batch.py", "measure", *options, "--format", "jsonl", "--output", output, *files]
+    words = [
+        ROOT / "operators" / "batch.py",
+        "measure",
+        *options,
+        "--format",
+        "jsonl",
+        "--output",
+        output,
+        *files,
+    ]
     done = subprocess.run(
         [sys.executable, "-P", *map(str, words)],
         stdin=subprocess.DEVNULL,
@@ -157,7 +173,11 @@ def _finding(found: dict) -> str:
     """Return the code of a finding, its number of elements, and its values that are texts or whole numbers."""
     elements = len(found.get("elements", ()))
     words = [found["code"], *(["{:d}".format(elements)] if elements else [])]
-    words += ["{}={}".format(name, one) for name, one in found["values"].items() if isinstance(one, (str, int))]
+    words += [
+        "{}={}".format(name, one)
+        for name, one in found["values"].items()
+        if isinstance(one, (str, int))
+    ]
     return " ".join(words)
 
 
@@ -180,12 +200,19 @@ def _arrays(folder: Path):
         "plain.nrrd": nrrd(values.astype(np.float32), "spacings: 2 3 4", 'units: "mm" "mm" "mm"'),
         "packed.nrrd": nrrd(np.round(values).astype(">i2"), "spacings: 0.5 0.5 1", encoding="gzip"),
         "tilted.nrrd": nrrd(values, "space dimension: 3", tilted, "space origin: (1,2,3)"),
-        "plain.nii": nifti(np.round(values).astype(np.int16), spacing=(2, 2, 3), slope=3.0, intercept=1.0),
+        "plain.nii": nifti(
+            np.round(values).astype(np.int16), spacing=(2, 2, 3), slope=3.0, intercept=1.0
+        ),
         "packed.nii.gz": gzip.compress(nifti(round_one, spacing=(1, 2, 2))),
         "turned.nii": nifti(
-            values.astype(np.float32), spacing=(1, 2, 3), quaternion=(0.1, 0.2, 0.3, 5, 6, 7), qfac=-1.0
+            values.astype(np.float32),
+            spacing=(1, 2, 3),
+            quaternion=(0.1, 0.2, 0.3, 5, 6, 7),
+            qfac=-1.0,
         ),
-        "mapped.nii": nifti(values.astype(np.float32), sform=[[0, -2, 0, 10], [3, 0, 0.5, -20], [0, 0, 4, 5]]),
+        "mapped.nii": nifti(
+            values.astype(np.float32), sform=[[0, -2, 0, 10], [3, 0, 0.5, -20], [0, 0, 4, 5]]
+        ),
         "below zero.nrrd": nrrd(-block),
         "empty.nrrd": nrrd(0 * block),
         "not finite.nrrd": nrrd(block * np.nan),
@@ -200,7 +227,21 @@ def _arrays(folder: Path):
     yield ("--order", "4"), every
     yield (*place, "--spline-order", "2", "--order", "3"), every
     yield (*place, "--spline-order", "3", "--density-scale", "2.5", "--order", "2"), arrays
-    yield ("--spline-order", "4", "--order", "4", "--unit-scale", "1e-5", "--mass", "12", "--frame", "object"), arrays
+    yield (
+        (
+            "--spline-order",
+            "4",
+            "--order",
+            "4",
+            "--unit-scale",
+            "1e-5",
+            "--mass",
+            "12",
+            "--frame",
+            "object",
+        ),
+        arrays,
+    )
 
 
 def _mesh_files(folder: Path) -> list[Path]:
@@ -216,13 +257,21 @@ def _mesh_files(folder: Path) -> list[Path]:
         triangles = s.triangulated(part)[1]
         stl = ["solid"]
         for face in triangles:
-            stl += ["facet normal 0 0 0", "outer loop", *("vertex {} {} {}".format(*points[i]) for i in face)]
+            stl += [
+                "facet normal 0 0 0",
+                "outer loop",
+                *("vertex {} {} {}".format(*points[i]) for i in face),
+            ]
             stl += ["endloop", "endfacet"]
         obj = ["o " + name, *("v {} {} {}".format(*point) for point in points)]
         obj += ["f " + " ".join(str(i + 1) for i in face) for face in polygons]
         ply = ["ply", "format ascii 1.0", "element vertex {}".format(len(points))]
         ply += ["property float " + axis for axis in "xyz"]
-        ply += ["element face {}".format(len(polygons)), "property list uchar int vertex_indices", "end_header"]
+        ply += [
+            "element face {}".format(len(polygons)),
+            "property list uchar int vertex_indices",
+            "end_header",
+        ]
         ply += ["{} {} {}".format(*point) for point in points]
         ply += ["{} {}".format(len(face), " ".join(map(str, face))) for face in polygons]
         for suffix, lines in ((".stl", [*stl, "endsolid"]), (".obj", obj), (".ply", ply)):
@@ -240,7 +289,9 @@ def _transforms(folder: Path) -> dict[str, object]:
     """Fourier transforms at given wave vectors, and one on a grid."""
     rng = np.random.default_rng(17)
     directions = np.round(rng.normal(size=(24, 3)), 3)
-    q = np.concatenate([np.zeros((1, 3)), np.eye(3), 1e-6 * np.eye(3), 0.5 * directions, 8.0 * directions[:8]])
+    q = np.concatenate(
+        [np.zeros((1, 3)), np.eye(3), 1e-6 * np.eye(3), 0.5 * directions, 8.0 * directions[:8]]
+    )
     np.save(folder / "q.npy", q)
     asked = [("given", scene, name, ("--q", folder / "q.npy")) for scene, name in TRANSFORMED]
     asked.append(("grid", *TRANSFORMED[0], ("--grid", "8", "--qmax", "6")))
@@ -248,7 +299,9 @@ def _transforms(folder: Path) -> dict[str, object]:
     for how, scene, name, options in asked:
         out = folder / "{} {}.npz".format(how, name)
         words = ("--object", name, "--fourier", out, *options)
-        table |= _measured(folder, "fourier {} {}".format(how, name), words, [folder / (scene + ".blend")])
+        table |= _measured(
+            folder, "fourier {} {}".format(how, name), words, [folder / (scene + ".blend")]
+        )
         with np.load(out) as held:
             table["fourier/{} {}".format(how, name)] = {
                 "q": held["q"].tolist(),

@@ -19,7 +19,11 @@ PLACES = {
     "off the origin": {"location": (3, -2, 5)},
     "turned": {"location": (0.5, 1, -2), "rotation_euler": TURN},
     "mirrored": {"location": (2, 3, -1), "rotation_euler": (0.2, -0.4, 0.9), "scale": (-1, 1, 1)},
-    "scaled unevenly": {"location": (-4, 0, 1), "rotation_euler": (1.0, 0.1, 2.0), "scale": (2, 0.5, 3)},
+    "scaled unevenly": {
+        "location": (-4, 0, 1),
+        "rotation_euler": (1.0, 0.1, 2.0),
+        "scale": (2, 0.5, 3),
+    },
     "sheared": {"location": (1, 2, 3), "rotation_euler": TURN, "sheared": (1, 2, 0.5)},
     "far away": {"location": (1e4, 2e4, -1.5e4), "rotation_euler": TURN},
     "tiny": {"location": (1e-5, -2e-5, 3e-5), "scale": (1e-5, 1e-5, 1e-5)},
@@ -107,7 +111,11 @@ def node(tree, kind, inputs=None, **links):
 
 
 def on_grid(tree, instance, side=3, scale=(1.0, 1.0, 1.0)):
-    points = node(tree, "GeometryNodeMeshGrid", {"Size X": 8.0, "Size Y": 6.0, "Vertices X": side, "Vertices Y": side})
+    points = node(
+        tree,
+        "GeometryNodeMeshGrid",
+        {"Size X": 8.0, "Size Y": 6.0, "Vertices X": side, "Vertices Y": side},
+    )
     inputs = {"Rotation": (0.1, 0.2, 0.3), "Scale": scale}
     return node(tree, "GeometryNodeInstanceOnPoints", inputs, Points=points, Instance=instance)
 
@@ -146,7 +154,13 @@ def closed():
         },
         3,
     )
-    spread({"Prism of {}".format(n): s.prism(s.regular(n, 1.0, 0.1 * n), 0.5 + 0.25 * n) for n in range(3, 13)}, 2)
+    spread(
+        {
+            "Prism of {}".format(n): s.prism(s.regular(n, 1.0, 0.1 * n), 0.5 + 0.25 * n)
+            for n in range(3, 13)
+        },
+        2,
+    )
     spread({"Hull {}".format(i): s.random_hull(i, 6 + i) for i in range(8)}, 2)
     spread({"Polycube {}".format(i): s.polycube(i, 4 + i) for i in (1, 2, 3, 5, 7)}, 2)
     for number, cell in enumerate(s.fracture(), 1):
@@ -162,7 +176,10 @@ def faulty():
         [*unit[1], [8, 9, 11, 10], [8, 10, 4, 0], [9, 1, 5, 11], [10, 11, 5, 4], [8, 0, 1, 9]],
     )
     needles = s.triangulated(
-        (np.concatenate([unit[0], [[0.5, 1e-6, 0]]]), [[0, 2, 3, 1, 8], unit[1][1], [0, 8, 1, 5, 4], *unit[1][3:]])
+        (
+            np.concatenate([unit[0], [[0.5, 1e-6, 0]]]),
+            [[0, 2, 3, 1, 8], unit[1][1], [0, 8, 1, 5, 4], *unit[1][3:]],
+        )
     )
     bow = s.prism([(0, 0), (1, 1), (1, 0), (0, 1)])
     spread(
@@ -172,9 +189,13 @@ def faulty():
             "Broken box": s.joined(*s.fracture()),
             "Cavity": s.joined(cube4, s.inverted(cube2)),
             "Two cavities": s.joined(
-                cube4, s.inverted(s.moved(unit, (-1.5, -1, -1))), s.inverted(s.moved(unit, (0.5, 0, 0)))
+                cube4,
+                s.inverted(s.moved(unit, (-1.5, -1, -1))),
+                s.inverted(s.moved(unit, (0.5, 0, 0))),
             ),
-            "Body in a cavity": s.joined(cube4, s.inverted(cube2), s.moved(unit, (-0.5, -0.5, -0.5))),
+            "Body in a cavity": s.joined(
+                cube4, s.inverted(cube2), s.moved(unit, (-0.5, -0.5, -0.5))
+            ),
             "Nested outward": s.joined(cube4, cube2),
             "Nested outward twice": s.joined(cube4, cube2, s.moved(cube2, scale=0.5)),
             "Overlapping boxes": s.joined(unit, s.moved(unit, (0.5, 0, 0))),
@@ -200,7 +221,10 @@ def faulty():
             "Unwelded flipped face": s.with_flipped(s.unwelded(unit), 1),
             "Needles": needles,
             "Face without area": (np.concatenate([unit[0], [[0.5, 0, 0]]]), [*unit[1], [0, 8, 1]]),
-            "Loose face": (np.concatenate([unit[0], [[3, 0, 0], [4, 0, 0], [3, 1, 0]]]), [*unit[1], [8, 9, 10]]),
+            "Loose face": (
+                np.concatenate([unit[0], [[3, 0, 0], [4, 0, 0], [3, 1, 0]]]),
+                [*unit[1], [8, 9, 10]],
+            ),
             "Fin": fin,
             "Inner wall": two,
             "Bow tie": bow,
@@ -279,7 +303,9 @@ def shells():
         "Torus": s.torus(),
         "Broken box": s.joined(*s.fracture()),
     }
-    for (name, part), place in zip(sheets.items(), ("sheared", "far away", "huge", "tiny", "mirrored and sheared")):
+    for (name, part), place in zip(
+        sheets.items(), ("sheared", "far away", "huge", "tiny", "mirrored and sheared")
+    ):
         body("{} thin {}".format(name, place), part, thin, place)
     body(
         "Box far away inward",
@@ -289,13 +315,28 @@ def shells():
     )
     tiny = {"kind": "SHELL", "wall": "CENTERED", "thickness": 1e-6}
     body("Box tiny centered", s.box((0, 0, 0), (1, 2, 3)), tiny, "tiny")
-    body("Flipped box inward", s.with_flipped(s.box(), 2), {"kind": "SHELL", "wall": "INWARD", "thickness": 0.125})
+    body(
+        "Flipped box inward",
+        s.with_flipped(s.box(), 2),
+        {"kind": "SHELL", "wall": "INWARD", "thickness": 0.125},
+    )
     body("Slit outward", s.prism(s.U_PLAN), {"kind": "SHELL", "wall": "OUTWARD", "thickness": 0.25})
-    weighed = {"kind": "SHELL", "wall": "INWARD", "thickness": 0.1, "mass_from": "MASS", "mass": 3.0}
+    weighed = {
+        "kind": "SHELL",
+        "wall": "INWARD",
+        "thickness": 0.1,
+        "mass_from": "MASS",
+        "mass": 3.0,
+    }
     body("Weighed shell", s.box(), weighed)
     many = {"kind": "SHELL", "wall": "OUTWARD", "thickness": 0.05}
     body("Polycube outward", s.polycube(3, 6), many, "turned")
-    for kind, wall in (("sphere", "THIN"), ("torus", "THIN"), ("sphere", "INWARD"), ("torus", "OUTWARD")):
+    for kind, wall in (
+        ("sphere", "THIN"),
+        ("torus", "THIN"),
+        ("sphere", "INWARD"),
+        ("torus", "OUTWARD"),
+    ):
         obj = made(
             getattr(bpy.ops.surface, "primitive_nurbs_surface_{}_add".format(kind)),
             "NURBS {} {} shell".format(kind, wall.lower()),
@@ -349,8 +390,17 @@ def curves():
         for _ in range(2):
             place = dict(PLACES[next(places)])
             place.pop("baked", None), place.pop("size", None)
-            given(add("{} wire {}".format(name, len(bpy.data.objects)), data, **place), kind="WIRE", linear_density=2.5)
-    given(add("Weighed wire", wires["Spline"], location=(1, 2, 3)), kind="WIRE", mass_from="MASS", mass=3.0)
+            given(
+                add("{} wire {}".format(name, len(bpy.data.objects)), data, **place),
+                kind="WIRE",
+                linear_density=2.5,
+            )
+    given(
+        add("Weighed wire", wires["Spline"], location=(1, 2, 3)),
+        kind="WIRE",
+        mass_from="MASS",
+        mass=3.0,
+    )
     sheet = {"kind": "SHELL", "thickness": 0.01}
     ell = curve("Outline", np.array(s.L_PLAN), cyclic=True, dimensions="2D", fill_mode="BOTH")
     hole = curve(
@@ -364,23 +414,49 @@ def curves():
     given(add("Filled outline", ell, location=(1, 0, 0), rotation_euler=TURN), **sheet)
     given(add("Filled outline with a hole", hole, location=(0, 2, 0), scale=(2, 1, 1)), **sheet)
     given(add("Filled spline", smooth, location=(1e4, 0, 0)), **sheet)
-    given(add("Filled Bézier", curve("Round", np.array(s.L_PLAN), "BEZIER", True, "2D", fill_mode="BOTH")), **sheet)
-    given(add("Region of a closed curve", curve("Region", np.array(s.L_PLAN), cyclic=True)), **sheet)
-    ell_solid = curve("Extruded", np.array(s.L_PLAN), cyclic=True, dimensions="2D", fill_mode="BOTH", extrude=0.5)
+    given(
+        add(
+            "Filled Bézier",
+            curve("Round", np.array(s.L_PLAN), "BEZIER", True, "2D", fill_mode="BOTH"),
+        ),
+        **sheet,
+    )
+    given(
+        add("Region of a closed curve", curve("Region", np.array(s.L_PLAN), cyclic=True)), **sheet
+    )
+    ell_solid = curve(
+        "Extruded", np.array(s.L_PLAN), cyclic=True, dimensions="2D", fill_mode="BOTH", extrude=0.5
+    )
     add("Extruded outline", ell_solid, location=(3, 2, 1), rotation_euler=TURN)
     add("Extruded outline scaled", ell_solid, location=(-3, 2, 1), scale=(1, -2, 0.5))
-    add("Square pipe", curve("Pipe", ZIGZAG, bevel_depth=0.1, bevel_resolution=0, use_fill_caps=True))
-    add("Pipe in a loop", curve("Hose", WAVE, "NURBS", True, bevel_depth=0.05, bevel_resolution=2), location=(2, 2, 2))
+    add(
+        "Square pipe",
+        curve("Pipe", ZIGZAG, bevel_depth=0.1, bevel_resolution=0, use_fill_caps=True),
+    )
+    add(
+        "Pipe in a loop",
+        curve("Hose", WAVE, "NURBS", True, bevel_depth=0.05, bevel_resolution=2),
+        location=(2, 2, 2),
+    )
     given(add("Pipe as a wire", curve("Tube", ZIGZAG, bevel_depth=0.1)), kind="WIRE")
     for number, (text, extrude) in enumerate((("Body", 0.1), ("Moments", 0.05), ("B8", 0.2))):
         data = bpy.data.curves.new("Text {}".format(number), "FONT")
         data.body, data.extrude = text, extrude
-        add("Text {}".format(text), data, location=(number, -1, 2), rotation_euler=(0.1 * number, 0.3, 0))
+        add(
+            "Text {}".format(text),
+            data,
+            location=(number, -1, 2),
+            rotation_euler=(0.1 * number, 0.3, 0),
+        )
     flat = bpy.data.curves.new("Flat text", "FONT")
     flat.body = "Flat"
     given(add("Flat text", flat, rotation_euler=TURN), **sheet)
     for number, (places, radius) in enumerate(
-        ((((0, 0, 0),), 1.0), (((0, 0, 0), (1.2, 0.1, 0)), 0.8), (((0, 0, 0), (1, 0, 0), (0, 1, 0.5)), 0.7))
+        (
+            (((0, 0, 0),), 1.0),
+            (((0, 0, 0), (1.2, 0.1, 0)), 0.8),
+            (((0, 0, 0), (1, 0, 0), (0, 1, 0.5)), 0.7),
+        )
     ):
         data = bpy.data.metaballs.new("Drop{}".format(number))
         data.resolution = 0.3
@@ -390,7 +466,15 @@ def curves():
         add("Drop{}".format(number), data, location=(10 * number, 1, 2))
 
 
-def patch(name, points, weights=None, orders=(4, 4), cyclic=(False, False), endpoint=(True, True), **transform):
+def patch(
+    name,
+    points,
+    weights=None,
+    orders=(4, 4),
+    cyclic=(False, False),
+    endpoint=(True, True),
+    **transform,
+):
     """A surface of one patch. points: (count_v, count_u, 3)."""
     points = np.asarray(points, np.float32)
     rows, columns = points.shape[:2]
@@ -428,7 +512,11 @@ def nurbs():
     moves = {
         "": {},
         " turned": {"location": (5, -2, 8), "rotation_euler": TURN},
-        " mirrored unevenly": {"location": (1, 2, 3), "rotation_euler": TURN, "scale": (1, 2, -0.5)},
+        " mirrored unevenly": {
+            "location": (1, 2, 3),
+            "rotation_euler": TURN,
+            "scale": (1, 2, -0.5),
+        },
         " far away": {"location": (1e4, -1e4, 2e4)},
         " tiny": {"scale": (1e-5, 1e-5, 1e-5)},
     }
@@ -444,7 +532,13 @@ def nurbs():
         hills = np.stack([x, y, np.round(rng.uniform(-0.5, 0.5, x.shape), 3)], axis=-1)
         weights = np.round(rng.uniform(0.5, 2.0, x.shape), 3) if number else None
         given(
-            patch("Open patch {}".format(number), hills, weights, (4 - number % 2, 3), location=(number, 0, 1)),
+            patch(
+                "Open patch {}".format(number),
+                hills,
+                weights,
+                (4 - number % 2, 3),
+                location=(number, 0, 1),
+            ),
             kind="SHELL",
             thickness=0.02,
         )
@@ -474,13 +568,32 @@ def modifier(obj, kind, **options):
 
 def built():
     ell = s.prism(s.SLANTED_PLAN, 0.7)
-    modifier(body("Array", ell, place="turned"), "ARRAY", count=4, relative_offset_displace=(1.5, 0.25, 0))
+    modifier(
+        body("Array", ell, place="turned"),
+        "ARRAY",
+        count=4,
+        relative_offset_displace=(1.5, 0.25, 0),
+    )
     modifier(body("Array that touches", s.box(), place="mirrored"), "ARRAY", count=3)
-    modifier(body("Mirror", s.moved(ell, (1, 0, 0)), place="sheared"), "MIRROR", use_axis=(True, False, True))
+    modifier(
+        body("Mirror", s.moved(ell, (1, 0, 0)), place="sheared"),
+        "MIRROR",
+        use_axis=(True, False, True),
+    )
     modifier(body("Solidify", s.sheet(3, 0.4), place="turned"), "SOLIDIFY", thickness=0.1)
-    modifier(body("Solidify of a box", s.box(), place="scaled unevenly"), "SOLIDIFY", thickness=0.05, offset=0.0)
+    modifier(
+        body("Solidify of a box", s.box(), place="scaled unevenly"),
+        "SOLIDIFY",
+        thickness=0.05,
+        offset=0.0,
+    )
     modifier(body("Subdivision", s.box((0, 0, 0), (1, 2, 3)), place="turned"), "SUBSURF", levels=2)
-    modifier(body("Simple subdivision", ell, place="mirrored"), "SUBSURF", levels=2, subdivision_type="SIMPLE")
+    modifier(
+        body("Simple subdivision", ell, place="mirrored"),
+        "SUBSURF",
+        levels=2,
+        subdivision_type="SIMPLE",
+    )
     modifier(body("Bevel", s.box((0, 0, 0), (2, 2, 1))), "BEVEL", width=0.1, segments=2)
     modifier(body("Triangulate", s.raised_column(), place="turned"), "TRIANGULATE")
     modifier(body("Decimate", s.ball(3)), "DECIMATE", ratio=0.5)
@@ -490,11 +603,18 @@ def built():
     modifier(body("Displaced", s.ball(2)), "DISPLACE", strength=0.25, mid_level=0.0)
     modifier(body("Remesh", s.box((0, 0, 0), (2, 1, 1))), "REMESH", mode="BLOCKS", octree_depth=3)
     monkey = made(bpy.ops.mesh.primitive_monkey_add, "Suzanne", location=(1, 2, 3), rotation=TURN)
-    smooth = made(bpy.ops.mesh.primitive_monkey_add, "Suzanne subdivided", location=(-1, 2, -3), rotation=TURN)
+    smooth = made(
+        bpy.ops.mesh.primitive_monkey_add, "Suzanne subdivided", location=(-1, 2, -3), rotation=TURN
+    )
     modifier(smooth, "SUBSURF", levels=1)
     add("Suzanne mirrored", monkey.data, location=(4, 0, 0), scale=(-1, 1, 1))
     for name in ("primitive_ico_sphere_add", "primitive_torus_add", "primitive_cone_add"):
-        made(getattr(bpy.ops.mesh, name), "Blender's " + name.split("_")[1], location=(3, 1, 2), rotation=TURN)
+        made(
+            getattr(bpy.ops.mesh, name),
+            "Blender's " + name.split("_")[1],
+            location=(3, 1, 2),
+            rotation=TURN,
+        )
 
     bent = made(bpy.ops.surface.primitive_nurbs_surface_sphere_add, "NURBS sphere with a modifier")
     bent.modifiers.new("Triangulate", "TRIANGULATE")
@@ -507,7 +627,9 @@ def built():
     key.value = 0.5
     data = mesh("Shared", ell)
     for number, (words, place) in enumerate(list(PLACES.items())[:8]):
-        place = {key: value for key, value in place.items() if key not in ("baked", "size", "sheared")}
+        place = {
+            key: value for key, value in place.items() if key not in ("baked", "size", "sheared")
+        }
         add("Linked duplicate {} {}".format(number, words), data, **place)
     parent = body("Parent", s.box(), place="scaled unevenly")
     child = body("Child", ell, place="turned")
@@ -515,15 +637,20 @@ def built():
     child.parent, grandchild.parent = parent, child
 
     tree_of(
-        body("Nodes on a grid", ell, place="turned"), lambda tree, source: on_grid(tree, source, 3, (1.0, 2.0, 0.5))
+        body("Nodes on a grid", ell, place="turned"),
+        lambda tree, source: on_grid(tree, source, 3, (1.0, 2.0, 0.5)),
     )
     tree_of(
         body("Nodes beside its own", s.box(), place="mirrored"),
-        lambda tree, source: joined_nodes(tree, on_grid(tree, node(tree, "GeometryNodeMeshCone")), source),
+        lambda tree, source: joined_nodes(
+            tree, on_grid(tree, node(tree, "GeometryNodeMeshCone")), source
+        ),
     )
     tree_of(
         body("Nodes realized", ell, place="off the origin"),
-        lambda tree, source: node(tree, "GeometryNodeRealizeInstances", Geometry=on_grid(tree, source)),
+        lambda tree, source: node(
+            tree, "GeometryNodeRealizeInstances", Geometry=on_grid(tree, source)
+        ),
     )
     tree_of(
         body("Nodes within nodes", s.box(), place="turned"),
@@ -557,7 +684,9 @@ def built():
         host = body("Instances on " + kind.lower(), s.box(), place="turned")
         host.instance_type = kind
         host.use_instance_vertices_rotation = host.use_instance_faces_scale = True
-        body("Guest of " + kind.lower(), s.moved(ell, scale=0.2), place="at the origin").parent = host
+        body(
+            "Guest of " + kind.lower(), s.moved(ell, scale=0.2), place="at the origin"
+        ).parent = host
     particles = body("Particles", s.box(), place="at the origin")
     system = particles.modifiers.new("Particles", "PARTICLE_SYSTEM").particle_system.settings
     system.type, system.count = "HAIR", 7
@@ -607,9 +736,15 @@ def densities():
         [0] * 12 + [1] * 6,
         "turned",
     )
-    of_materials("Materials of a shell", unit, [0, 1, 0, 0, 2, 1], "mirrored", kind="SHELL", thickness=0.01)
-    of_materials("Materials, weighed", pair, [0] * 6 + [1] * 6, "turned", mass_from="MASS", mass=12.5)
-    for number, (value, place) in enumerate(((0.5, "turned"), (2700.0, "sheared"), (21450.0, "huge"))):
+    of_materials(
+        "Materials of a shell", unit, [0, 1, 0, 0, 2, 1], "mirrored", kind="SHELL", thickness=0.01
+    )
+    of_materials(
+        "Materials, weighed", pair, [0] * 6 + [1] * 6, "turned", mass_from="MASS", mass=12.5
+    )
+    for number, (value, place) in enumerate(
+        ((0.5, "turned"), (2700.0, "sheared"), (21450.0, "huge"))
+    ):
         body("One value {}".format(number), ell, {"density": value}, place)
     for number, (value, place) in enumerate(((1e-6, "tiny"), (3.5, "mirrored"), (1e9, "far away"))):
         body("Weighed {}".format(number), ell, {"mass_from": "MASS", "mass": value}, place)
@@ -631,7 +766,12 @@ def densities():
     body(
         "Polynomial of a shell",
         unit,
-        {"density_from": "POLYNOMIAL", "density_polynomial": "1000 + 50*z + x*x", "kind": "SHELL", "thickness": 0.02},
+        {
+            "density_from": "POLYNOMIAL",
+            "density_polynomial": "1000 + 50*z + x*x",
+            "kind": "SHELL",
+            "thickness": 0.02,
+        },
         "turned",
     )
     body(
@@ -646,7 +786,9 @@ def densities():
         ("Attribute of a ball", s.ball(1), "sheared"),
         ("Attribute of a hull", s.random_hull(1, 8), "mirrored"),
     ):
-        obj = body(name, part, {"kind": "SHELL", "density_from": "ATTRIBUTE", "thickness": 0.01}, place)
+        obj = body(
+            name, part, {"kind": "SHELL", "density_from": "ATTRIBUTE", "thickness": 0.01}, place
+        )
         values = np.round(rng.uniform(500, 3000, len(obj.data.vertices)))
         obj.data.attributes.new("density", "FLOAT", "POINT").data.foreach_set("value", values)
 
@@ -685,13 +827,34 @@ def volumes(folder):
     values = (values * (values > 1)).astype(np.float32)
     sheared = [[0.5, 0.125, 0, 3], [0, -0.25, 0.0625, -2], [0.25, 0, 1, 0.5], [0, 0, 0, 1]]
     volume(folder / "plain.vdb", "Cloud", values)
-    volume(folder / "moved.vdb", "Cloud moved", values, None, (-5, 130, 7), location=(1, 2, 3), rotation_euler=TURN)
-    volume(folder / "sheared.vdb", "Cloud sheared", values, sheared, scale=(2, -1, 0.5), rotation_euler=TURN)
+    volume(
+        folder / "moved.vdb",
+        "Cloud moved",
+        values,
+        None,
+        (-5, 130, 7),
+        location=(1, 2, 3),
+        rotation_euler=TURN,
+    )
+    volume(
+        folder / "sheared.vdb",
+        "Cloud sheared",
+        values,
+        sheared,
+        scale=(2, -1, 0.5),
+        rotation_euler=TURN,
+    )
     volume(folder / "far.vdb", "Cloud far away", values, location=(1e4, 2e4, 0))
     volume(folder / "whole.vdb", "Cloud of whole numbers", np.round(values).astype(np.int32))
     for order in (2, 3, 4):
-        given(volume(folder / "o{}.vdb".format(order), "Cloud of order {}".format(order), values), spline_order=order)
-    given(volume(folder / "denser.vdb", "Cloud denser", values, scale=(0.1, 0.1, 0.1)), value_density=1500.0)
+        given(
+            volume(folder / "o{}.vdb".format(order), "Cloud of order {}".format(order), values),
+            spline_order=order,
+        )
+    given(
+        volume(folder / "denser.vdb", "Cloud denser", values, scale=(0.1, 0.1, 0.1)),
+        value_density=1500.0,
+    )
     ct = np.round(rng.uniform(-1000, 1600, (4, 5, 6))).astype(np.float32)
     given(volume(folder / "ct.vdb", "CT numbers", ct), values_from="TABLE")
     level = openvdb().createLevelSetSphere(radius=2.0, center=(5.0, 0.0, 0.0), voxelSize=0.25)
@@ -706,7 +869,12 @@ def volumes(folder):
     ):
         given(body(name, part, place=place), density_from="VOLUME", density_volume=source)
     given(
-        body("Turned box in a cloud", s.box((-1, -1, -1), (1, 1, 1)), location=(2.5, 3, 2.5), rotation_euler=TURN),
+        body(
+            "Turned box in a cloud",
+            s.box((-1, -1, -1), (1, 1, 1)),
+            location=(2.5, 3, 2.5),
+            rotation_euler=TURN,
+        ),
         density_from="VOLUME",
         density_volume=source,
     )
@@ -730,8 +898,18 @@ def booleans():
     """The bases, not their operands, which are not asked for."""
     for operation in ("UNION", "DIFFERENCE", "INTERSECT"):
         cut("Boolean {}".format(operation.lower()), operation)
-    cut("Boolean of a ball", "DIFFERENCE", tool_part=s.moved(s.ball(1), (2, 2, 2), 0.75), place="mirrored")
-    cut("Boolean cavity", "DIFFERENCE", tool_part=s.box((0.5, 0.5, 0.5), (1.5, 1.25, 1)), place="off the origin")
+    cut(
+        "Boolean of a ball",
+        "DIFFERENCE",
+        tool_part=s.moved(s.ball(1), (2, 2, 2), 0.75),
+        place="mirrored",
+    )
+    cut(
+        "Boolean cavity",
+        "DIFFERENCE",
+        tool_part=s.box((0.5, 0.5, 0.5), (1.5, 1.25, 1)),
+        place="off the origin",
+    )
 
 
 def refused():
@@ -754,11 +932,27 @@ def refused():
     body("No mass", s.box(), {"mass_from": "MASS", "mass": 0.0})
     body("No thickness", s.box(), {"kind": "SHELL", "thickness": 0.0})
     body("Wire of a mesh", s.box(), {"kind": "WIRE"})
-    body("Wall too thick", s.box((0, 0, 0), (1, 2, 0.5)), {"kind": "SHELL", "wall": "INWARD", "thickness": 0.3})
+    body(
+        "Wall too thick",
+        s.box((0, 0, 0), (1, 2, 0.5)),
+        {"kind": "SHELL", "wall": "INWARD", "thickness": 0.3},
+    )
     body("Wall of a strip", s.moebius(), {"kind": "SHELL", "wall": "INWARD", "thickness": 0.01})
-    body("Attribute that is missing", s.box(), {"kind": "SHELL", "density_from": "ATTRIBUTE", "thickness": 0.1})
-    body("Polynomial that is none", s.box(), {"density_from": "POLYNOMIAL", "density_polynomial": "1000 +* z"})
-    body("Polynomial below zero", s.box(), {"density_from": "POLYNOMIAL", "density_polynomial": "-1000 - z"})
+    body(
+        "Attribute that is missing",
+        s.box(),
+        {"kind": "SHELL", "density_from": "ATTRIBUTE", "thickness": 0.1},
+    )
+    body(
+        "Polynomial that is none",
+        s.box(),
+        {"density_from": "POLYNOMIAL", "density_polynomial": "1000 +* z"},
+    )
+    body(
+        "Polynomial below zero",
+        s.box(),
+        {"density_from": "POLYNOMIAL", "density_polynomial": "-1000 - z"},
+    )
     body("Volume object that is missing", s.box(), {"density_from": "VOLUME"})
     body("Disabled", s.box()).hide_viewport = True
     away = bpy.data.collections.new("Excluded")
@@ -767,7 +961,10 @@ def refused():
     bpy.context.view_layer.layer_collection.children["Excluded"].exclude = True
     add("Empty")
     hollow = add("Instance of nothing")
-    hollow.instance_type, hollow.instance_collection = "COLLECTION", bpy.data.collections.new("Hollow")
+    hollow.instance_type, hollow.instance_collection = (
+        "COLLECTION",
+        bpy.data.collections.new("Hollow"),
+    )
     add("Light", bpy.data.lights.new("Light", "SUN"))
     add("Camera", bpy.data.cameras.new("Camera"))
     add("Armature", bpy.data.armatures.new("Armature"))
@@ -800,8 +997,18 @@ def small_set():
         2,
     )
     body("Thin shell", s.box(), {"kind": "SHELL", "thickness": 0.125}, "turned")
-    body("Wall", s.box((0, 0, 0), (1, 2, 3)), {"kind": "SHELL", "wall": "INWARD", "thickness": 0.125}, "turned")
-    body("Polynomial", s.box(), {"density_from": "POLYNOMIAL", "density_polynomial": "1000 + 20*z"}, "turned")
+    body(
+        "Wall",
+        s.box((0, 0, 0), (1, 2, 3)),
+        {"kind": "SHELL", "wall": "INWARD", "thickness": 0.125},
+        "turned",
+    )
+    body(
+        "Polynomial",
+        s.box(),
+        {"density_from": "POLYNOMIAL", "density_polynomial": "1000 + 20*z"},
+        "turned",
+    )
     body("Weighed", s.box(), {"mass_from": "MASS", "mass": 2.5}, "mirrored")
     given(add("Wire", curve("Wire", WAVE, "NURBS")), kind="WIRE")
     made(bpy.ops.surface.primitive_nurbs_surface_torus_add, "NURBS torus", location=(1, 2, 3))
@@ -831,7 +1038,10 @@ def sections():
     }
     places = ("at the origin", "turned", "sheared", "scaled unevenly", "far away")
     for (name, outline), place in zip(outlines.items(), places):
-        flat = (np.column_stack([np.asarray(outline, float), np.zeros(len(outline))]), [list(range(len(outline)))])
+        flat = (
+            np.column_stack([np.asarray(outline, float), np.zeros(len(outline))]),
+            [list(range(len(outline)))],
+        )
         body(name, flat, place=place)
     body("Sheet", s.sheet(4), place="tiny")
     add(
@@ -859,5 +1069,13 @@ SCENES = {
     "kilometers": kilometers,
     "sections": sections,
 }
-EVALUATED = {"curves", "built", "booleans", "overlaps", "volumes/Fog", "volumes/Level set", "volumes total"}
+EVALUATED = {
+    "curves",
+    "built",
+    "booleans",
+    "overlaps",
+    "volumes/Fog",
+    "volumes/Level set",
+    "volumes total",
+}
 NAMED = {"booleans": lambda name: not name.endswith("operand"), "refused": lambda name: True}

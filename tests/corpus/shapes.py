@@ -16,7 +16,20 @@ L_PLAN = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
 U_PLAN = [(0, 0), (3, 0), (3, 2), (2, 2), (2, 1), (1, 1), (1, 2), (0, 2)]
 T_PLAN = [(1, 0), (2, 0), (2, 2), (3, 2), (3, 3), (0, 3), (0, 2), (1, 2)]
 SLANTED_PLAN = [(0, 0), (3, 0), (3.5, 1), (1, 1), (1, 2.5), (0, 2)]
-COMB_PLAN = [(0, 0), (5, 0), (5, 2), (4, 2), (4, 1), (3, 1), (3, 2.5), (2, 2.5), (2, 1), (1, 1), (1, 2), (0, 2)]
+COMB_PLAN = [
+    (0, 0),
+    (5, 0),
+    (5, 2),
+    (4, 2),
+    (4, 1),
+    (3, 1),
+    (3, 2.5),
+    (2, 2.5),
+    (2, 1),
+    (1, 1),
+    (1, 2),
+    (0, 2),
+]
 
 
 def box(low=(0, 0, 0), high=(1, 1, 1)):
@@ -27,7 +40,9 @@ def box(low=(0, 0, 0), high=(1, 1, 1)):
 def joined(*parts):
     """Several bodies in one mesh, each with vertices of its own."""
     shifts = np.cumsum([0] + [len(points) for points, _ in parts])
-    faces = [[int(i + shift) for i in face] for (_, faces), shift in zip(parts, shifts) for face in faces]
+    faces = [
+        [int(i + shift) for i in face] for (_, faces), shift in zip(parts, shifts) for face in faces
+    ]
     return np.concatenate([points for points, _ in parts]), faces
 
 
@@ -56,7 +71,9 @@ def unwelded(part):
 
 
 def triangulated(part):
-    return part[0], [[face[0], face[i], face[i + 1]] for face in part[1] for i in range(1, len(face) - 1)]
+    return part[0], [
+        [face[0], face[i], face[i + 1]] for face in part[1] for i in range(1, len(face) - 1)
+    ]
 
 
 def moved(part, offset=(0, 0, 0), scale=1.0):
@@ -68,7 +85,10 @@ def turned(part, axis, angle):
     c, s = np.cos(angle), np.sin(angle)
     i, j = [k for k in range(3) if k != axis]
     points = part[0].copy()
-    points[:, i], points[:, j] = c * part[0][:, i] - s * part[0][:, j], s * part[0][:, i] + c * part[0][:, j]
+    points[:, i], points[:, j] = (
+        c * part[0][:, i] - s * part[0][:, j],
+        s * part[0][:, i] + c * part[0][:, j],
+    )
     return points, part[1]
 
 
@@ -79,7 +99,9 @@ def prism(plan, height=1.0, slant=(0.0, 0.0), taper=1.0):
     low = np.column_stack([plan, np.zeros(n)])
     high = np.column_stack([plan * taper + slant, np.full(n, float(height))])
     faces = [list(range(n))[::-1], list(range(n, 2 * n))]
-    return np.concatenate([low, high]), faces + [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    return np.concatenate([low, high]), faces + [
+        [i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)
+    ]
 
 
 def regular(n, radius=1.0, phase=0.0):
@@ -94,7 +116,10 @@ def cone(n=16, radius=1.0, height=2.0):
 
 def uv_sphere(segments=12, rings=8, radius=1.0):
     heights = np.pi * np.arange(1, rings) / rings
-    circles = [np.column_stack([regular(segments, np.sin(h)), np.full(segments, np.cos(h))]) for h in heights]
+    circles = [
+        np.column_stack([regular(segments, np.sin(h)), np.full(segments, np.cos(h))])
+        for h in heights
+    ]
     points = radius * np.concatenate([*circles, [[0, 0, 1], [0, 0, -1]]])
     top, bottom, last = len(points) - 2, len(points) - 1, (rings - 2) * segments
     faces = []
@@ -132,7 +157,9 @@ def ball(level=2, radius=1.0):
 
 def torus(nu=16, nv=8, major=1.0, minor=0.35, twist=False):
     """A ring of quads; with `twist`, the Klein bottle of the figure 8."""
-    u, v = np.meshgrid(np.arange(nu) * 2 * np.pi / nu, np.arange(nv) * 2 * np.pi / nv, indexing="ij")
+    u, v = np.meshgrid(
+        np.arange(nu) * 2 * np.pi / nu, np.arange(nv) * 2 * np.pi / nv, indexing="ij"
+    )
     if twist:
         r = major + minor * (np.cos(u / 2) * np.sin(v) - np.sin(u / 2) * np.sin(2 * v))
         z = minor * (np.sin(u / 2) * np.sin(v) + np.cos(u / 2) * np.sin(2 * v))
@@ -144,7 +171,9 @@ def torus(nu=16, nv=8, major=1.0, minor=0.35, twist=False):
         return i % nu * nv + (-j if twist and i // nu % 2 else j) % nv
 
     faces = [
-        [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)] for i in range(nu) for j in range(nv)
+        [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)]
+        for i in range(nu)
+        for j in range(nv)
     ]
     return points, faces
 
@@ -152,10 +181,20 @@ def torus(nu=16, nv=8, major=1.0, minor=0.35, twist=False):
 def moebius(n=40, width=0.3):
     u = np.arange(n) * 2 * np.pi / n
     sides = [
-        np.stack([(1 + w * np.cos(u / 2)) * np.cos(u), (1 + w * np.cos(u / 2)) * np.sin(u), w * np.sin(u / 2)], axis=1)
+        np.stack(
+            [
+                (1 + w * np.cos(u / 2)) * np.cos(u),
+                (1 + w * np.cos(u / 2)) * np.sin(u),
+                w * np.sin(u / 2),
+            ],
+            axis=1,
+        )
         for w in (-width, width)
     ]
-    return np.concatenate(sides), [*([i, i + 1, n + i + 1, n + i] for i in range(n - 1)), [n - 1, n, 0, 2 * n - 1]]
+    return np.concatenate(sides), [
+        *([i, i + 1, n + i + 1, n + i] for i in range(n - 1)),
+        [n - 1, n, 0, 2 * n - 1],
+    ]
 
 
 def sheet(n=4, height=0.0):
@@ -163,7 +202,9 @@ def sheet(n=4, height=0.0):
     x, y = np.meshgrid(np.arange(n + 1) / n, np.arange(n + 1) / n, indexing="ij")
     z = height * 16 * x * (1 - x) * y * (1 - y)
     index = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
-    quads = np.stack([index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]], axis=-1).reshape(-1, 4)
+    quads = np.stack(
+        [index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]], axis=-1
+    ).reshape(-1, 4)
     return np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1), quads.tolist()
 
 
@@ -190,7 +231,9 @@ def hull(points, tolerance=1e-9):
         center = points[list(on)].mean(axis=0)
         along = points[on[0]] - center
         across = np.cross(normal, along)
-        angles = [np.arctan2((points[i] - center) @ across, (points[i] - center) @ along) for i in on]
+        angles = [
+            np.arctan2((points[i] - center) @ across, (points[i] - center) @ along) for i in on
+        ]
         faces.append([on[i] for i in np.argsort(np.round(angles, 9), kind="stable")])
     used = sorted({i for face in faces for i in face})
     place = {old: new for new, old in enumerate(used)}
@@ -209,7 +252,9 @@ def clipped(part, normal, offset):
     kept = [*points[heights <= 0]]
     for i, j in sorted(edges):
         if heights[i] * heights[j] < 0:
-            kept.append(points[i] + heights[i] / (heights[i] - heights[j]) * (points[j] - points[i]))
+            kept.append(
+                points[i] + heights[i] / (heights[i] - heights[j]) * (points[j] - points[i])
+            )
     return hull(kept)
 
 
@@ -265,7 +310,10 @@ def dense_side(n=8, size=(2, 3, 5)):
     """A box with one side in n x n quads, closed in space alone."""
     points, faces = box((0, 0, 0), size)
     top, quads = sheet(n)
-    return joined((points, [face for face in faces if face != [4, 5, 7, 6]]), (top * size + (0, 0, size[2]), quads))
+    return joined(
+        (points, [face for face in faces if face != [4, 5, 7, 6]]),
+        (top * size + (0, 0, size[2]), quads),
+    )
 
 
 def random_tetrahedra(seed, count=5, spread=4.0):
@@ -282,6 +330,13 @@ def random_tetrahedra(seed, count=5, spread=4.0):
 
 
 TONON = (
-    np.array([[8.3322, -11.86875, 0.93355], [0.75523, 5.0, 16.37072], [52.61236, 5.0, -5.3858], [2.0, 5.0, 3.0]]),
+    np.array(
+        [
+            [8.3322, -11.86875, 0.93355],
+            [0.75523, 5.0, 16.37072],
+            [52.61236, 5.0, -5.3858],
+            [2.0, 5.0, 3.0],
+        ]
+    ),
     [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
 )

@@ -51,7 +51,9 @@ def summarize(table: dict[str, object], loose: set[str]) -> dict[str, dict[str, 
             _, scene, name = key.split("/", 2)
             record = found.get("object/{}.blend/{}".format(scene, name), {})
             found[key] = {
-                part: value for part, value in found[key].items() if part not in record or _differ(record[part], value)
+                part: value
+                for part, value in found[key].items()
+                if part not in record or _differ(record[part], value)
             }
     return found
 
@@ -62,7 +64,9 @@ def _is_in(key: str, places: set[str]) -> bool:
     return any(place == name or place.startswith((name + "/", name + " ")) for name in places)
 
 
-def changes(before: dict[str, dict], after: dict[str, dict]) -> Iterator[tuple[str, object, object]]:
+def changes(
+    before: dict[str, dict], after: dict[str, dict]
+) -> Iterator[tuple[str, object, object]]:
     """Yield (place, before, after) of each difference beyond the tolerances of `after`; new entries are none."""
     for key, old in before.items():
         new = after.get(key)
@@ -79,7 +83,9 @@ def _differ(old: object, new: object) -> bool:
         return old != new
     pairs = zip(old.values, new.values)
     # "Not at most" is true for NaN too.
-    return len(old.values) != len(new.values) or any(not abs(a - b) <= new.tolerance(b) for a, b in pairs)
+    return len(old.values) != len(new.values) or any(
+        not abs(a - b) <= new.tolerance(b) for a, b in pairs
+    )
 
 
 def write(summaries: dict[str, dict]) -> str:
@@ -106,7 +112,9 @@ def _digits(number: float, tolerance: float) -> str:
     if not rounded:
         return "0"
     digits = math.floor(math.log10(abs(rounded))) + decimals + 1
-    return "{:.{}g}".format(rounded, max(1, min(digits, 17))).replace("e-0", "e-").replace("e+0", "e")
+    return (
+        "{:.{}g}".format(rounded, max(1, min(digits, 17))).replace("e-0", "e-").replace("e+0", "e")
+    )
 
 
 def read(text: str) -> dict[str, dict]:
@@ -116,7 +124,9 @@ def read(text: str) -> dict[str, dict]:
         key, *parts = line.split("\t")
         pairs = [part.split("=", 1) for part in parts]
         summaries[key] = {
-            name: value[1:] if value.startswith("'") else Numbers([float(word) for word in value.split()], 0.0)
+            name: value[1:]
+            if value.startswith("'")
+            else Numbers([float(word) for word in value.split()], 0.0)
             for name, value in pairs
         }
     return summaries
@@ -125,7 +135,11 @@ def read(text: str) -> dict[str, dict]:
 def numbers_in(value: object) -> list[float]:
     """Return the numbers of nested tables and lists in their order; a null counts as zero and a bool as a number."""
     if isinstance(value, (dict, list)):
-        return [one for part in (value.values() if isinstance(value, dict) else value) for one in numbers_in(part)]
+        return [
+            one
+            for part in (value.values() if isinstance(value, dict) else value)
+            for one in numbers_in(part)
+        ]
     return [] if isinstance(value, str) else [float(value or 0.0)]
 
 
@@ -162,7 +176,11 @@ class _Entry:
             return {"names": " ".join(sorted(map(str, self.names)))}
         words = [str(self.table[name]) for name in WORDS if name in self.table]
         found = {"words": " ".join(word for word in words if word != "solid")}
-        found |= {"method": self.table.get("method"), "findings": self.table.get("findings"), "health": self.health()}
+        found |= {
+            "method": self.table.get("method"),
+            "findings": self.table.get("findings"),
+            "health": self.health(),
+        }
         found |= self.quantities() | self.moments() | self.bounds() | self.shape()
         return {name: value for name, value in found.items() if value}
 
@@ -174,9 +192,13 @@ class _Entry:
         differing = {
             name: len(value) if isinstance(value, list) else value
             for name, value in health.items()
-            if not isinstance(value, float) and (value or name in HEALTHY) and HEALTHY.get(name) != value
+            if not isinstance(value, float)
+            and (value or name in HEALTHY)
+            and HEALTHY.get(name) != value
         }
-        return " ".join("{}={:d}".format(k, v) if isinstance(v, int) else v for k, v in differing.items())
+        return " ".join(
+            "{}={:d}".format(k, v) if isinstance(v, int) else v for k, v in differing.items()
+        )
 
     def share(self) -> float:
         """Return the share of itself by which the mass may differ, and quantities that grow with it."""
@@ -194,14 +216,21 @@ class _Entry:
         for name in ("volume", "area"):
             if table.get(name):
                 found[name] = Numbers([table[name]], self.allowed(name, abs(table[name])))
-        center, principal = table.get("center_of_mass"), numbers_in(table.get("principal_moments") or [])
+        center, principal = (
+            table.get("center_of_mass"),
+            numbers_in(table.get("principal_moments") or []),
+        )
         reach = math.sqrt(abs(_largest(principal) / mass)) if mass else 0.0
         if center and None not in center:
-            found["center"] = Numbers(center, self.allowed("center_of_mass", _largest(center) + reach))
+            found["center"] = Numbers(
+                center, self.allowed("center_of_mass", _largest(center) + reach)
+            )
         inertia = table.get("inertia")
         if inertia:
             if len(inertia) == 3:
-                inertia = [inertia[i][j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+                inertia = [
+                    inertia[i][j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+                ]
             values = numbers_in(inertia)
             allowed = self.allowed("inertia", _largest(values))
             found["inertia"] = Numbers(values, allowed)
@@ -211,7 +240,9 @@ class _Entry:
         display = numbers_in(table.get("display_mesh") or [])
         if display:
             found["display"] = Numbers(display, OF_FLOAT32 * _largest(display))
-        spread = [(table.get("health") or {}).get(name) for name in ("volume_spread", "cap_area_share")]
+        spread = [
+            (table.get("health") or {}).get(name) for name in ("volume_spread", "cap_area_share")
+        ]
         if any(spread):
             found["spread"] = Numbers([one or 0.0 for one in spread], share * max(1.0, abs(volume)))
         return found
@@ -219,8 +250,13 @@ class _Entry:
     def bounds(self) -> dict[str, Numbers]:
         """Return the bounds by rounding and by the input, those of bounded quantities before those of moments."""
         moments = self.table.get("moments") or {}
-        sums = [weighted([part.get(name) or 0.0 for name in BOUNDED]) for part in (self.bound, self.input)]
-        sums += [weighted(numbers_in(moments[name])) for name in ("error", "input") if name in moments]
+        sums = [
+            weighted([part.get(name) or 0.0 for name in BOUNDED])
+            for part in (self.bound, self.input)
+        ]
+        sums += [
+            weighted(numbers_in(moments[name])) for name in ("error", "input") if name in moments
+        ]
         return {"bounds": Numbers(sums, 0.0, OF_BOUNDS)} if any(sums) else {}
 
     def moments(self) -> dict[str, Numbers]:
@@ -232,14 +268,21 @@ class _Entry:
         for kind, entries in moments.items():
             if not isinstance(entries, dict) or kind in ("error", "input"):
                 continue
-            table = {tuple(map(int, key.split(","))): value or 0.0 for key, value in entries.items()}
+            table = {
+                tuple(map(int, key.split(","))): value or 0.0 for key, value in entries.items()
+            }
             bound = (moments.get("error") or {}).get(kind) or {}
-            extent, second = abs(table.get((0, 0, 0), 0.0)), _largest([table[key] for key in table if sum(key) == 2])
+            extent, second = (
+                abs(table.get((0, 0, 0), 0.0)),
+                _largest([table[key] for key in table if sum(key) == 2]),
+            )
             length = math.sqrt(second / extent) if extent else 0.0
             for order in sorted({sum(key) for key in table}):
                 values = [value for key, value in table.items() if sum(key) == order]
                 size = max(_largest(values), extent * length**order)
-                bounds = [bound.get(",".join(map(str, key))) or 0.0 for key in table if sum(key) == order]
+                bounds = [
+                    bound.get(",".join(map(str, key))) or 0.0 for key in table if sum(key) == order
+                ]
                 share = max(self.share() if self.loose else 0.0, self.relative)
                 sums = Numbers([weighted(values)], max(share * size, BOUND * weighted(bounds)))
                 found["{}{:d}".format(kind[:4], order)] = sums
@@ -251,9 +294,15 @@ class _Entry:
         """Return whether the record or the moments of volume determine the weighted sum."""
         if kind == "mass":
             volume = found.get("volu{:d}".format(order), Numbers([self.table.get("volume")], 0.0))
-            expected = None if volume.values[0] is None else volume.values[0] * (self.table.get("density") or 0.0)
+            expected = (
+                None
+                if volume.values[0] is None
+                else volume.values[0] * (self.table.get("density") or 0.0)
+            )
         else:
-            expected = None if order else self.table.get({"volume": "volume", "surface": "area"}.get(kind))
+            expected = (
+                None if order else self.table.get({"volume": "volume", "surface": "area"}.get(kind))
+            )
         return expected is not None and abs(sums.values[0] - expected) <= sums.allowed
 
     def shape(self) -> dict[str, object]:
@@ -264,7 +313,9 @@ class _Entry:
             found["pose"] = "{} {}".format(pose.get("unique"), pose.get("symmetry"))
             if pose["unique"] is True:
                 distance = _largest(numbers_in(table.get("center_of_mass") or []))
-                found["matrix"] = Numbers([weighted(numbers_in(pose["matrix"]))], TURN * (1.0 + distance))
+                found["matrix"] = Numbers(
+                    [weighted(numbers_in(pose["matrix"]))], TURN * (1.0 + distance)
+                )
         for name, value in (table.get("signature") or {}).items():
             values = numbers_in(value)
             if values:
@@ -277,9 +328,13 @@ class _Entry:
             if values and name in ("error", "input"):
                 found["section " + name] = Numbers([weighted(values)], 0.0, OF_BOUNDS)
             elif values:
-                found["section " + name] = Numbers([weighted(values)], RELATIVE * max(side, _largest(values)))
+                found["section " + name] = Numbers(
+                    [weighted(values)], RELATIVE * max(side, _largest(values))
+                )
         for name in ("real", "imag"):
             if name in table:
                 values = numbers_in(table[name])
-                found[name] = Numbers([weighted(values)], self.relative * max(_largest(values), side, 1e-9))
+                found[name] = Numbers(
+                    [weighted(values)], self.relative * max(_largest(values), side, 1e-9)
+                )
         return found

@@ -38,7 +38,12 @@ RECORD = {
     "principal_axes": [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]],
     "principal_axes_unique": True,
     "symmetry": "asymmetric",
-    "health": {"closed": True, "components": 1, "self_intersection": "not_found", "volume_spread": 0.0},
+    "health": {
+        "closed": True,
+        "components": 1,
+        "self_intersection": "not_found",
+        "volume_spread": 0.0,
+    },
     "error_bound": {
         "volume": 1e-13,
         "area": 1e-13,
@@ -51,7 +56,10 @@ RECORD = {
         "volume": {"0,0,0": 24.0, "1,0,0": 24.0, "0,1,0": 48.0, "0,0,1": 72.0},
         "error": {"volume": {"0,0,0": 1e-13, "1,0,0": 1e-13, "0,1,0": 1e-13, "0,0,1": 1e-13}},
     },
-    "pose": {"matrix": [[1.0, 0.0, 0.0, -1.0], [0.0, 1.0, 0.0, -2.0], [0.0, 0.0, 1.0, -3.0]], "unique": True},
+    "pose": {
+        "matrix": [[1.0, 0.0, 0.0, -1.0], [0.0, 1.0, 0.0, -2.0], [0.0, 0.0, 1.0, -3.0]],
+        "unique": True,
+    },
     "signature": {"size": 1.0, "zernike": [0.5, 0.25], "fourier": [0.125, 0.5]},
 }
 
@@ -75,12 +83,18 @@ def test_corpus_keeps_its_numbers(reference, tmp_path):
     first = {}
     for place, before, after in summary.changes(reference, summary.summarize(load(out), EVALUATED)):
         first.setdefault(place.split(" › ")[0], "{}: {!r} -> {!r}".format(place, before, after))
-    told = "{} of {} entries have changed; the first change of each:".format(len(first), len(reference))
+    told = "{} of {} entries have changed; the first change of each:".format(
+        len(first), len(reference)
+    )
     assert not first, "\n".join([told, *islice(first.values(), SHOWN)])
 
 
 def test_corpus_holds_bodies_of_every_kind(reference):
-    bodies = {key.split("/", 1)[1] for key in reference if key.count("/") == 2 and not key.startswith("properties/")}
+    bodies = {
+        key.split("/", 1)[1]
+        for key in reference
+        if key.count("/") == 2 and not key.startswith("properties/")
+    }
     assert len(bodies) >= 450
     types = {entry["words"].split()[0] for entry in reference.values() if "words" in entry}
     assert types >= {"MESH", "CURVE", "SURFACE", "FONT", "META", "VOLUME", "EMPTY", "ARRAY"}
@@ -88,7 +102,9 @@ def test_corpus_holds_bodies_of_every_kind(reference):
         *("exact", "capped", "reoriented", "open", "shell", "union", "wire"),
         *("NURBS exact", "NURBS capped", "NURBS shell", "grid exact"),
     }
-    assert {key.split("/")[1] for key in reference if key.startswith("properties/")} >= SCENES.keys() - {"refused"}
+    assert {
+        key.split("/")[1] for key in reference if key.startswith("properties/")
+    } >= SCENES.keys() - {"refused"}
 
 
 def find_changes(before, after):

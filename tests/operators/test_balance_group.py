@@ -90,7 +90,9 @@ def character():
     bpy.ops.object.mode_set(mode="OBJECT")
     meshes = []
     for number in range(5):
-        skin = objects.add(objects.mesh_body(f"Skin {number}"), f"Skin {number}", location=(0.1, 0.2, number))
+        skin = objects.add(
+            objects.mesh_body(f"Skin {number}"), f"Skin {number}", location=(0.1, 0.2, number)
+        )
         skin.data.update()
         skin.parent = rig
         skin.modifiers.new("Armature", "ARMATURE").object = rig
@@ -98,7 +100,10 @@ def character():
         for vertex in range(len(skin.data.vertices)):
             group.add([vertex], 0.3 + 0.6 * (vertex % 2), "REPLACE")
         hat = objects.add(
-            objects.mesh_body(f"Hat {number}"), f"Hat {number}", location=(1.0, 0.0, 0.5), scale=(0.3,) * 3
+            objects.mesh_body(f"Hat {number}"),
+            f"Hat {number}",
+            location=(1.0, 0.0, 0.5),
+            scale=(0.3,) * 3,
         )
         hat.parent, hat.parent_type, hat.parent_bone = rig, "BONE", f"Bone {number}"
         hat.body_moments.density = 2000.0 + number
@@ -149,7 +154,12 @@ def test_an_armature_stands_for_its_meshes(scene):
 def test_shape_keys_are_followed_by_their_polynomials(scene, mass):
     from body_moments.blender.session.live.motion import Motion
 
-    obj = objects.add(objects.mesh_body(), location=(1.0, 2.0, 3.0), rotation=(0.3, 0.2, 0.1), scale=(2.0, 2.0, 2.0))
+    obj = objects.add(
+        objects.mesh_body(),
+        location=(1.0, 2.0, 3.0),
+        rotation=(0.3, 0.2, 0.1),
+        scale=(2.0, 2.0, 2.0),
+    )
     if mass is not None:
         obj.body_moments.mass_from, obj.body_moments.mass = "MASS", mass
     obj.shape_key_add(name="Basis")
@@ -193,7 +203,10 @@ def test_scales_that_change_are_followed(scene):
 
 def mirrored_by_a_key(frames):
     """8 m³ at (1, 2, 3) whose height becomes its negative, beside 1 m³ at (9, 0, 0)."""
-    obj, other = objects.add(box((1, 2, 4), (-0.5, -1, -2)), location=(1, 2, 3)), objects.add(box((1, 1, 1)), "Other")
+    obj, other = (
+        objects.add(box((1, 2, 4), (-0.5, -1, -2)), location=(1, 2, 3)),
+        objects.add(box((1, 1, 1)), "Other"),
+    )
     other.location = (8.5, -0.5, -0.5)
     obj.shape_key_add(name="Basis")
     key = obj.shape_key_add(name="Mirrored")
@@ -250,7 +263,11 @@ def test_signal_tells_center_beyond_support_polygon(scene, reported):
     expected = (np.abs(share * (-2.03 + 0.1 * (path.frames - 1))) < 1.0) & (path.frames < 31)
     assert path.inside.tolist() == expected.tolist()
     assert f"{np.count_nonzero(expected)} of 41" in reported.texts[-1]
-    assert support_of(empty, 20).stands and not support_of(empty, 1).stands and len(support_of(empty, 1).polygon) == 4
+    assert (
+        support_of(empty, 20).stands
+        and not support_of(empty, 1).stands
+        and len(support_of(empty, 1).polygon) == 4
+    )
     assert support_of(empty, 31) is None and support_of(foot, 20) is None
     scene.frame_set(20)
     assert empty["body_balance_inside"] == 1
@@ -272,7 +289,9 @@ def test_foot_within_contact_distance_touches_ground(scene, reach, distance):
     scene.collection.children.link(collection)
     collection.objects.link(foot)
     scene.frame_start, scene.frame_end = 1, 2
-    assert bpy.ops.object.body_moments_balance_group(contacts="Feet", ground=3.0, reach=reach) == {"FINISHED"}
+    assert bpy.ops.object.body_moments_balance_group(contacts="Feet", ground=3.0, reach=reach) == {
+        "FINISHED"
+    }
     assert path_of(groups()[0]).inside.tolist() == [True, False]
 
 
@@ -284,16 +303,25 @@ def test_the_frame_and_the_selection_stay_and_one_empty_is_made(scene):
     objects.only(first, second)
     scene.frame_set(7, subframe=0.25)
     for end in (10, 5):
-        assert bpy.ops.object.body_moments_balance_group(use_scene_range=False, frame_start=2, frame_end=end) == {
-            "FINISHED"
-        }
+        assert bpy.ops.object.body_moments_balance_group(
+            use_scene_range=False, frame_start=2, frame_end=end
+        ) == {"FINISHED"}
         assert scene.frame_float == 7.25
         assert first.select_get() and second.select_get() and bpy.context.object == first
-        (empty,) = groups()  # an empty without a path is none, nor is a mesh that was given the same property
+        (empty,) = (
+            groups()
+        )  # an empty without a path is none, nor is a mesh that was given the same property
         assert path_of(empty).frames.tolist() == list(range(2, end + 1))
-    scene.frame_start, scene.frame_end, scene.use_preview_range, scene.frame_preview_end = 1, 6, True, 3
+    scene.frame_start, scene.frame_end, scene.use_preview_range, scene.frame_preview_end = (
+        1,
+        6,
+        True,
+        3,
+    )
     assert bpy.ops.object.body_moments_balance_group() == {"FINISHED"}
-    assert path_of(empty).frames.tolist() == [*range(1, 7)]  # those of the scene, as the property says
+    assert path_of(empty).frames.tolist() == [
+        *range(1, 7)
+    ]  # those of the scene, as the property says
     assert np.abs(np.ptp(path_of(empty).centers, axis=0)).max() == 0.0
     assert not any(obj.animation_data for obj in (first, second))
 
@@ -310,7 +338,13 @@ def test_ground_is_in_direction_of_gravity(scene):
         collection.objects.link(obj)
     objects.only(foot)
     scene.gravity = (9.81, 0.0, 0.0)
-    arguments = {"use_scene_range": False, "frame_end": 3, "contacts": "Feet", "ground": 3.0, "reach": 0.01}
+    arguments = {
+        "use_scene_range": False,
+        "frame_end": 3,
+        "contacts": "Feet",
+        "ground": 3.0,
+        "reach": 0.01,
+    }
     assert bpy.ops.object.body_moments_balance_group(**arguments) == {"FINISHED"}
     assert path_of(groups()[0]).inside.tolist() == [True, False, True]
 
@@ -329,7 +363,9 @@ def test_masses_given_for_a_nested_collection_count(scene, unit):
     inner.body_moments.mass_from, inner.body_moments.mass = "MASS", 3000.0 * unit**3
     bpy.context.view_layer.update()
     arguments = {"use_scene_range": False, "frame_start": 1, "frame_end": 2}
-    assert bpy.ops.object.body_moments_balance_group(collection="Outer", **arguments) == {"FINISHED"}
+    assert bpy.ops.object.body_moments_balance_group(collection="Outer", **arguments) == {
+        "FINISHED"
+    }
     assert close(path_of(groups()[0]).centers[:, 0], 3.0, 1e-6)
 
 
@@ -345,12 +381,16 @@ def test_collection_instances_are_followed(scene):
         parts.objects.link(instancer)
     bpy.context.view_layer.update()
     arguments = {"use_scene_range": False, "frame_start": 1, "frame_end": 2}
-    assert bpy.ops.object.body_moments_balance_group(collection="Parts", **arguments) == {"FINISHED"}
+    assert bpy.ops.object.body_moments_balance_group(collection="Parts", **arguments) == {
+        "FINISHED"
+    }
     assert groups()[0]["body_balance_group"] == "At 1\nAt 5"
     assert close(path_of(groups()[0]).centers[:, 0], 3.0, 1e-6)
 
 
-@pytest.mark.parametrize("arguments", [{}, {"collection": "Nowhere"}, {"contacts": "Nowhere"}, {"contacts": "Lamps"}])
+@pytest.mark.parametrize(
+    "arguments", [{}, {"collection": "Nowhere"}, {"contacts": "Nowhere"}, {"contacts": "Lamps"}]
+)
 def test_missing_groups_are_refused(scene, reported, arguments):
     bpy.data.collections.new("Lamps")
     if arguments:

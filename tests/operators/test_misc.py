@@ -42,7 +42,9 @@ def test_the_empty_is_the_principal_frame_and_there_is_one(parent):
     only(obj)
     assert bpy.ops.object.body_moments_add_empty(parent=parent) == {"CANCELLED"}
     obj.location.x += 5.0
-    assert bpy.ops.object.body_moments_add_empty(parent=parent) == ({"CANCELLED"} if parent else {"FINISHED"})
+    assert bpy.ops.object.body_moments_add_empty(parent=parent) == (
+        {"CANCELLED"} if parent else {"FINISHED"}
+    )
     assert np.abs(place(empty)[:3, 3] - measured(obj).mass_properties.center).max() < 1e-5
     assert len([one for one in bpy.data.objects if one.type == "EMPTY"]) == 1
 
@@ -158,10 +160,14 @@ def test_boundary_edges_and_flipped_faces_are_selected(reported):
     assert sum(face.select for face in mesh.polygons) == 1
     told = reported.values("object_warnings")
     assert told["object"] == obj.name
-    assert {"Flipped Faces", "Boundary Edges"} <= {cause["values"]["kind"] for cause in told["causes"]}
+    assert {"Flipped Faces", "Boundary Edges"} <= {
+        cause["values"]["kind"] for cause in told["causes"]
+    }
 
 
-@pytest.mark.parametrize(("face", "kinds"), [("flipped", {"flipped_faces"}), ("missing", {"boundary_edges"})])
+@pytest.mark.parametrize(
+    ("face", "kinds"), [("flipped", {"flipped_faces"}), ("missing", {"boundary_edges"})]
+)
 def test_defects_that_are_hidden_are_shown(face, kinds):
     mesh = box_mesh(1, 2, 4)
     if face == "flipped":
@@ -175,12 +181,21 @@ def test_defects_that_are_hidden_are_shown(face, kinds):
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.hide()
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert bpy.ops.object.body_moments_select_faults(kinds=kinds) == {"FINISHED"} and obj.mode == "EDIT"
-    assert list(bpy.context.tool_settings.mesh_select_mode) == [False, face == "missing", face == "flipped"]
+    assert (
+        bpy.ops.object.body_moments_select_faults(kinds=kinds) == {"FINISHED"}
+        and obj.mode == "EDIT"
+    )
+    assert list(bpy.context.tool_settings.mesh_select_mode) == [
+        False,
+        face == "missing",
+        face == "flipped",
+    ]
     bpy.ops.object.mode_set(mode="OBJECT")
     uses = np.bincount([loop.edge_index for loop in mesh.loops], minlength=len(mesh.edges))
     if face == "flipped":
-        assert [polygon.index for polygon in mesh.polygons if polygon.select and not polygon.hide] == [2]
+        assert [
+            polygon.index for polygon in mesh.polygons if polygon.select and not polygon.hide
+        ] == [2]
     else:
         assert [edge.select and not edge.hide for edge in mesh.edges] == (uses == 1).tolist()
 
@@ -269,7 +284,10 @@ def test_settings_are_copied_to_the_other_selected_objects(reported):
     one.body_moments.kind = "SHELL"
     one.body_moments.thickness = 0.02
     assert bpy.ops.object.body_moments_copy_settings() == {"FINISHED"}
-    assert other.body_moments.kind == "SHELL" and other.body_moments.thickness == one.body_moments.thickness
+    assert (
+        other.body_moments.kind == "SHELL"
+        and other.body_moments.thickness == one.body_moments.thickness
+    )
     assert bpy.ops.object.body_moments_copy_settings() == {"CANCELLED"}
     assert "Nothing to do" in reported.texts[1]
 
@@ -277,20 +295,41 @@ def test_settings_are_copied_to_the_other_selected_objects(reported):
 @pytest.mark.parametrize(
     "system, length, mass, expected",
     [
-        ("METRIC", "ADAPTIVE", "ADAPTIVE", ("1.5 m", "2 cm²", "8 m³", "250 g", "7850 kg/m³", "2 kg·cm²")),
+        (
+            "METRIC",
+            "ADAPTIVE",
+            "ADAPTIVE",
+            ("1.5 m", "2 cm²", "8 m³", "250 g", "7850 kg/m³", "2 kg·cm²"),
+        ),
         (
             "IMPERIAL",
             "INCHES",
             "POUNDS",
-            ("59.0551 in", "0.310001 in²", "488\u2009190 in³", "0.551156 lb", "490.059 lb/ft³", "0.683434 lb·in²"),
+            (
+                "59.0551 in",
+                "0.310001 in²",
+                "488\u2009190 in³",
+                "0.551156 lb",
+                "490.059 lb/ft³",
+                "0.683434 lb·in²",
+            ),
         ),
     ],
 )
 def test_numbers_are_shown_in_the_scenes_units(system, length, mass, expected):
     from body_moments.blender.write.units import Units
 
-    values = {"length": 1.5, "area": 2e-4, "volume": 8.0, "mass": 0.25, "density": 7850.0, "inertia": 2e-4}
-    assert tuple(Units(system, length, mass, 1.0).text(*value) for value in values.items()) == expected
+    values = {
+        "length": 1.5,
+        "area": 2e-4,
+        "volume": 8.0,
+        "mass": 0.25,
+        "density": 7850.0,
+        "inertia": 2e-4,
+    }
+    assert (
+        tuple(Units(system, length, mass, 1.0).text(*value) for value in values.items()) == expected
+    )
 
 
 def test_without_unit_system_masses_are_kilograms():
@@ -298,8 +337,20 @@ def test_without_unit_system_masses_are_kilograms():
     from body_moments.blender.write.units import Units
 
     units = Units("NONE", "ADAPTIVE", "ADAPTIVE", 0.001)
-    values = (("length", 0.002), ("volume", 8e-9), ("mass", 8e-6), ("density", 1000.0), ("inertia", 5e-12))
-    assert [units.text(*value) for value in values] == ["2", "8", "8e−6 kg", "1000 kg/m³", "5e−12 kg·m²"]
+    values = (
+        ("length", 0.002),
+        ("volume", 8e-9),
+        ("mass", 8e-6),
+        ("density", 1000.0),
+        ("inertia", 5e-12),
+    )
+    assert [units.text(*value) for value in values] == [
+        "2",
+        "8",
+        "8e−6 kg",
+        "1000 kg/m³",
+        "5e−12 kg·m²",
+    ]
 
 
 def test_default_material_is_density_of_unset_objects():
@@ -311,7 +362,9 @@ def test_default_material_is_density_of_unset_objects():
     bpy.context.view_layer.update()
     assert obj["body_density"] == 1240.0 and staleness.stale_reason(obj, scene) is None
     assert "density_defaulted" not in obj["body_findings"]
-    assert obj.body_moments.density_kg_m3 == 1240.0 and not obj.body_moments.is_property_set("density")
+    assert obj.body_moments.density_kg_m3 == 1240.0 and not obj.body_moments.is_property_set(
+        "density"
+    )
     scene.body_moments.default_material, scene.body_moments.default_density = "CUSTOM", 1300.5
     assert obj["body_density"] == 1300.5 and staleness.stale_reason(obj, scene) is None
     bpy.ops.object.body_moments_measure()

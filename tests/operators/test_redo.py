@@ -17,7 +17,9 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 def test_measure_options_change_only_their_settings():
     obj = add(boxes(2.0, 1.0))
-    before = {name: getattr(obj.body_moments, name) for name in ("kind", "overlap", "density", "material")}
+    before = {
+        name: getattr(obj.body_moments, name) for name in ("kind", "overlap", "density", "material")
+    }
     bpy.ops.object.body_moments_measure()
     assert {name: getattr(obj.body_moments, name) for name in before} == before
     assert not obj.body_moments.is_property_set("density")
@@ -42,7 +44,10 @@ def test_cleared_kinds_leave_other_results_current(kinds):
     kept["SYMMETRY"] = obj.is_property_set("body_moments_symmetry")
     assert {kind for kind in kept if not kept[kind]} == kinds
     assert staleness.stale_reason(obj, bpy.context.scene) is None
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_section) is None or not kept["SECTION"]
+    assert (
+        staleness.stale_reason(obj, bpy.context.scene, stamps.of_section) is None
+        or not kept["SECTION"]
+    )
     assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
     assert bpy.ops.object.body_moments_clear(kinds=kinds) == {"CANCELLED"}
     assert bpy.ops.object.body_moments_clear() == {"FINISHED"} and "body_mass" not in obj

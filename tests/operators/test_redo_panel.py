@@ -31,7 +31,13 @@ def plain(value):
         return value.to_list()
     if hasattr(value, "to_dict"):
         return str(value.to_dict())
-    return sorted(value) if isinstance(value, set) else list(value) if hasattr(value, "__len__") else value
+    return (
+        sorted(value)
+        if isinstance(value, set)
+        else list(value)
+        if hasattr(value, "__len__")
+        else value
+    )
 
 
 def settings_of(group):
@@ -69,7 +75,9 @@ def of_object(obj):
         "empty": [obj.empty_display_type, obj.empty_display_size],
         "rigid": body and [body.type, body.mass, body.collision_shape],
         "selected": obj.select_get(),
-        "keys": [[[list(key.co) for key in curve.keyframe_points], curve.data_path] for curve in keys],
+        "keys": [
+            [[list(key.co) for key in curve.keyframe_points], curve.data_path] for curve in keys
+        ],
     }
 
 
@@ -82,11 +90,16 @@ def state():
     found = {
         "objects": {obj.name: of_object(obj) for obj in bpy.data.objects},
         "collections": {
-            one.name: [{key: str(plain(value)) for key, value in one.items()}, list(one.instance_offset)]
+            one.name: [
+                {key: str(plain(value)) for key, value in one.items()},
+                list(one.instance_offset),
+            ]
             for one in [*bpy.data.collections, scene.collection]
         },
         "materials": {one.name: settings_of(one.body_moments) for one in bpy.data.materials},
-        "others": [sorted(one.name for one in data) for data in (bpy.data.meshes, bpy.data.node_groups)],
+        "others": [
+            sorted(one.name for one in data) for data in (bpy.data.meshes, bpy.data.node_groups)
+        ],
         "texts": {one.name: one.as_string() for one in bpy.data.texts},
         "scene": [settings_of(scene.body_moments), settings_of(scene.body_moments_search)],
         "unit": [scene.unit_settings.scale_length, scene.unit_settings.length_unit],
@@ -114,7 +127,9 @@ def measure_and_more(folder):
 def assembly(folder):
     bpy.context.object.parent = add(None, "Root", location=(0.0, 0.0, 1.0), select=False)
     only(bpy.data.objects["Root"])
-    bpy.context.view_layer.active_layer_collection = bpy.context.view_layer.layer_collection.children["Parts"]
+    bpy.context.view_layer.active_layer_collection = (
+        bpy.context.view_layer.layer_collection.children["Parts"]
+    )
 
 
 def measured_assembly(folder):
@@ -193,48 +208,105 @@ REDONE = {
         {"target": "Steel", "material": "PLA"},
         {"target": "Steel", "material": "Copper"},
     ),
-    "object.body_moments_add_empty": (nothing, {"parent": True}, {"parent": False, "display": "CUBE", "size": 0.5}),
+    "object.body_moments_add_empty": (
+        nothing,
+        {"parent": True},
+        {"parent": False, "display": "CUBE", "size": 0.5},
+    ),
     "object.body_moments_add_nodes": (nothing, {"marker": True}, {"marker": False}),
-    "object.body_moments_align_to_world": (nothing, {"order": "XYZ"}, {"order": "ZXY", "pivot": "ORIGIN"}),
-    "object.body_moments_assembly_empty": (measured_assembly, {"target": "COLLECTION"}, {"target": "OBJECT"}),
-    "object.body_moments_assembly_origin": (measured_assembly, {"target": "COLLECTION"}, {"target": "OBJECT"}),
+    "object.body_moments_align_to_world": (
+        nothing,
+        {"order": "XYZ"},
+        {"order": "ZXY", "pivot": "ORIGIN"},
+    ),
+    "object.body_moments_assembly_empty": (
+        measured_assembly,
+        {"target": "COLLECTION"},
+        {"target": "OBJECT"},
+    ),
+    "object.body_moments_assembly_origin": (
+        measured_assembly,
+        {"target": "COLLECTION"},
+        {"target": "OBJECT"},
+    ),
     "object.body_moments_axes_to_principal": (nothing, {"strict": False}, {"strict": True}),
     "object.body_moments_balance_group": (animated, {"frame_step": 1}, {"frame_step": 3}),
     "object.body_moments_clear": (measure_and_more, {"kinds": {"MASS"}}, {"kinds": {"SYMMETRY"}}),
-    "object.body_moments_clear_assembly": (measured_assembly, {"target": "COLLECTION"}, {"target": "OBJECT"}),
-    "object.body_moments_create_orientation": (nothing, {"use": True}, {"use": False, "name": "Other"}),
-    "object.body_moments_equal_inertia": (measure, {"kind": "BOX"}, {"kind": "CAPSULE", "rigid_body": True}),
+    "object.body_moments_clear_assembly": (
+        measured_assembly,
+        {"target": "COLLECTION"},
+        {"target": "OBJECT"},
+    ),
+    "object.body_moments_create_orientation": (
+        nothing,
+        {"use": True},
+        {"use": False, "name": "Other"},
+    ),
+    "object.body_moments_equal_inertia": (
+        measure,
+        {"kind": "BOX"},
+        {"kind": "CAPSULE", "rigid_body": True},
+    ),
     "object.body_moments_find_in_library": (
         library,
         {"filepath": "{}/library.jsonl"},
         {"filepath": "{}/library.jsonl", "scaled": True},
     ),
-    "object.body_moments_find_similar": (nothing, {"select": True}, {"select": False, "mirrored": True}),
+    "object.body_moments_find_similar": (
+        nothing,
+        {"select": True},
+        {"select": False, "mirrored": True},
+    ),
     "object.body_moments_find_symmetry": (nothing, {"tolerance": 1e-6}, {"tolerance": 0.5}),
     "object.body_moments_import_scan": (
         scan,
         {"filepath": "{}/scan.npy", "overwrite": True},
-        {"filepath": "{}/scan.npy", "use_spacing": True, "spacing": (1.0, 2.0, 3.0), "overwrite": True},
+        {
+            "filepath": "{}/scan.npy",
+            "use_spacing": True,
+            "spacing": (1.0, 2.0, 3.0),
+            "overwrite": True,
+        },
     ),
     "object.body_moments_import_surfaces": (
         surface,
         {"filepath": "{}/surface.igs", "unit": 1.0},
         {"filepath": "{}/surface.igs", "unit": 0.001},
     ),
-    "object.body_moments_measure": (nothing, {"material": "PLA"}, {"material": "Copper", "kind": "SHELL"}),
+    "object.body_moments_measure": (
+        nothing,
+        {"material": "PLA"},
+        {"material": "Copper", "kind": "SHELL"},
+    ),
     "object.body_moments_remedy": (
         nothing,
         {"remedy": "SHELL", "thickness": 0.01},
         {"remedy": "SHELL", "thickness": 0.02},
     ),
-    "object.body_moments_measure_assembly": (assembly, {"target": "COLLECTION"}, {"target": "OBJECT"}),
+    "object.body_moments_measure_assembly": (
+        assembly,
+        {"target": "COLLECTION"},
+        {"target": "OBJECT"},
+    ),
     "object.body_moments_rest_on_ground": (nothing, {"pose": 1}, {"pose": 2, "ground": "LOWEST"}),
-    "object.body_moments_rigid_bodies": (nothing, {"type": "ACTIVE"}, {"type": "PASSIVE", "shape": "BOX"}),
+    "object.body_moments_rigid_bodies": (
+        nothing,
+        {"type": "ACTIVE"},
+        {"type": "PASSIVE", "shape": "BOX"},
+    ),
     "object.body_moments_sculpt_balance": (edited, {"axes": "ALONG_GRAVITY"}, {"axes": "ALL"}),
-    "object.body_moments_select_faults": (flipped, {"kinds": {"flipped_faces"}}, {"kinds": {"boundary_edges"}}),
+    "object.body_moments_select_faults": (
+        flipped,
+        {"kinds": {"flipped_faces"}},
+        {"kinds": {"boundary_edges"}},
+    ),
     "object.body_moments_select_found": (nothing, {"name": "Twin"}, {"name": "Body"}),
     "object.body_moments_set_material": (nothing, {"material": "PLA"}, {"material": "Copper"}),
-    "object.body_moments_set_rigid_body_mass": (rigid, {"axes": False}, {"axes": True, "add": True}),
+    "object.body_moments_set_rigid_body_mass": (
+        rigid,
+        {"axes": False},
+        {"axes": True, "add": True},
+    ),
     "scene.body_moments_set_millimeters": (measure, {"remeasure": False}, {"remeasure": True}),
     "view3d.body_moments_cursor_to_assembly": (
         measured_assembly,
@@ -262,7 +334,10 @@ def undo(operator):
 
 
 def run(operator, values, folder):
-    values = {name: value.format(folder) if isinstance(value, str) else value for name, value in values.items()}
+    values = {
+        name: value.format(folder) if isinstance(value, str) else value
+        for name, value in values.items()
+    }
     module, _, name = operator.partition(".")
     getattr(getattr(bpy.ops, module), name)("EXEC_DEFAULT", True, **values)
 

@@ -75,7 +75,12 @@ def held_root():
 def held_child():
     empty_tree()
     mirror = bpy.data.objects["Child"].constraints.new("COPY_LOCATION")
-    mirror.target, mirror.use_y, mirror.use_z, mirror.invert_x = bpy.data.objects["Root"], False, False, True
+    mirror.target, mirror.use_y, mirror.use_z, mirror.invert_x = (
+        bpy.data.objects["Root"],
+        False,
+        False,
+        True,
+    )
 
 
 def linked(name):
@@ -212,11 +217,36 @@ def alike():
 NOWHERE = "/no such folder/file"
 CASES = {  # scene, operator, options, code of the refusal (None: a text)
     "cursor to open": (open_member, "view3d.cursor_to_assembly", {}, "open_object"),
-    "assembly of nothing": (empty_assembly, "object.measure_assembly", {}, "assembly_without_members"),
-    "assembly of a body": (body, "object.measure_assembly", {"target": "OBJECT"}, "no_active_assembly"),
-    "origin that is held": (held_root, "object.assembly_origin", {"target": "OBJECT"}, "transform_constrained"),
-    "origin of a linked collection": (linked_assembly, "object.assembly_origin", {}, "linked_object"),
-    "child that is held": (held_child, "object.assembly_origin", {"target": "OBJECT"}, "child_not_held"),
+    "assembly of nothing": (
+        empty_assembly,
+        "object.measure_assembly",
+        {},
+        "assembly_without_members",
+    ),
+    "assembly of a body": (
+        body,
+        "object.measure_assembly",
+        {"target": "OBJECT"},
+        "no_active_assembly",
+    ),
+    "origin that is held": (
+        held_root,
+        "object.assembly_origin",
+        {"target": "OBJECT"},
+        "transform_constrained",
+    ),
+    "origin of a linked collection": (
+        linked_assembly,
+        "object.assembly_origin",
+        {},
+        "linked_object",
+    ),
+    "child that is held": (
+        held_child,
+        "object.assembly_origin",
+        {"target": "OBJECT"},
+        "child_not_held",
+    ),
     "inertial of an empty mesh": (no_faces, "object.copy", {"what": "urdf"}, "no_geometry"),
     "urdf of no collections": (
         empty_assembly,
@@ -228,26 +258,66 @@ CASES = {  # scene, operator, options, code of the refusal (None: a text)
     "fourier without a file": (body, "object.fourier", {}, None),
     "fourier nowhere": (body, "object.fourier", {"filepath": NOWHERE}, "file_not_written"),
     "fourier of nothing": (no_faces, "object.fourier", {"filepath": "a.npz"}, "no_geometry"),
-    "moments about nothing": (computed_about_nothing, "object.copy", {"what": "MOMENTS"}, "reference_object_missing"),
-    "reference to nothing": (stored_about_nothing, "object.copy", {"what": "REFERENCE"}, "reference_object_missing"),
+    "moments about nothing": (
+        computed_about_nothing,
+        "object.copy",
+        {"what": "MOMENTS"},
+        "reference_object_missing",
+    ),
+    "reference to nothing": (
+        stored_about_nothing,
+        "object.copy",
+        {"what": "REFERENCE"},
+        "reference_object_missing",
+    ),
     "bones that deform nothing": (no_bones, "object.measure_bones", {}, "rig_without_parts"),
     "bones of a linked armature": (linked_armature, "object.measure_bones", {}, "linked_object"),
-    "clear bones of a linked armature": (linked_armature, "object.clear_bones", {}, "linked_object"),
+    "clear bones of a linked armature": (
+        linked_armature,
+        "object.clear_bones",
+        {},
+        "linked_object",
+    ),
     "bones being edited": (edited_bones, "object.measure_bones", {}, "armature_in_edit_mode"),
     "physics rig that deform nothing": (no_bones, "object.physics_rig", {}, "rig_without_parts"),
     "physics rig too light": (light_bones, "object.physics_rig", {}, "rigid_body_mass_too_small"),
     "rigid bodies too light": (light_body, "object.rigid_bodies", {}, "rigid_body_mass_too_small"),
-    "rigid body of a curve": (curve, "object.set_rigid_body_mass", {"add": True}, "rigid_body_needs_mesh"),
-    "joint of its own density": (joint_of_own_density, "object.rigid_bodies", {}, "density_coordinates"),
+    "rigid body of a curve": (
+        curve,
+        "object.set_rigid_body_mass",
+        {"add": True},
+        "rigid_body_needs_mesh",
+    ),
+    "joint of its own density": (
+        joint_of_own_density,
+        "object.rigid_bodies",
+        {},
+        "density_coordinates",
+    ),
     "union of an override": (overridden, "object.remedy", {"remedy": "UNION"}, "linked_object"),
     "shell of an override": (overridden, "object.remedy", {"remedy": "SHELL"}, "linked_object"),
-    "accept of an override": (overridden, "object.accept", {"code": "flipped_faces"}, "linked_object"),
+    "accept of an override": (
+        overridden,
+        "object.accept",
+        {"code": "flipped_faces"},
+        "linked_object",
+    ),
     "defects of an override": (overridden, "object.select_faults", {}, "linked_object"),
     "outside of an override": (overridden, "object.remedy", {"remedy": "OUTSIDE"}, "linked_object"),
     "library of shapes nowhere": (body, "object.find_in_library", {"filepath": NOWHERE}, None),
     "orientation of a strip": (strip, "object.create_orientation", {}, "open_object"),
-    "balance of a linked mesh": (grouped(linked_mesh), "object.sculpt_balance", {}, "linked_object"),
-    "balance without gravity": (grouped(no_gravity), "object.sculpt_balance", {}, "balance_folds_faces"),
+    "balance of a linked mesh": (
+        grouped(linked_mesh),
+        "object.sculpt_balance",
+        {},
+        "linked_object",
+    ),
+    "balance without gravity": (
+        grouped(no_gravity),
+        "object.sculpt_balance",
+        {},
+        "balance_folds_faces",
+    ),
     "group without mass": (massless_group, "object.balance_group", {}, "zero_quantity"),
     "rest of damaged numbers": (damaged, "object.rest_on_ground", {}, None),
     "stability of a strip": (strip, "object.stability", {}, "open_object"),
@@ -262,5 +332,7 @@ def test_operators_refuse_with_the_code_of_the_reason(case, reported):
     bpy.context.view_layer.update()
     reported.clear()
     with suppress(RuntimeError):  # an error report
-        assert getattr(getattr(bpy.ops, category), "body_moments_" + name)(**options) == {"CANCELLED"}
+        assert getattr(getattr(bpy.ops, category), "body_moments_" + name)(**options) == {
+            "CANCELLED"
+        }
     assert reported.codes[-1] == code if code else reported.texts and not reported.codes

@@ -21,7 +21,11 @@ OPERATORS = {  # and whether they add joints
 def state():
     """Return the place of each object, whether it has a rigid body or a joint, and the members of collections."""
     return {
-        obj.name: (obj.matrix_world.copy(), obj.rigid_body is None, obj.rigid_body_constraint is None)
+        obj.name: (
+            obj.matrix_world.copy(),
+            obj.rigid_body is None,
+            obj.rigid_body_constraint is None,
+        )
         for obj in bpy.data.objects
     }, {one.name: sorted(obj.name for obj in one.objects) for one in bpy.data.collections}
 
@@ -71,7 +75,11 @@ def test_nothing_is_added_to_a_collection_of_a_library(name, of, overridden, lin
 def test_a_world_without_collections_gets_them(name):
     only(character()[0] if name == "physics_rig" else add(mesh_body()))
     bpy.ops.rigidbody.world_add()
-    assert bpy.context.scene.rigidbody_world.collection is bpy.context.scene.rigidbody_world.constraints is None
+    assert (
+        bpy.context.scene.rigidbody_world.collection
+        is bpy.context.scene.rigidbody_world.constraints
+        is None
+    )
     assert run(name) == {"FINISHED"}
     assert len(bpy.context.scene.rigidbody_world.collection.objects) > 0
 
@@ -80,7 +88,11 @@ def test_existing_rigid_body_is_set_in_linked_world(linked):
     obj = add(mesh_body())
     bpy.ops.rigidbody.object_add()
     bpy.context.scene.rigidbody_world.collection = linked
-    assert obj.rigid_body and run("set_rigid_body_mass") == {"FINISHED"} and obj.rigid_body.mass > 100.0
+    assert (
+        obj.rigid_body
+        and run("set_rigid_body_mass") == {"FINISHED"}
+        and obj.rigid_body.mass > 100.0
+    )
 
 
 def test_joint_is_moved_or_object_is_unchanged(linked, reported):
@@ -94,7 +106,10 @@ def test_joint_is_moved_or_object_is_unchanged(linked, reported):
     bpy.ops.rigidbody.world_remove()
     assert bpy.context.scene.rigidbody_world is None
     assert run("rigid_bodies") == {"FINISHED"}
-    assert bpy.data.objects["Body Joint"].rigid_body_constraint.type == "HINGE" and obj.rigid_body_constraint is None
+    assert (
+        bpy.data.objects["Body Joint"].rigid_body_constraint.type == "HINGE"
+        and obj.rigid_body_constraint is None
+    )
 
 
 HIDDEN = {
@@ -107,7 +122,10 @@ HIDDEN = {
 def layer_of(collection):
     return next(
         one
-        for parent in (bpy.context.view_layer.layer_collection, *bpy.context.view_layer.layer_collection.children)
+        for parent in (
+            bpy.context.view_layer.layer_collection,
+            *bpy.context.view_layer.layer_collection.children,
+        )
         for one in parent.children
         if one.collection == collection
     )
@@ -115,7 +133,9 @@ def layer_of(collection):
 
 @pytest.mark.parametrize("how", HIDDEN)
 @pytest.mark.parametrize("is_nested", [False, True])
-@pytest.mark.parametrize(("name", "key"), [("physics_rig", "physics_rig_of"), ("rig_center", "center_of_mass_of")])
+@pytest.mark.parametrize(
+    ("name", "key"), [("physics_rig", "physics_rig_of"), ("rig_center", "center_of_mass_of")]
+)
 def test_rig_objects_in_hidden_collection_are_replaced(name, key, is_nested, how):
     armature, _ = character()
     assert run(name) == {"FINISHED"}
@@ -137,7 +157,9 @@ def test_rig_objects_in_hidden_collection_are_replaced(name, key, is_nested, how
     assert layer_of(collection).hide_viewport == (how == "hidden")
 
 
-@pytest.mark.parametrize(("name", "key"), [("physics_rig", "physics_rig_of"), ("rig_center", "center_of_mass_of")])
+@pytest.mark.parametrize(
+    ("name", "key"), [("physics_rig", "physics_rig_of"), ("rig_center", "center_of_mass_of")]
+)
 def test_rig_objects_of_another_scene_stay(name, key):
     armature, _ = character()
     assert run(name) == {"FINISHED"}
@@ -148,4 +170,6 @@ def test_rig_objects_of_another_scene_stay(name, key):
     only(armature)
     assert run(name) == {"FINISHED"}
     first, second = [one for one in bpy.data.collections if one.get(key) == armature]
-    assert len(first.objects) == len(second.objects) == count and not {*first.objects} & {*second.objects}
+    assert len(first.objects) == len(second.objects) == count and not {*first.objects} & {
+        *second.objects
+    }

@@ -51,7 +51,12 @@ def lowest(obj):
 @pytest.mark.parametrize("scale", [1.0, 0.001])
 def test_a_box_stands_by_its_narrow_side_wherever_it_is(scene, scale):
     scene.unit_settings.scale_length = scale
-    obj = objects.add(box((4.0, 2.0, 6.0)), location=(30.0, -20.0, 5.0), rotation=(0, 0, 0.7), scale=(1.0, 1.0, 0.5))
+    obj = objects.add(
+        box((4.0, 2.0, 6.0)),
+        location=(30.0, -20.0, 5.0),
+        rotation=(0, 0, 0.7),
+        scale=(1.0, 1.0, 0.5),
+    )
     assert bpy.ops.object.body_moments_stability() == {"FINISHED"}
     found = support(obj)
     assert found.stands
@@ -64,7 +69,9 @@ def test_a_box_stands_by_its_narrow_side_wherever_it_is(scene, scale):
 
 def test_balance_beside_tips_over_makes_it_stand(scene):
     corners = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
-    points = [(x + 0.275 * layer, y, 0.5 * layer) for layer in range(5) for x, y in corners]  # 0.05 beyond the base
+    points = [
+        (x + 0.275 * layer, y, 0.5 * layer) for layer in range(5) for x, y in corners
+    ]  # 0.05 beyond the base
     sides = [(i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i) for i in range(4)]
     sides = [tuple(4 * layer + corner for corner in side) for layer in range(4) for side in sides]
     tower = bpy.data.meshes.new("Tower")
@@ -89,7 +96,9 @@ def test_support_follows_a_turn_without_measuring_again(scene):
     obj.rotation_euler.x = np.radians(30.0)  # beyond atan(1 / 3)
     found = support(obj)
     assert not found.stands and len(found.polygon) == 2
-    assert close(found.margin, -(3.0 * np.sin(np.radians(30.0)) - np.cos(np.radians(30.0))), BLENDER * 10.0)
+    assert close(
+        found.margin, -(3.0 * np.sin(np.radians(30.0)) - np.cos(np.radians(30.0))), BLENDER * 10.0
+    )
     obj.rotation_euler.x = 0.0
     assert support(obj).stands
     assert obj["body_fingerprint"] == mark
@@ -117,7 +126,9 @@ def test_a_wedge_tips_over_its_edge(scene, size):
 def test_balance_makes_a_wedge_stand(scene):
     obj = objects.add(wedge(), rotation=(0.0, 0.0, 0.9))
     bpy.ops.object.body_moments_stability()
-    bpy.ops.object.body_moments_sculpt_balance(target="POINT", point=support(obj).polygon.mean(axis=0))
+    bpy.ops.object.body_moments_sculpt_balance(
+        target="POINT", point=support(obj).polygon.mean(axis=0)
+    )
     found = support(obj)
     assert found.stands and close(found.margin, 0.5, BLENDER * 10.0)
 
@@ -157,19 +168,27 @@ def test_a_box_is_laid_on_the_chosen_face(scene, rotation, pose):
 @pytest.mark.parametrize("size", [1.0, 1e-3])
 @pytest.mark.parametrize("angle", [5e-4, 1e-5])
 def test_slightly_turned_box_is_laid_flat(scene, size, angle):
-    place = {"location": (0.0, 0.0, 0.5 * size), "rotation": (angle, 0.0, 0.0), "scale": (size,) * 3}
+    place = {
+        "location": (0.0, 0.0, 0.5 * size),
+        "rotation": (angle, 0.0, 0.0),
+        "scale": (size,) * 3,
+    }
     obj = objects.add(box((3.0, 3.0, 1.0), (-1.5, -1.5, -0.5)), **place)
     assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == {"FINISHED"}
     assert np.abs(objects.place(obj)[:3, :3] / size - np.eye(3)).max() < 2e-6
     assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == {"CANCELLED"}
 
 
-@pytest.mark.parametrize(("angle", "height", "is_laid"), [(0, 1e-4, False), (0, 1e-3, True), (5e-4, 0, True)])
+@pytest.mark.parametrize(
+    ("angle", "height", "is_laid"), [(0, 1e-4, False), (0, 1e-3, True), (5e-4, 0, True)]
+)
 def test_distance_limits_height_and_not_turn_of_resting(scene, angle, height, is_laid):
     """Of a location of 1000, single precision holds 6e-5."""
     place = {"location": (1000.0, 0.0, 0.5 + height), "rotation": (angle, 0.0, 0.0)}
     obj = objects.add(box((3.0, 3.0, 1.0), (-1.5, -1.5, -0.5)), **place)
-    assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == ({"FINISHED"} if is_laid else {"CANCELLED"})
+    assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == (
+        {"FINISHED"} if is_laid else {"CANCELLED"}
+    )
     found = objects.place(obj)
     assert np.abs(found[:3, :3] - np.eye(3)).max() < 2e-6
     assert close(found[2, 3], 0.5 if is_laid else 0.5 + height, 1e-6)

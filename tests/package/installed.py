@@ -66,8 +66,12 @@ def measure_files(command) -> None:
         bad.write_bytes(b"BLENDER garbage")
         assert command(["measure", str(good), str(bad), "--jobs", "1", "--output", str(out)]) == 1
         measured, refused = json.loads(out.read_text(encoding="utf-8"))
-        assert measured["status"] == "ok" and abs(measured["objects"][0]["volume"] / 8.0 - 1.0) < 1e-12
-        assert refused["status"] == "error" and measured["blender"] == ".".join(map(str, bpy.app.version))
+        assert (
+            measured["status"] == "ok" and abs(measured["objects"][0]["volume"] / 8.0 - 1.0) < 1e-12
+        )
+        assert refused["status"] == "error" and measured["blender"] == ".".join(
+            map(str, bpy.app.version)
+        )
         assert command(["measure", "--kind", "gas", str(good)]) == 2
 
 
@@ -76,7 +80,9 @@ def use(archive: str) -> None:
 
     commands = note_commands()
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    outcome = bpy.ops.extensions.package_install_files(filepath=archive, repo="user_default", enable_on_install=True)
+    outcome = bpy.ops.extensions.package_install_files(
+        filepath=archive, repo="user_default", enable_on_install=True
+    )
     assert outcome == {"FINISHED"}
     assert enabled()
     assert MODULE in sys.modules

@@ -57,7 +57,9 @@ def imports(module: tuple[str, ...]) -> list[tuple[tuple[str, ...], int, bool, b
     package = module[:-1]
     tree = ast.parse(MODULES[module].read_text(encoding="utf-8"))
     checked = [
-        node.body for node in tree.body if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+        node.body
+        for node in tree.body
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
     ]
     runs = {id(node) for node in tree.body}
     top = runs.union(id(node) for body in checked for node in body)
@@ -70,13 +72,17 @@ def imports(module: tuple[str, ...]) -> list[tuple[tuple[str, ...], int, bool, b
         for alias in node.names:
             target = (*base, alias.name)
             known = target in MODULES or (*target, "__init__") in MODULES
-            result.append((target if known else base, node.lineno, id(node) in top, id(node) in runs))
+            result.append(
+                (target if known else base, node.lineno, id(node) in top, id(node) in runs)
+            )
     return result
 
 
 def rank(order: tuple[tuple[str, ...], ...], package: str) -> int:
     rows = [number for number, row in enumerate(order) if package in row]
-    assert rows, f"{package} has no place in the architecture: give it one here and in docs/architecture.md"
+    assert rows, (
+        f"{package} has no place in the architecture: give it one here and in docs/architecture.md"
+    )
     return rows[0]
 
 
@@ -99,7 +105,11 @@ def complaints() -> list[str]:
             source, destination = rank(order, module[1]), rank(order, target[1])
             if destination > source:
                 result.append(place + ": up")
-            elif destination == source and module[1] != target[1] and module[1] not in MAY_KNOW_EACH_OTHER:
+            elif (
+                destination == source
+                and module[1] != target[1]
+                and module[1] not in MAY_KNOW_EACH_OTHER
+            ):
                 result.append(place + ": sideways")
             if part == "blender" and module[1] in WITHOUT_WRITE and target[1] == "write":
                 result.append(place + ": only what shows or stores may write")
@@ -111,9 +121,13 @@ def cycles() -> list[list[str]]:
     graph = {}
     for module in MODULES:
         targets = {
-            target if target in MODULES else (*target, "__init__") for target, *_, runs in imports(module) if runs
+            target if target in MODULES else (*target, "__init__")
+            for target, *_, runs in imports(module)
+            if runs
         }
-        graph["/".join(module)] = sorted("/".join(target) for target in targets if target in MODULES)
+        graph["/".join(module)] = sorted(
+            "/".join(target) for target in targets if target in MODULES
+        )
     done, path, result = set(), [], []
 
     def visit(module: str) -> None:

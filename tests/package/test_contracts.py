@@ -14,7 +14,18 @@ from body_moments.operators import batch
 from tests.core.findings import declarations
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-COMMANDS = ("measure", "similar", "audit", "simplex", "manifest", "merge", "to-csv", "summary", "compare", "report")
+COMMANDS = (
+    "measure",
+    "similar",
+    "audit",
+    "simplex",
+    "manifest",
+    "merge",
+    "to-csv",
+    "summary",
+    "compare",
+    "report",
+)
 
 
 def operators():

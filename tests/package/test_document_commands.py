@@ -65,11 +65,19 @@ def commands_of(document: Path) -> list[str]:
 
 
 def runnable_of(document: Path) -> list[str]:
-    return [text for text in commands_of(document) if USAGE not in text and not text.startswith(tuple(NOT_RUN))]
+    return [
+        text
+        for text in commands_of(document)
+        if USAGE not in text and not text.startswith(tuple(NOT_RUN))
+    ]
 
 
 def blocks_of(document: str, language: str = "python") -> list[str]:
-    return re.findall(r"```{}\n(.*?)```".format(language), (ROOT / "docs" / document).read_text(encoding="utf-8"), re.S)
+    return re.findall(
+        r"```{}\n(.*?)```".format(language),
+        (ROOT / "docs" / document).read_text(encoding="utf-8"),
+        re.S,
+    )
 
 
 def write_script(path: Path, text: str) -> None:
@@ -102,7 +110,12 @@ def run(command: str, folder: Path) -> subprocess.CompletedProcess:
     paths = os.pathsep.join([str(folder / "bin"), os.environ["PATH"]])
     environment = {**os.environ, "PATH": paths, "HOME": str(folder / "home")}
     return subprocess.run(
-        ["sh", "-c", command], cwd=folder, env=environment, capture_output=True, encoding="utf-8", timeout=300
+        ["sh", "-c", command],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=300,
     )
 
 
@@ -114,9 +127,17 @@ def made(tmp_path_factory):
     python = f'#!/bin/sh\nexec "{sys.executable}" "$@"\n'
     for name in ("bin/python3", ".envs/blender-5.2/bin/python"):
         write_script(folder / name, python)
-    write_script(folder / "bin/blender", BLENDER.format(python=sys.executable, batch=ROOT / "operators" / "batch.py"))
+    write_script(
+        folder / "bin/blender",
+        BLENDER.format(python=sys.executable, batch=ROOT / "operators" / "batch.py"),
+    )
     (folder / "home/ros/src").mkdir(parents=True)
-    for name, size in (("part", 40.0), ("parts/Bracket", 1.0), ("parts/Plate", 2.0), ("new/Rod", 3.0)):
+    for name, size in (
+        ("part", 40.0),
+        ("parts/Bracket", 1.0),
+        ("parts/Plate", 2.0),
+        ("new/Rod", 3.0),
+    ):
         write_cube(folder / f"{name}.stl", size)
     save_cube(folder / "part.blend", "Part")
     save_cube(folder / "demo/bracket.blend", "Bracket")
@@ -125,7 +146,9 @@ def made(tmp_path_factory):
     (folder / "swing.py").write_text(blocks_of("tutorial-arm.md")[0])
     (folder / "arm.urdf").write_text(URDF)
     (folder / "gripper.xml").write_text(MJCF)
-    done = run("blender -b -c body_moments measure parts/ --format jsonl --output old.jsonl", folder)
+    done = run(
+        "blender -b -c body_moments measure parts/ --format jsonl --output old.jsonl", folder
+    )
     assert done.returncode == 0, done.stderr
     for name in ("part-1.jsonl", "part-2.jsonl", "new.jsonl"):
         shutil.copy(folder / "old.jsonl", folder / name)
@@ -134,7 +157,9 @@ def made(tmp_path_factory):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="needs a shell of POSIX")
-@pytest.mark.parametrize("document", [path for path in DOCUMENTS if runnable_of(path)], ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "document", [path for path in DOCUMENTS if runnable_of(path)], ids=lambda path: path.name
+)
 def test_commands_of_document_run_as_printed(document, made, tmp_path):
     """The commands of a page run in their order, in one folder: later ones use the files of earlier ones."""
     folder = tmp_path / "checkout"
@@ -168,9 +193,13 @@ def test_project_commands_have_known_words(document):
             assert parsed(*command.split()[2:]), command
 
 
-@pytest.mark.parametrize("workflow", sorted((ROOT / ".github" / "workflows").glob("*.yml")), ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "workflow", sorted((ROOT / ".github" / "workflows").glob("*.yml")), ids=lambda path: path.name
+)
 def test_project_commands_of_workflow_have_known_words(workflow):
-    for words in re.findall(r"python3? tests/project\.py (.*)", workflow.read_text(encoding="utf-8")):
+    for words in re.findall(
+        r"python3? tests/project\.py (.*)", workflow.read_text(encoding="utf-8")
+    ):
         assert parsed(*words.split()), words
 
 
@@ -178,7 +207,9 @@ def test_project_commands_of_workflow_have_known_words(workflow):
 def test_corner_of_the_hypercube_has_the_printed_moments(made, tmp_path):
     folder = tmp_path / "checkout"
     shutil.copytree(made, folder, symlinks=True)
-    *_, record = [run(command, folder).stdout for command in runnable_of(ROOT / "docs" / "command-line.md")]
+    *_, record = [
+        run(command, folder).stdout for command in runnable_of(ROOT / "docs" / "command-line.md")
+    ]
     moments = json.loads(record)["moments"]
     assert moments["0,0,0,0"] == pytest.approx(1 / 24, rel=1e-14)
     assert moments["1,0,0,0"] == pytest.approx(1 / 120, rel=1e-14)
@@ -189,19 +220,33 @@ def test_corner_of_the_hypercube_has_the_printed_moments(made, tmp_path):
 def test_arm_of_the_tutorial_falls_as_printed(made, tmp_path, simulator):
     """Pythons with simulators: this one, that of the tests of robots, and those that BODY_MOMENTS_SIMULATORS names."""
     named = os.environ.get("BODY_MOMENTS_SIMULATORS", "").split(os.pathsep)
-    pythons = [sys.executable, str(ROOT / ".envs" / "robots" / "bin" / "python"), *filter(None, named)]
-    finds = "import importlib.util, sys; sys.exit(importlib.util.find_spec('{}') is None)".format(simulator)
-    able = [one for one in pythons if Path(one).exists() and not subprocess.run([one, "-c", finds]).returncode]
+    pythons = [
+        sys.executable,
+        str(ROOT / ".envs" / "robots" / "bin" / "python"),
+        *filter(None, named),
+    ]
+    finds = "import importlib.util, sys; sys.exit(importlib.util.find_spec('{}') is None)".format(
+        simulator
+    )
+    able = [
+        one
+        for one in pythons
+        if Path(one).exists() and not subprocess.run([one, "-c", finds]).returncode
+    ]
     if not able:
         pytest.skip("needs a simulator: " + simulator)
     folder = tmp_path / "checkout"
     shutil.copytree(made, folder, symlinks=True)
     for command in runnable_of(ROOT / "docs" / "tutorial-arm.md"):
         assert run(command, folder).returncode == 0, command
-    (code,) = [block for block in blocks_of("tutorial-arm.md") if "import {}\n".format(simulator) in block]
+    (code,) = [
+        block for block in blocks_of("tutorial-arm.md") if "import {}\n".format(simulator) in block
+    ]
     done = subprocess.run([able[0], "-c", code], cwd=folder, capture_output=True, encoding="utf-8")
     (printed,) = blocks_of("tutorial-arm.md", "text")
-    assert done.returncode == 0 and done.stdout.splitlines()[-1].endswith(": " + printed.strip()), done
+    assert done.returncode == 0 and done.stdout.splitlines()[-1].endswith(": " + printed.strip()), (
+        done
+    )
 
 
 def test_python_for_blender_prints_the_cubes_moments(registered, capsys):
@@ -209,8 +254,15 @@ def test_python_for_blender_prints_the_cubes_moments(registered, capsys):
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.mesh.primitive_cube_add(size=2.0)
     text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
-    (example,) = [block for block in re.findall(r"```python\n(.*?)```", text, re.S) if "bpy" in block]
-    exec(compile(example.replace("bl_ext.user_default.body_moments", "body_moments"), "python.md", "exec"), {})
+    (example,) = [
+        block for block in re.findall(r"```python\n(.*?)```", text, re.S) if "bpy" in block
+    ]
+    exec(
+        compile(
+            example.replace("bl_ext.user_default.body_moments", "body_moments"), "python.md", "exec"
+        ),
+        {},
+    )
     mass, numbers = capsys.readouterr().out.strip().splitlines()[-2:]
     assert float(mass) == pytest.approx(8000.0)
     assert numbers.startswith("exact") and float(numbers.split()[-2]) == pytest.approx((2 / 5) ** 3)
@@ -224,7 +276,9 @@ def test_notebook_example_prints_and_draws_a_part(registered, capsys, tmp_path, 
     for name in ("matplotlib", "matplotlib.pyplot"):
         monkeypatch.setitem(sys.modules, name, plt)
     plt.pyplot = plt
-    examples = [block for block in blocks_of("python.md") if "part.stl" in block or "matplotlib" in block]
+    examples = [
+        block for block in blocks_of("python.md") if "part.stl" in block or "matplotlib" in block
+    ]
     exec(compile("\n".join(examples), "python.md", "exec"), {})
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "exact []" and lines[1].startswith("mass 0.1728 kg, center [0.02 0.02 0.02]")
@@ -237,7 +291,12 @@ def test_agents_get_the_printed_answer(registered, capsys):
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     text = (ROOT / "docs" / "agents.md").read_text(encoding="utf-8")
     code = "\n".join(re.findall(r"```python\n(.*?)```", text, re.S))
-    exec(compile(code.replace("bl_ext.user_default.body_moments", "body_moments"), "agents.md", "exec"), {})
+    exec(
+        compile(
+            code.replace("bl_ext.user_default.body_moments", "body_moments"), "agents.md", "exec"
+        ),
+        {},
+    )
     (printed,) = re.findall(r"```text\n(.*?)```", text, re.S)
     assert capsys.readouterr().out.endswith(printed)
     assert "body_mass" not in bpy.data.objects["Cube"]

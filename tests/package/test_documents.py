@@ -25,7 +25,11 @@ def defines(path: Path, name: str) -> bool:
     """Return whether a module itself defines this function, class or method of a class."""
     body = ast.parse(path.read_text(encoding="utf-8")).body
     for part in name.split("."):
-        inner = [node.body for node in body if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and node.name == part]
+        inner = [
+            node.body
+            for node in body
+            if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and node.name == part
+        ]
         if not inner:
             return False
         body = inner[-1]
@@ -36,7 +40,11 @@ def defines(path: Path, name: str) -> bool:
 def test_every_place_that_a_document_names_exists(document):
     missing = [path for path, _ in places(document) if not (ROOT / path).exists()]
     assert not missing
-    unknown = [":".join(place) for place in places(document) if place[1] and not defines(ROOT / place[0], place[1])]
+    unknown = [
+        ":".join(place)
+        for place in places(document)
+        if place[1] and not defines(ROOT / place[0], place[1])
+    ]
     assert not unknown
 
 
@@ -44,5 +52,7 @@ def test_the_architecture_draws_the_imports_that_are_tested():
     text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     rows = [", ".join(row) for wing in ORDER.values() for row in wing]
     drawn = re.search(r"    core  .*?(?=\n\n    command)", text, re.S).group()
-    lines = [re.sub(r"^    (core|blender)?\s+", "", line) for line in drawn.splitlines() if line.strip()]
+    lines = [
+        re.sub(r"^    (core|blender)?\s+", "", line) for line in drawn.splitlines() if line.strip()
+    ]
     assert lines == rows

@@ -15,7 +15,11 @@ bpy = pytest.importorskip("bpy")
 from body_moments.panels import menus as shown
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-MAKERS = ("https://www.sphinx-doc.org/", "https://github.com/pradyunsg/furo", "https://pradyunsg.me")
+MAKERS = (
+    "https://www.sphinx-doc.org/",
+    "https://github.com/pradyunsg/furo",
+    "https://pradyunsg.me",
+)
 
 
 class Page(HTMLParser):
@@ -50,7 +54,9 @@ def test_links_lead_to_pages_or_to_the_makers_of_the_generator(folder):
             file, _, place = link.partition("?")[0].partition("#")
             target = (path.parent / file).resolve() if file else path
             inside = target.is_relative_to(folder) and target.is_file()
-            if not link.startswith(MAKERS) and (not inside or (place and place not in pages.get(target, page).ids)):
+            if not link.startswith(MAKERS) and (
+                not inside or (place and place not in pages.get(target, page).ids)
+            ):
                 broken.append("{}: {}".format(path.relative_to(folder), link))
     assert not broken, "\n".join(broken)
 
@@ -67,9 +73,9 @@ def test_search_index_is_a_script_that_knows_every_page(folder):
     index = (folder / "searchindex.js").read_text(encoding="utf-8")
     names = re.search(r'"?docnames"?:\[([^]]*)\]', index).group(1).replace('"', "").split(",")
     assert index.startswith("Search.setIndex(")
-    assert {path.relative_to(folder).with_suffix("").as_posix() for path in folder.rglob("*.html")} - set(names) == {
-        "search"
-    }
+    assert {
+        path.relative_to(folder).with_suffix("").as_posix() for path in folder.rglob("*.html")
+    } - set(names) == {"search"}
 
 
 def test_public_names_of_the_core_are_in_the_manual(folder):
@@ -78,7 +84,9 @@ def test_public_names_of_the_core_are_in_the_manual(folder):
         package = "body_moments.core." + face.parent.name
         module = importlib.import_module(package)
         names = {
-            package + "." + name for name in module.__all__ if not isinstance(getattr(module, name), (tuple, dict))
+            package + "." + name
+            for name in module.__all__
+            if not isinstance(getattr(module, name), (tuple, dict))
         }
         assert [name for name in names if not ids & {name, "module-" + name}] == []
 
@@ -87,7 +95,9 @@ def test_the_readme_of_the_zip_leads_into_the_manual(folder):
     links = re.findall(r"\]\(([^)]+)\)", manual.readme())
     assert len(links) > 20
     assert [
-        link for link in links if link != "#install" and not (folder.parent / link.partition("#")[0]).is_file()
+        link
+        for link in links
+        if link != "#install" and not (folder.parent / link.partition("#")[0]).is_file()
     ] == []
 
 

@@ -36,7 +36,9 @@ REFUSED = NETWORK | {
 }
 REFUSED_NAMES = {"eval", "exec", "compile", "__import__", "bl_info"}
 # The supervisor alone starts processes, Blender with this add-on, so that no file can end the run over all of them.
-STARTS_PROCESSES = {"command/supervisor/" + name for name in ("processes.py", "pool.py", "whole_run.py")}
+STARTS_PROCESSES = {
+    "command/supervisor/" + name for name in ("processes.py", "pool.py", "whole_run.py")
+}
 ASKS_SYSTEM = {"command/supervisor/lifeline.py", "command/supervisor/processes.py"}
 ALLOWED = (set(sys.stdlib_module_names) - REFUSED) | BLENDER | {"numpy"}
 
@@ -61,7 +63,11 @@ def imported(node: ast.AST) -> list[str]:
     """The packages that a statement imports by their full name."""
     if isinstance(node, ast.Import):
         return [alias.name.partition(".")[0] for alias in node.names]
-    return [node.module.partition(".")[0]] if isinstance(node, ast.ImportFrom) and node.level == 0 else []
+    return (
+        [node.module.partition(".")[0]]
+        if isinstance(node, ast.ImportFrom) and node.level == 0
+        else []
+    )
 
 
 def test_only_packages_of_blender_are_imported():
@@ -105,7 +111,9 @@ def test_nothing_is_used_that_reviewers_refuse():
             "{} uses {}".format(place, node.id)
             for file, node, place in nodes()
             if isinstance(node, ast.Name)
-            and (node.id in REFUSED_NAMES or (node.id == "__file__" and file != "operators/batch.py"))
+            and (
+                node.id in REFUSED_NAMES or (node.id == "__file__" and file != "operators/batch.py")
+            )
         ]
     )
 
@@ -126,7 +134,11 @@ def test_reports_can_be_translated():
             if isinstance(node, ast.Call)
             and isinstance(node.func, ast.Attribute)
             and node.func.attr in ("report", "poll_message_set")
-            and any(isinstance(inner, ast.JoinedStr) for argument in node.args for inner in ast.walk(argument))
+            and any(
+                isinstance(inner, ast.JoinedStr)
+                for argument in node.args
+                for inner in ast.walk(argument)
+            )
         ]
     )
 
@@ -153,15 +165,37 @@ def test_every_source_file_names_its_holder_and_licence():
         "# SPDX-License-Identifier: GPL-3.0-or-later",
     }
     files = [path for path in project_files() if path.suffix == ".py"]
-    assert_none([name(path) for path in files if not lines <= {*path.read_text(encoding="utf-8").splitlines()[:3]}])
+    assert_none(
+        [
+            name(path)
+            for path in files
+            if not lines <= {*path.read_text(encoding="utf-8").splitlines()[:3]}
+        ]
+    )
 
 
 def test_no_file_names_a_machine_or_a_registry():
     """Paths of the machine it was written on, and hosts that a network elsewhere may not have."""
     hosts = ("pypi" + ".org", "pythonhosted" + ".org", "debian" + ".org", "npmjs" + ".org")
-    patterns = [r"(?<![\w.~}])/(?:home|root|work|Users)/\w", r"[A-Z]:\\Users\\", *map(re.escape, hosts)]
+    patterns = [
+        r"(?<![\w.~}])/(?:home|root|work|Users)/\w",
+        r"[A-Z]:\\Users\\",
+        *map(re.escape, hosts),
+    ]
     pattern = re.compile("|".join(patterns))
-    binary = (".png", ".webp", ".gif", ".ply", ".blend", ".npz", ".npy", ".zip", ".gz", ".glb", ".fbx")
+    binary = (
+        ".png",
+        ".webp",
+        ".gif",
+        ".ply",
+        ".blend",
+        ".npz",
+        ".npy",
+        ".zip",
+        ".gz",
+        ".glb",
+        ".fbx",
+    )
     assert_none(
         [
             "{}:{}: {}".format(name(path), number, match.group())
@@ -173,12 +207,19 @@ def test_no_file_names_a_machine_or_a_registry():
     )
 
 
-RELATIVE = re.compile(r"(What|Which|Where|Whether|Of|How|Who|When|Those|That|The same|As|Some)\b", re.I)
+RELATIVE = re.compile(
+    r"(What|Which|Where|Whether|Of|How|Who|When|Those|That|The same|As|Some)\b", re.I
+)
 
 
 def test_docstrings_rarely_open_with_a_relative_word():
     """A docstring names its subject first; two in a hundred may do otherwise."""
     kinds = ast.FunctionDef | ast.ClassDef | ast.Module
-    texts = [ast.get_docstring(node) for tree in TREES.values() for node in ast.walk(tree) if isinstance(node, kinds)]
+    texts = [
+        ast.get_docstring(node)
+        for tree in TREES.values()
+        for node in ast.walk(tree)
+        if isinstance(node, kinds)
+    ]
     found = [text.partition("\n")[0] for text in texts if text and RELATIVE.match(text)]
     assert len(found) <= 0.02 * sum(text is not None for text in texts), found

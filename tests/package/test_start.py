@@ -46,7 +46,14 @@ sys.stdout.flush()
 os._exit(0)
 """
 LABELS = (  # a label of each kind of result
-    *("Exact", "6 Objects", "Exact, from a Grid", "Centroid (World)", "Center of Mass from There", "Symmetry Cs"),
+    *(
+        "Exact",
+        "6 Objects",
+        "Exact, from a Grid",
+        "Centroid (World)",
+        "Center of Mass from There",
+        "Symmetry Cs",
+    ),
     *("Robot", "hips", "Rig: 1 Mesh", "Principal Axes"),
 )
 
@@ -79,6 +86,11 @@ def test_start_and_panels_of_saved_file_load_no_numpy(scene, tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(paths[1]))
     arguments = str(ROOT), "\n".join(LABELS), str(MAX_MODULES), *map(str, paths)
     done = subprocess.run(
-        [sys.executable, "-P", "-c", CODE, *arguments], capture_output=True, encoding="utf-8", timeout=480
+        [sys.executable, "-P", "-c", CODE, *arguments],
+        capture_output=True,
+        encoding="utf-8",
+        timeout=480,
     )
-    assert done.returncode == 0 and "Traceback" not in done.stderr, done.stderr  # handlers print theirs
+    assert done.returncode == 0 and "Traceback" not in done.stderr, (
+        done.stderr
+    )  # handlers print theirs

@@ -16,7 +16,9 @@ import pytest
 from tests.core.mesh_files import ply, stl
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-NUMPY = "numpy==1.26.0" if sys.version_info < (3, 12) else "numpy"  # 1.26 is made for no newer Python
+NUMPY = (
+    "numpy==1.26.0" if sys.version_info < (3, 12) else "numpy"
+)  # 1.26 is made for no newer Python
 
 # No body has an inertia about z that exceeds the sum of the other two.
 URDF = """\
@@ -43,15 +45,23 @@ assert abs(body_moments.mass_properties(points, triangles, density=2.0).mass_pro
 """
 
 POINTS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], np.float32)
-QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+QUADS = np.array(
+    [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+)
 TRIANGLES = np.vstack([QUADS[:, [0, 1, 2]], QUADS[:, [0, 2, 3]]])
 
 
-def run(command: list, variables: Mapping[str, str] | None = None, **options) -> subprocess.CompletedProcess:
+def run(
+    command: list, variables: Mapping[str, str] | None = None, **options
+) -> subprocess.CompletedProcess:
     """Run a command that sees neither the project nor the packages of this Python."""
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    environment = {
+        name: value for name, value in os.environ.items() if not name.startswith("PYTHON")
+    }
     environment |= variables or {}
-    return subprocess.run(command, capture_output=True, encoding="utf-8", env=environment, **options)
+    return subprocess.run(
+        command, capture_output=True, encoding="utf-8", env=environment, **options
+    )
 
 
 @pytest.fixture(scope="module")
@@ -95,7 +105,10 @@ def test_a_file_is_measured_without_blender(scripts, tmp_path, name):
     document = json.loads(done.stdout)
     (found,) = document["objects"]
     assert document["blender"] is None and abs(found["mass"] - 1000.0) < 1e-9
-    assert max(abs(np.ptp(found["principal_moments"])), abs(found["inertia"][0][0] - 1000.0 / 6.0)) < 1e-9
+    assert (
+        max(abs(np.ptp(found["principal_moments"])), abs(found["inertia"][0][0] - 1000.0 / 6.0))
+        < 1e-9
+    )
 
 
 def test_the_command_tells_what_needs_blender(scripts, tmp_path):
@@ -109,12 +122,18 @@ def test_the_command_tells_what_needs_blender(scripts, tmp_path):
 def test_action_fails_for_an_impossible_robot(scripts, tmp_path):
     """Its commands as a runner starts them: in the workspace, with its variables and the defaults of the inputs."""
     action = (ROOT / "action.yml").read_text(encoding="utf-8")
-    inputs = dict(re.findall(r"^  ([\w-]+):\n    description: .*\n    default: (.*)$", action, re.MULTILINE))
+    inputs = dict(
+        re.findall(r"^  ([\w-]+):\n    description: .*\n    default: (.*)$", action, re.MULTILINE)
+    )
     variables = re.findall(r"^ +(\w+): \$\{\{ inputs\.([\w-]+) \}\}$", action, re.MULTILINE)
     environment = {name: inputs.pop(source).strip('"') for name, source in variables}
     assert environment["PATHS"] == "." and not inputs
     workspace, step = tmp_path / "workspace", tmp_path / "step.sh"
-    for name, path in (("ACTION_PATH", ROOT), ("WORKSPACE", workspace), ("OUTPUT", tmp_path / "output")):
+    for name, path in (
+        ("ACTION_PATH", ROOT),
+        ("WORKSPACE", workspace),
+        ("OUTPUT", tmp_path / "output"),
+    ):
         environment["GITHUB_" + name] = str(path)
     environment["PATH"] = "{}:/usr/bin:/bin".format(scripts)
     workspace.mkdir()
@@ -133,9 +152,14 @@ def test_pre_commit_refuses_an_impossible_robot(scripts, tmp_path):
     """pre-commit itself installs the hook from this repository, and runs it on files that are added."""
     run([scripts / "python", "-m", "pip", "install", "pre-commit"], check=True)
     run(["git", "init", "-q", tmp_path], check=True)
-    for text, code in ((URDF, 1), (URDF.replace("1000", "5333.333").replace("9000", "5333.333"), 0)):
+    for text, code in (
+        (URDF, 1),
+        (URDF.replace("1000", "5333.333").replace("9000", "5333.333"), 0),
+    ):
         (tmp_path / "cube.urdf").write_text(text, encoding="utf-8")
         run(["git", "add", "cube.urdf"], cwd=tmp_path, check=True)
         hook = [scripts / "pre-commit", "try-repo", ROOT, "body-moments-audit"]
         done = run(hook, {"PRE_COMMIT_HOME": str(tmp_path / "hooks")}, cwd=tmp_path)
-        assert done.returncode == code and ("cube.urdf:3:5: error" in done.stdout) == bool(code), done.stdout
+        assert done.returncode == code and ("cube.urdf:3:5: error" in done.stdout) == bool(code), (
+            done.stdout
+        )

@@ -155,7 +155,9 @@ def every_panel():
     layout = Layout()
     for module in panels.MODULES:
         for cls in getattr(import_module("body_moments.panels." + module), "CLASSES", ()):
-            is_ours = issubclass(cls, bpy.types.Panel) and not hasattr(cls, "preset_add_operator")  # else Blender's
+            is_ours = issubclass(cls, bpy.types.Panel) and not hasattr(
+                cls, "preset_add_operator"
+            )  # else Blender's
             if is_ours and (not hasattr(cls, "poll") or cls.poll(bpy.context)):
                 cls.draw(SimpleNamespace(layout=layout), bpy.context)
     return labels(layout.record)
@@ -184,4 +186,6 @@ def findings_of(obj, severity=None):
     from body_moments.core.verdict import sentences
 
     found = properties.findings(obj)
-    return [one.code for one in (found if severity is None else sentences.of_severity(found, severity))]
+    return [
+        one.code for one in (found if severity is None else sentences.of_severity(found, severity))
+    ]

@@ -27,7 +27,9 @@ def view(registered):
 def in_front(view, count=5):
     """(count, 3) points that the view shows."""
     random = np.random.default_rng(5)
-    seen = np.stack([*(random.uniform(-0.4, 0.4, (2, count)) * 8.0), -random.uniform(6.0, 12.0, count)], axis=1)
+    seen = np.stack(
+        [*(random.uniform(-0.4, 0.4, (2, count)) * 8.0), -random.uniform(6.0, 12.0, count)], axis=1
+    )
     return (seen - view.view[:3, 3]) @ view.view[:3, :3]
 
 
@@ -38,7 +40,9 @@ def test_shapes_have_their_size_in_pixels_wherever_they_are(view):
     on_screen = view.pixels(placed.reshape(-1, 3)).reshape(offsets.shape)
     assert close(on_screen - view.pixels(anchors)[:, None], offsets, 1e-9)
     assert close(
-        view.depths(placed.reshape(-1, 3)).reshape(-1, 6), view.depths(anchors)[:, None].repeat(6, axis=1), 1e-12
+        view.depths(placed.reshape(-1, 3)).reshape(-1, 6),
+        view.depths(anchors)[:, None].repeat(6, axis=1),
+        1e-12,
     )
 
 
@@ -59,7 +63,9 @@ def test_an_equal_ellipsoid_has_the_inertia_of_the_body(registered):
     half = np.array([1.0, 2.0, 5.0])
     inertia = (half @ half - half**2) / 5.0
     turn = np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
-    points = lines.ellipsoid_lines(np.zeros((1, 3)), turn[None], np.sqrt(inertia)[None]).reshape(-1, 3)
+    points = lines.ellipsoid_lines(np.zeros((1, 3)), turn[None], np.sqrt(inertia)[None]).reshape(
+        -1, 3
+    )
     assert close(((points @ turn / half) ** 2).sum(axis=1), 1.0, 1e-12)
     assert close(np.abs(points @ turn).max(axis=0), half, 1e-12)
 
@@ -83,10 +89,17 @@ def test_disc_is_never_larger_than_its_ball(view, size):
     count = len(centers)
     gyration = np.full((count, 3), size * np.sqrt(0.4))
     for verdict in range(5):
-        bodies = Bodies(centers, np.tile(np.eye(3), (count, 1, 1)), gyration, np.full(count, verdict))
+        bodies = Bodies(
+            centers, np.tile(np.eye(3), (count, 1, 1)), gyration, np.full(count, verdict)
+        )
         points, _, _ = discs.disc_triangles(bodies, view, 1.0)
         order = np.argsort(-view.depths(centers), kind="stable")
-        pixels = view.pixels(points.astype(float)).reshape(count, -1, 2) - view.pixels(centers)[order][:, None]
+        pixels = (
+            view.pixels(points.astype(float)).reshape(count, -1, 2)
+            - view.pixels(centers)[order][:, None]
+        )
         ball = size / view.pixel_sizes(centers)[order].max(axis=1)
         radii = np.linalg.norm(pixels, axis=2).max(axis=1)
-        assert (radii <= np.minimum(ball, 30.0) + 1e-3).all() and (radii > 0.5 * np.minimum(ball, 12.0)).all()
+        assert (radii <= np.minimum(ball, 30.0) + 1e-3).all() and (
+            radii > 0.5 * np.minimum(ball, 12.0)
+        ).all()

@@ -26,7 +26,9 @@ def measured_cube(_folder):
 
 def open_box(_folder):
     mesh, closed = bpy.data.meshes.new("Open"), box_mesh(1, 2, 4)
-    mesh.from_pydata([v.co for v in closed.vertices], [], [tuple(f.vertices) for f in closed.polygons][1:])
+    mesh.from_pydata(
+        [v.co for v in closed.vertices], [], [tuple(f.vertices) for f in closed.polygons][1:]
+    )
     add(mesh, "Open Box")
     bpy.ops.object.body_moments_measure()
 
@@ -56,7 +58,9 @@ def page(record):
             words.append(name)
         elif kind in ("prop", "operator", "menu", "end"):
             lines.append(" ".join(filter(None, words)))
-            lines.append({"prop": "[{}]", "operator": "({})", "menu": "<{}>"}.get(kind, "").format(name))
+            lines.append(
+                {"prop": "[{}]", "operator": "({})", "menu": "<{}>"}.get(kind, "").format(name)
+            )
             words = []
     return "\n".join(line for line in lines if line not in ("", "(object.body_moments_copy_value)"))
 

@@ -39,7 +39,9 @@ def test_a_refusal_goes_with_undo_selection_and_success():
 
 def test_equal_findings_of_objects_are_one_line():
     closed, mesh = mesh_body(), bpy.data.meshes.new("Open")
-    mesh.from_pydata([v.co for v in closed.vertices], [], [tuple(f.vertices) for f in closed.polygons][1:])
+    mesh.from_pydata(
+        [v.co for v in closed.vertices], [], [tuple(f.vertices) for f in closed.polygons][1:]
+    )
     objects = [add(mesh if i < 3 else closed, str(i), location=(10 * i, 0, 0)) for i in range(5)]
     only(*objects)
     bpy.ops.object.body_moments_measure()
@@ -113,7 +115,9 @@ def test_rounding_in_total_center_is_shown_as_zero():
 
 
 def test_total_counts_measured_objects_and_names_others():
-    objects = [add(mesh_body(), str(i), location=(10 * i, 2 * i, -i), rotation=(i, 0, 0)) for i in range(3)]
+    objects = [
+        add(mesh_body(), str(i), location=(10 * i, 2 * i, -i), rotation=(i, 0, 0)) for i in range(3)
+    ]
     only(*objects)
     bpy.ops.object.body_moments_measure()
     add(mesh_body(), "Not Measured")
@@ -155,7 +159,14 @@ def test_damaged_results_are_not_shown():
 def test_damaged_findings_leave_panel_drawn():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
-    for text in ("", "[", "{}", '[{"code": "of_the_future", "values": {}}]', '[{"code": "holes_capped"}]', "[1]"):
+    for text in (
+        "",
+        "[",
+        "{}",
+        '[{"code": "of_the_future", "values": {}}]',
+        '[{"code": "holes_capped"}]',
+        "[1]",
+    ):
         obj["body_findings"] = text
         assert "Exact" in labels(shown())
     obj["body_method"] = "guess"

@@ -20,9 +20,13 @@ def rotation(rng):
 
 def inertial(points, triangles, density=1000.0):
     """Return the measured inertial of the body along the link's axes."""
-    body = MassProperties.from_moments(polyhedron_moments(Surface.from_triangles(points, triangles))[0], density)
+    body = MassProperties.from_moments(
+        polyhedron_moments(Surface.from_triangles(points, triangles))[0], density
+    )
     frame = body.principal
-    return Inertial.with_agreeing_axes(body.mass, body.center, body.inertia, frame.moments, frame.axes)
+    return Inertial.with_agreeing_axes(
+        body.mass, body.center, body.inertia, frame.moments, frame.axes
+    )
 
 
 def shaped(rng, kind):
@@ -55,7 +59,9 @@ def bodies(count, seed=17, chain=False, away=False):
         if chain and index:
             place = Pose(rng.normal(size=3), rotation(rng)) if away else Pose()
             parent = "body {}".format(index - 1)
-            joints.append(Joint("joint {}".format(index), parent, name, free_axes(rng, index), place))
+            joints.append(
+                Joint("joint {}".format(index), parent, name, free_axes(rng, index), place)
+            )
     return Robot("test", tuple(links), tuple(joints))
 
 
@@ -75,8 +81,16 @@ def free_axes(rng, index):
 
 def shapes(pose):
     """One of each primitive."""
-    sizes = {"box": (1.0, 2.0, 3.0), "sphere": (0.5,), "capsule": (0.25, 1.0), "cylinder": (0.25, 2.0)}
-    return (*(Shape(kind, size, pose) for kind, size in sizes.items()), Shape("ellipsoid", (1.0, 2.0, 3.0), pose))
+    sizes = {
+        "box": (1.0, 2.0, 3.0),
+        "sphere": (0.5,),
+        "capsule": (0.25, 1.0),
+        "cylinder": (0.25, 2.0),
+    }
+    return (
+        *(Shape(kind, size, pose) for kind, size in sizes.items()),
+        Shape("ellipsoid", (1.0, 2.0, 3.0), pose),
+    )
 
 
 def near(found, truth, rel=1e-14, scale=None):

@@ -33,9 +33,14 @@ GEOMETRY = {
         "mesh": ("?", {"children": {"uri": ("1", STRING), "scale": ("?", VECTOR)}}),
     }
 }
-PLACED = {"attributes": {"name": "!"}, "children": {"pose": ("?", POSE), "geometry": ("1", GEOMETRY)}}
+PLACED = {
+    "attributes": {"name": "!"},
+    "children": {"pose": ("?", POSE), "geometry": ("1", GEOMETRY)},
+}
 LIMIT = {"children": {name: ("?", DOUBLE) for name in ("lower", "upper", "effort", "velocity")}}
-DYNAMICS = {"children": {name: ("?", DOUBLE) for name in ("damping", "friction", "spring_stiffness")}}
+DYNAMICS = {
+    "children": {name: ("?", DOUBLE) for name in ("damping", "friction", "spring_stiffness")}
+}
 AXIS = {"children": {"xyz": ("1", VECTOR), "limit": ("1", LIMIT), "dynamics": ("?", DYNAMICS)}}
 JOINT = {
     "attributes": {"name": "!", "type": "!"},
@@ -56,14 +61,25 @@ LINK = {
         "visual": ("*", PLACED),
     },
 }
-MODEL = {"attributes": {"name": "!"}, "children": {"pose": ("?", POSE), "link": ("*", LINK), "joint": ("*", JOINT)}}
+MODEL = {
+    "attributes": {"name": "!"},
+    "children": {"pose": ("?", POSE), "link": ("*", LINK), "joint": ("*", JOINT)},
+}
 SDF = {"attributes": {"version": "!"}, "children": {"model": ("?", MODEL)}}
 
 JOINT_TYPES = {
     *("continuous", "revolute", "gearbox", "revolute2", "prismatic", "ball"),
     *("screw", "universal", "fixed"),
 }
-AXES = {"revolute": 1, "prismatic": 1, "continuous": 1, "universal": 2, "revolute2": 2, "fixed": 0, "ball": 0}
+AXES = {
+    "revolute": 1,
+    "prismatic": 1,
+    "continuous": 1,
+    "universal": 2,
+    "revolute2": 2,
+    "fixed": 0,
+    "ball": 0,
+}
 
 
 def validate(root):
@@ -71,9 +87,15 @@ def validate(root):
     assert root.tag == "sdf" and root.get("version") == "1.9"
     check(root, SDF)
     for model in root.iter("model"):
-        frames = [element.get("name") for tag in ("link", "joint") for element in model.findall(tag)]
+        frames = [
+            element.get("name") for tag in ("link", "joint") for element in model.findall(tag)
+        ]
         assert len({*frames}) == len(frames), "a name stands twice"
-        assert not [name for name in frames if not name or "::" in name or re.fullmatch(r"__.*__|world", name)]
+        assert not [
+            name
+            for name in frames
+            if not name or "::" in name or re.fullmatch(r"__.*__|world", name)
+        ]
         links = {link.get("name") for link in model.findall("link")}
         for link in model.findall("link"):
             for tag in ("visual", "collision"):
@@ -83,13 +105,17 @@ def validate(root):
             assert joint.get("type") in JOINT_TYPES
             assert {joint.findtext("parent"), joint.findtext("child")} <= {*links, "world"}
             assert joint.findtext("parent") != joint.findtext("child")
-            assert len(joint.findall("axis")) + len(joint.findall("axis2")) == AXES[joint.get("type")]
+            assert (
+                len(joint.findall("axis")) + len(joint.findall("axis2")) == AXES[joint.get("type")]
+            )
 
 
 def check(element, rule):
     attributes, children = rule.get("attributes", {}), rule.get("children", {})
     assert {*element.keys()} <= attributes.keys(), (element.tag, element.keys())
-    assert {name for name, how in attributes.items() if how == "!"} <= {*element.keys()}, element.tag
+    assert {name for name, how in attributes.items() if how == "!"} <= {*element.keys()}, (
+        element.tag
+    )
     if "text" in rule:
         check_text(element, rule["text"])
     else:

@@ -10,7 +10,12 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from body_moments.core.colliders.effects import correct_masses, correct_vertices, effect, uniform_masses
+from body_moments.core.colliders.effects import (
+    correct_masses,
+    correct_vertices,
+    effect,
+    uniform_masses,
+)
 from body_moments.core.colliders.fits import Wanted, make_colliders
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
@@ -28,7 +33,17 @@ from tests.robots.links import rotation
 DENSITY = 700.0
 SLOW = {"helix", "knot", "spiral", "bowl", "goblet", "hook", "dumbbell", "cup", "crescent"}
 LINKS = (
-    *("PELVIS", "WAIST_Y", "WAIST_R", "NECK_Y", "R_HIP_R", "R_HIP_Y", "R_KNEE", "R_ANKLE_P", "R_SHOULDER_P"),
+    *(
+        "PELVIS",
+        "WAIST_Y",
+        "WAIST_R",
+        "NECK_Y",
+        "R_HIP_R",
+        "R_HIP_Y",
+        "R_KNEE",
+        "R_ANKLE_P",
+        "R_SHOULDER_P",
+    ),
     *("R_SHOULDER_Y", "R_ELBOW_P", "R_ELBOW_Y", "R_WRIST_Y", "R_UTHUMB", "R_LINDEX"),
 )  # of the humanoid JVRC-1, closed meshes
 COLUMNS = ["columns {}".format(number) for number in range(6)]
@@ -46,12 +61,16 @@ def surface_of(name):
         low, high = rng.uniform(0.1, 3.0, (2, 15))
         places = [*np.ndindex(5, 3)]
         return Surface.from_triangles(
-            *joined(*(box((x, y, -z), (x + 1, y + 1, h)) for (x, y), z, h in zip(places, low, high)))
+            *joined(
+                *(box((x, y, -z), (x + 1, y + 1, h)) for (x, y), z, h in zip(places, low, high))
+            )
         )
     if name == "Suzanne" and not benchmark_colliders.shutil.which("blender"):
         pytest.skip("needs a real Blender, for Suzanne")
     points, triangles = SHAPES[name] if name in SHAPES else benchmark_colliders.suzanne()[name]
-    placed = np.asarray(points) * rng.uniform(0.5, 1.0, 3) @ rotation(rng).T + rng.uniform(-2.0, 2.0, 3)
+    placed = np.asarray(points) * rng.uniform(0.5, 1.0, 3) @ rotation(rng).T + rng.uniform(
+        -2.0, 2.0, 3
+    )
     placed *= 10.0 ** rng.uniform(-2.0, 1.0)
     return Surface.from_triangles(placed.astype(np.float32).astype(np.float64), triangles)
 
@@ -79,17 +98,28 @@ def made(name, wanted):
     surface = surface_of(name)
     volume = polyhedron_moments(surface)[0]
     body = MassProperties.from_moments(volume, DENSITY)
-    return surface, volume.total, body, [stored(one) for one in run(make_colliders(surface, body, wanted))]
+    return (
+        surface,
+        volume.total,
+        body,
+        [stored(one) for one in run(make_colliders(surface, body, wanted))],
+    )
 
 
 def in_mujoco(body, shapes):
     """Mass, center and inertia that MuJoCo computes of the exported colliders."""
     frame = body.principal
-    inertial = Inertial.with_agreeing_axes(body.mass, body.center, body.inertia, frame.moments, frame.axes)
-    robot = with_colliders(Robot("r", (Link("a", inertial, shapes=(Shape("mesh"),)),)), lambda _link: shapes)
+    inertial = Inertial.with_agreeing_axes(
+        body.mass, body.center, body.inertia, frame.moments, frame.axes
+    )
+    robot = with_colliders(
+        Robot("r", (Link("a", inertial, shapes=(Shape("mesh"),)),)), lambda _link: shapes
+    )
     robot, _ = with_meshes(robot, lambda _name: None)
     link = robot.links[0]
-    files = [replace(one, file=f"{i}.stl") if one.surface else one for i, one in enumerate(link.shapes)]
+    files = [
+        replace(one, file=f"{i}.stl") if one.surface else one for i, one in enumerate(link.shapes)
+    ]
     robot = replace(robot, links=(replace(link, inertial=None, shapes=tuple(files)),))
     text = mjcf.write(robot).replace("<compiler", '<compiler inertiafromgeom="true"', 1)
     assets = {one.file: to_stl(one.surface) for one in files if one.surface}
@@ -128,7 +158,9 @@ def test_mujoco_agrees_with_stated_effect_and_corrections(name):
             moved = [replace(one, mass=float(mass)) for one, mass in zip(moved, masses)]
             mass, center, inertia = agrees(moved, body, volume, 1e-6)
             assert mass == pytest.approx(body.mass, rel=1e-6)
-            assert np.linalg.norm(center - body.center) < 0.01 * np.sqrt(body.principal.moments.max() / mass)
+            assert np.linalg.norm(center - body.center) < 0.01 * np.sqrt(
+                body.principal.moments.max() / mass
+            )
             assert np.linalg.eigvalsh(inertia) == pytest.approx(body.principal.moments, rel=0.01)
             assert np.linalg.norm(inertia - body.inertia) < 0.01 * np.linalg.norm(body.inertia)
     corrected = correct_masses(body, shapes)

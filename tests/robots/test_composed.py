@@ -41,7 +41,9 @@ def codes(path):
     """The findings of each link, by its name."""
     audit = Auditor(Roots.for_file(path)).audit(read_description(path))
     assert all(one.link.span is None for one in audit.links) and not audit.repairs()
-    return {one.link.name: [str(entry.finding.code) for entry in one.entries] for one in audit.links}
+    return {
+        one.link.name: [str(entry.finding.code) for entry in one.entries] for one in audit.links
+    }
 
 
 def refusal(path):
@@ -83,7 +85,10 @@ def test_usd_files_outside_and_missing_ones_are_refused(tmp_path):
         path.unlink()
         layers = '#usda 1.0\n(\n subLayers = [\n  @{}@\n ]\n)\ndef "x"\n{{\n}}\n'.format(name)
         (tmp_path / "a" / "b" / cause).with_suffix(".usda").write_text(layers)
-        assert refusal((tmp_path / "a" / "b" / cause).with_suffix(".usda")).values["cause"]["code"] == cause
+        assert (
+            refusal((tmp_path / "a" / "b" / cause).with_suffix(".usda")).values["cause"]["code"]
+            == cause
+        )
 
 
 def test_damaged_binary_usd_is_refused(tmp_path):
@@ -107,7 +112,9 @@ def test_xacro_is_expanded_within_the_roots(tmp_path, monkeypatch):
             assert codes(path) == {"a": [], "b": ["audit_unit"]}
             continue
         found = refusal(path)
-        assert found.code == "include_unreadable" and found.values["cause"]["code"] == "mesh_outside"
+        assert (
+            found.code == "include_unreadable" and found.values["cause"]["code"] == "mesh_outside"
+        )
     for wrong in ("FILE", "r.urdf.xacro"):  # missing, and itself
         path.write_text(ROBOT.replace("FILE", wrong))
         assert refusal(path).code in ("include_unreadable", "xacro_not_expanded")
@@ -119,8 +126,12 @@ def test_faults_of_xacro_have_the_places_of_their_elements(tmp_path):
     """In the file that was named, and in the macro of another one; each at the element that was expanded."""
     pytest.importorskip("xacro")
     (tmp_path / "urdf").mkdir()
-    inner = MACRO.replace("<inertial>", "\n <inertial>").replace("<collision>", "\n\n  <collision>\n")
-    inner = inner.replace("<box", '<mesh filename="${name}.stl"/></geometry></collision><visual><geometry><box')
+    inner = MACRO.replace("<inertial>", "\n <inertial>").replace(
+        "<collision>", "\n\n  <collision>\n"
+    )
+    inner = inner.replace(
+        "<box", '<mesh filename="${name}.stl"/></geometry></collision><visual><geometry><box'
+    )
     inner = inner.replace("</collision></link>", "</visual></link>")
     (tmp_path / "urdf" / "m.xacro").write_text(inner)
     (tmp_path / "b.stl").write_text("")  # It is beside the file that is named.
@@ -128,9 +139,15 @@ def test_faults_of_xacro_have_the_places_of_their_elements(tmp_path):
     own = '\n<link name="own">\n <inertial><mass value="nope"/></inertial></link>\n<xacro:if value="1">'
     own += '<link name="mass"><inertial>\n<mass value="-1"/></inertial></link></xacro:if></robot>'
     path.write_text(ROBOT.replace("FILE", "urdf/m.xacro").replace("</robot>", own))
-    links = {one.link.name: one for one in Auditor(Roots.for_file(path)).audit(read_description(path)).links}
+    links = {
+        one.link.name: one
+        for one in Auditor(Roots.for_file(path)).audit(read_description(path)).links
+    }
     macro = str(tmp_path / "urdf" / "m.xacro")
-    places = {name: [(str(entry.finding.code), *entry.place) for entry in one.entries] for name, one in links.items()}
+    places = {
+        name: [(str(entry.finding.code), *entry.place) for entry in one.entries]
+        for name, one in links.items()
+    }
     assert places == {
         "a": [("mesh_missing", 6, 3, macro)],
         "b": [("mesh_unreadable", 6, 3, macro)],

@@ -39,7 +39,9 @@ def many():
 
 def turned(roll, pitch, yaw):
     """Rz(yaw) Ry(pitch) Rx(roll), as URDF has it."""
-    (cr, sr), (cp, sp), (cy, sy) = ((math.cos(angle), math.sin(angle)) for angle in (roll, pitch, yaw))
+    (cr, sr), (cp, sp), (cy, sy) = (
+        (math.cos(angle), math.sin(angle)) for angle in (roll, pitch, yaw)
+    )
     about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
     about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
     return np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]]) @ about_y @ about_x
@@ -49,7 +51,11 @@ def test_urdf_gives_its_consumer_each_link(many):
     found = URDF.from_xml_string(urdf.write(many).encode())
     for link in many.links:
         told, true = found.link_map[link.name].inertial, link.inertial
-        assert told.mass == true.mass and told.origin.xyz == true.center.tolist() and told.origin.rpy == [0, 0, 0]
+        assert (
+            told.mass == true.mass
+            and told.origin.xyz == true.center.tolist()
+            and told.origin.rpy == [0, 0, 0]
+        )
         assert near(told.inertia.to_matrix(), true.inertia)
 
 
@@ -61,7 +67,9 @@ def test_angles_give_the_rotation_back_at_the_poles_too(pitch):
 
 
 def test_mujoco_takes_all_bodies_and_gives_their_inertia(many):
-    heavy = Robot("many", tuple(link for link in many.links if link.inertial.moments[0] > mjcf.LEAST))
+    heavy = Robot(
+        "many", tuple(link for link in many.links if link.inertial.moments[0] > mjcf.LEAST)
+    )
     assert len(heavy.links) > 400 and not mjcf.check(heavy)
     model = mujoco.MjModel.from_xml_string(mjcf.write(heavy))
     for link in heavy.links:
@@ -84,8 +92,12 @@ def test_mujoco_moves_the_joints_within_their_limits(chain):
             if joint.is_ball:
                 assert model.joint(joint.name).type[0] == mujoco.mjtJoint.mjJNT_BALL
                 break
-            told = model.joint(joint.name if len(joint.free) == 1 else "{}_{}".format(joint.name, count))
-            assert near(told.axis, free.axis) and bool(model.jnt_limited[told.id]) == free.is_limited
+            told = model.joint(
+                joint.name if len(joint.free) == 1 else "{}_{}".format(joint.name, count)
+            )
+            assert (
+                near(told.axis, free.axis) and bool(model.jnt_limited[told.id]) == free.is_limited
+            )
             if free.is_limited:
                 assert tuple(told.range) == (free.lower, free.upper)
 
@@ -94,11 +106,20 @@ def test_mujoco_moves_the_joints_within_their_limits(chain):
 def test_tiny_body_is_raised_by_mujoco_with_a_finding(form):
     small = bodies(1).links[0].inertial
     factor = 1e-16 / small.moments[0]
-    tiny = Inertial(small.mass * factor, small.center, small.inertia * factor, small.moments * factor, small.axes)
+    tiny = Inertial(
+        small.mass * factor,
+        small.center,
+        small.inertia * factor,
+        small.moments * factor,
+        small.axes,
+    )
     robot = Robot("tiny", (Link("grain", tiny),))
     assert [found.code for found in form.check(robot)] == ["mjcf_inertia_too_small"]
     model = mujoco.MjModel.from_xml_string(form.write(robot))
-    assert model.body("grain").mass[0] >= form.LEAST and model.body("grain").inertia.min() == form.LEAST
+    assert (
+        model.body("grain").mass[0] >= form.LEAST
+        and model.body("grain").inertia.min() == form.LEAST
+    )
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -129,7 +150,9 @@ def test_a_free_body_keeps_energy_and_momentum_for_a_second(seed):
         for _ in range(10_000):
             mujoco.mj_step(model, data)
         after = state()
-        assert near(before[0], before[1], 1e-12)  # MuJoCo's own energy is that of the tensor that was measured
+        assert near(
+            before[0], before[1], 1e-12
+        )  # MuJoCo's own energy is that of the tensor that was measured
         for old, new in zip(before, after):
             assert near(new, old, 1e-9)
 
@@ -148,7 +171,9 @@ def test_sdf_is_valid_and_gives_each_link(many):
         assert float(inertial.findtext("mass")) == true.mass and near((x, y, z), true.center)
         assert near(turn @ matrix @ turn.T, true.inertia)
         moments = np.diag(matrix)
-        assert (matrix == np.diag(moments)).all() and moments.sum() >= 2.0 * moments.max()  # Error Code 19 otherwise
+        assert (
+            matrix == np.diag(moments)
+        ).all() and moments.sum() >= 2.0 * moments.max()  # Error Code 19 otherwise
 
 
 def test_sdf_joints_and_shapes_are_valid(chain):
@@ -165,7 +190,10 @@ def test_sdf_joints_and_shapes_are_valid(chain):
 
 def test_usd_in_single_precision_breaks_no_triangle_inequality(many):
     stage = stage_of(usd.write(many))
-    assert UsdGeom.GetStageMetersPerUnit(stage) == 1.0 and UsdPhysics.GetStageKilogramsPerUnit(stage) == 1.0
+    assert (
+        UsdGeom.GetStageMetersPerUnit(stage) == 1.0
+        and UsdPhysics.GetStageKilogramsPerUnit(stage) == 1.0
+    )
     for link in many.links:
         prim, true = stage.GetPrimAtPath("/Robot/" + usd.identifier(link.name)), link.inertial
         assert prim.HasAPI(UsdPhysics.RigidBodyAPI)
@@ -176,7 +204,9 @@ def test_usd_in_single_precision_breaks_no_triangle_inequality(many):
         assert moments.sum() >= 2.0 * moments.max() and moments.min() > 0.0
         assert near(mass.GetMassAttr().Get(), true.mass, SINGLE)
         assert near(mass.GetCenterOfMassAttr().Get(), true.center, SINGLE)
-        assert near(moments, true.moments, 2.0 * SINGLE) and near(tensor(moments, axes), true.inertia, 8.0 * SINGLE)
+        assert near(moments, true.moments, 2.0 * SINGLE) and near(
+            tensor(moments, axes), true.inertia, 8.0 * SINGLE
+        )
         xx, yy, zz, xy, xz, yz = prim.GetAttribute("newton:inertia").Get()
         assert near([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], true.inertia)
 
@@ -189,8 +219,14 @@ def test_usd_links_stand_in_place_and_joints_hold_them(away):
     cache = UsdGeom.XformCache()
     places = {}
     for link in chain.links:
-        matrix = np.array(cache.GetLocalToWorldTransform(stage.GetPrimAtPath("/Robot/" + usd.identifier(link.name)))).T
-        assert near(matrix[:3, 3], link.pose.position, 1e-13) and near(matrix[:3, :3], link.pose.rotation, 1e-13)
+        matrix = np.array(
+            cache.GetLocalToWorldTransform(
+                stage.GetPrimAtPath("/Robot/" + usd.identifier(link.name))
+            )
+        ).T
+        assert near(matrix[:3, 3], link.pose.position, 1e-13) and near(
+            matrix[:3, :3], link.pose.rotation, 1e-13
+        )
         places["/Robot/" + usd.identifier(link.name)] = matrix
     for joint in chain.joints:
         prim = UsdPhysics.Joint(stage.GetPrimAtPath("/Robot/" + usd.identifier(joint.name)))
@@ -216,9 +252,28 @@ def test_usd_links_stand_in_place_and_joints_hold_them(away):
 
 
 def test_forbidden_names_are_changed_and_stay_unique():
-    names = ["world", "a::b", "a__b", "<&\"'>", "Würfel", "Würfel ", "1", "_1", "\x00\n", "", " ", "  ", " a", "_a"]
+    names = [
+        "world",
+        "a::b",
+        "a__b",
+        "<&\"'>",
+        "Würfel",
+        "Würfel ",
+        "1",
+        "_1",
+        "\x00\n",
+        "",
+        " ",
+        "  ",
+        " a",
+        "_a",
+    ]
     inertial = bodies(1).links[0].inertial
-    robot = Robot("odd --> name", tuple(Link(name, inertial) for name in names), (Joint("world", names[0], names[1]),))
+    robot = Robot(
+        "odd --> name",
+        tuple(Link(name, inertial) for name in names),
+        (Joint("world", names[0], names[1]),),
+    )
     model = mujoco.MjModel.from_xml_string(robot_text(robot, "mjcf")[0])
     assert len({model.body(index).name for index in range(model.nbody)}) == len(names) + 1
     assert len(URDF.from_xml_string(urdf.write(robot).encode()).link_map) == len(names) + 1
@@ -233,7 +288,13 @@ def test_shapes_are_read_as_they_were_meant(chain):
     model = mujoco.MjModel.from_xml_string(mjcf.write(robot))
     sizes = [model.geom_size[index].tolist() for index in range(model.ngeom)]
     assert sizes[::2] == sizes[1::2]  # One is seen, one collides.
-    assert sizes[::2] == [[0.5, 1.0, 1.5], [0.5, 0, 0], [0.25, 0.5, 0], [0.25, 1.0, 0], [1.0, 2.0, 3.0]]
+    assert sizes[::2] == [
+        [0.5, 1.0, 1.5],
+        [0.5, 0, 0],
+        [0.25, 0.5, 0],
+        [0.25, 1.0, 0],
+        [1.0, 2.0, 3.0],
+    ]
     assert model.geom_contype.tolist() == model.geom_conaffinity.tolist() == [0, 1] * 5
     assert model.geom_group.tolist() == [2, 3] * 5
     assert near(model.body("body").mass, chain.links[0].inertial.mass)  # not from the shapes

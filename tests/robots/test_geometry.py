@@ -57,19 +57,33 @@ def test_mujoco_loads_meshes_and_keeps_measured_inertia():
     """Flat ones too, which bound nothing."""
     rng = np.random.default_rng(3)
     points, triangles = shaped(rng, "sheared")
-    sheet = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float), np.array([[0, 1, 2], [0, 2, 3]])
-    solid = Link("solid", inertial(points, triangles), shapes=(Shape("mesh", file="meshes/solid.stl"),))
-    flat = Link("flat", bodies(1).links[0].inertial, shapes=(Shape("mesh", file="meshes/flat.stl", sheet=True),))
+    sheet = (
+        np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float),
+        np.array([[0, 1, 2], [0, 2, 3]]),
+    )
+    solid = Link(
+        "solid", inertial(points, triangles), shapes=(Shape("mesh", file="meshes/solid.stl"),)
+    )
+    flat = Link(
+        "flat",
+        bodies(1).links[0].inertial,
+        shapes=(Shape("mesh", file="meshes/flat.stl", sheet=True),),
+    )
     assets = {
         "meshes/solid.stl": to_stl(Surface.from_triangles(points, triangles)),
         "meshes/flat.stl": to_stl(Surface.from_triangles(*sheet)),
     }
     model = mujoco.MjModel.from_xml_string(mjcf.write(Robot("meshes", (solid, flat))), assets)
-    assert model.body("solid").mass[0] == solid.inertial.mass and model.body("flat").mass[0] == flat.inertial.mass
+    assert (
+        model.body("solid").mass[0] == solid.inertial.mass
+        and model.body("flat").mass[0] == flat.inertial.mass
+    )
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     corners = model.mesh_vert[: model.mesh_vertnum[0]]
-    geom, _ = [index for index in range(model.ngeom) if model.geom_dataid[index] == 0]  # the flat one has no collider
+    geom, _ = [
+        index for index in range(model.ngeom) if model.geom_dataid[index] == 0
+    ]  # the flat one has no collider
     assert model.ngeom == 3
     shown = corners @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
     reach = np.abs(points).max()
@@ -118,14 +132,18 @@ def test_gltf_motions_are_valid_and_give_the_body_back():
         assert near((axes * motion["inertiaDiagonal"]) @ axes.T, turned @ true.inertia @ turned.T)
     document = {"nodes": [{"name": "a"}, {"name": "a"}]}
     robot = Robot("two", (replace(robot.links[0], name="a"),))
-    assert [found.code for found in gltf.add_rigid_bodies(document, robot, 1.0)] == ["gltf_node_missing"]
+    assert [found.code for found in gltf.add_rigid_bodies(document, robot, 1.0)] == [
+        "gltf_node_missing"
+    ]
 
 
 @pytest.mark.parametrize("kind", ["box", "ellipsoid", "capsule"])
 def test_primitives_have_the_inertia_of_mujoco(kind):
     """With the density that gives them the mass; a capsule keeps the least moment and the mean of the others."""
     robot = bodies(60)
-    links = [link for link in robot.links if link.inertial.moments[0] > 1e-4 * link.inertial.moments[2]]
+    links = [
+        link for link in robot.links if link.inertial.moments[0] > 1e-4 * link.inertial.moments[2]
+    ]
     assert len(links) > 30
     for link in links:
         shape = equal_inertia_shape(link.inertial, kind)
@@ -133,11 +151,15 @@ def test_primitives_have_the_inertia_of_mujoco(kind):
         text = mjcf.write(alone)
         start = text.index("<inertial")
         text = text[:start] + text[text.index("/>", start) + 2 :]
-        text = text.replace('group="3" mass="0"', 'group="3" mass="{!r}"'.format(link.inertial.mass))
+        text = text.replace(
+            'group="3" mass="0"', 'group="3" mass="{!r}"'.format(link.inertial.mass)
+        )
         model = mujoco.MjModel.from_xml_string(text)
         found, true = model.body("b"), link.inertial
         moments = np.sort(found.inertia)
-        assert near(found.mass[0], true.mass, 1e-12) and near(found.ipos, shape.pose.position, 1e-12)
+        assert near(found.mass[0], true.mass, 1e-12) and near(
+            found.ipos, shape.pose.position, 1e-12
+        )
         if kind == "capsule":
             if true.moments[1] + true.moments[2] > 2.0 * true.moments[0] * (1 + 1e-9):
                 assert near(moments[0], true.moments[0], 1e-9)
@@ -147,7 +169,13 @@ def test_primitives_have_the_inertia_of_mujoco(kind):
         assert near((axes * found.inertia) @ axes.T, true.inertia, 1e-12)
 
 
-AXES = {"type": "array", "items": {"enum": [0, 1, 2]}, "minItems": 1, "maxItems": 3, "uniqueItems": True}
+AXES = {
+    "type": "array",
+    "items": {"enum": [0, 1, 2]},
+    "minItems": 1,
+    "maxItems": 3,
+    "uniqueItems": True,
+}
 # The schemas of KHR_physics_rigid_bodies and KHR_implicit_shapes.
 LIMIT = record(
     {"linearAxes": AXES, "angularAxes": AXES, "min": NUMBER, "max": NUMBER},
@@ -164,7 +192,12 @@ JOINT = record(
     required=["connectedNode", "joint"],
 )
 ROUND = record({"height": NUMBER, "radiusTop": NUMBER, "radiusBottom": NUMBER})
-FORMS = {"sphere": record({"radius": NUMBER}), "box": record({"size": VECTOR}), "capsule": ROUND, "cylinder": ROUND}
+FORMS = {
+    "sphere": record({"radius": NUMBER}),
+    "box": record({"size": VECTOR}),
+    "capsule": ROUND,
+    "cylinder": ROUND,
+}
 SHAPE = {
     "type": "object",
     "properties": {"type": {"enum": [*FORMS]}, **FORMS},
@@ -196,7 +229,9 @@ def test_gltf_robot_is_valid_and_stands_in_place(away):
     dressed = Link("dressed", chain.links[0].inertial, Pose(), shapes(chain.links[1].pose))
     robot = Robot("arm", (*chain.links, dressed), chain.joints)
     text, findings = robot_text(robot, "gltf")
-    assert [found.code for found in findings] == ["robot_ellipsoid_as_box"] and is_ours(text.encode())
+    assert [found.code for found in findings] == ["robot_ellipsoid_as_box"] and is_ours(
+        text.encode()
+    )
     document = json.loads(text)
     of_root = document["extensions"]
     jsonschema.validate(of_root[gltf.KHR], JOINTS)
@@ -213,8 +248,15 @@ def test_gltf_robot_is_valid_and_stands_in_place(away):
         x, y, z, w = values["inertiaOrientation"]
         axes = rotation_matrix([w, x, y, z])
         true = Y_UP @ link.inertial.inertia @ Y_UP.T
-        assert near((axes * values["inertiaDiagonal"]) @ axes.T, true) and values["mass"] == link.inertial.mass
-        assert near(position + turn @ values["centerOfMass"], Y_UP @ link.inertial.place(link.pose).center, 1e-13)
+        assert (
+            near((axes * values["inertiaDiagonal"]) @ axes.T, true)
+            and values["mass"] == link.inertial.mass
+        )
+        assert near(
+            position + turn @ values["centerOfMass"],
+            Y_UP @ link.inertial.place(link.pose).center,
+            1e-13,
+        )
     for joint in robot.joints:
         check_joint(document, places, by_name, joint)
 
@@ -257,7 +299,10 @@ def test_meshes_are_embedded_in_single_file_formats():
     data = base64.b64decode(document["buffers"][0]["uri"].partition(",")[2])
     views = document["bufferViews"]
     parts = [data[view["byteOffset"] : view["byteOffset"] + view["byteLength"]] for view in views]
-    found, faces = np.frombuffer(parts[0], "<f4").reshape(-1, 3), np.frombuffer(parts[1], "<u4").reshape(-1, 3)
+    found, faces = (
+        np.frombuffer(parts[0], "<f4").reshape(-1, 3),
+        np.frombuffer(parts[1], "<u4").reshape(-1, 3),
+    )
     (index,) = [index for index, node in enumerate(document["nodes"]) if "mesh" in node]
     position, turn = placed(document)[index]
     shown = (found @ turn.T + position) @ Y_UP
@@ -266,8 +311,14 @@ def test_meshes_are_embedded_in_single_file_formats():
     assert len(views) == 2 and document["accessors"][1]["count"] == triangles.size
     stage = stage_of(robot_text(robot, "usd")[0])
     seen, mesh = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
-    assert mesh.GetPrim().HasAPI(UsdPhysics.MeshCollisionAPI) and mesh.GetPurposeAttr().Get() == "guide"
-    assert not seen.GetPrim().HasAPI(UsdPhysics.CollisionAPI) and seen.GetPurposeAttr().Get() == "default"
+    assert (
+        mesh.GetPrim().HasAPI(UsdPhysics.MeshCollisionAPI)
+        and mesh.GetPurposeAttr().Get() == "guide"
+    )
+    assert (
+        not seen.GetPrim().HasAPI(UsdPhysics.CollisionAPI)
+        and seen.GetPurposeAttr().Get() == "default"
+    )
     matrix = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(mesh.GetPrim())).T
     shown = np.array(mesh.GetPointsAttr().Get(), float) @ matrix[:3, :3].T + matrix[:3, 3]
     faces = np.array(mesh.GetFaceVertexIndicesAttr().Get()).reshape(-1, 3)

@@ -17,7 +17,15 @@ import pinocchio
 import pytest
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.links import Candidate, Connection, assemble_robot
-from body_moments.core.robots.model import FreeAxis, Joint, Link, Mimic, Pose, Robot, combine_inertials
+from body_moments.core.robots.model import (
+    FreeAxis,
+    Joint,
+    Link,
+    Mimic,
+    Pose,
+    Robot,
+    combine_inertials,
+)
 from body_moments.core.robots.write import gltf_robot, mjcf, sdf, urdf, usd
 from body_moments.core.robots.write.shapes import with_primitives, without_collision
 from body_moments.core.robots.write.texts import check, robot_text
@@ -48,7 +56,10 @@ def assembly(seed, size=1.0):
         points, triangles = shaped(rng, KINDS[index % 3])
         pose = Pose(size * rng.normal(size=3), rotation(rng))
         link = Link(
-            name, inertial(size * points, triangles, 1000.0 / size**5), pose, is_fixed=index == 0 and seed % 2 == 0
+            name,
+            inertial(size * points, triangles, 1000.0 / size**5),
+            pose,
+            is_fixed=index == 0 and seed % 2 == 0,
         )
         above = "link {}".format(rng.integers(index)) if index else ""
         is_parent = bool(rng.integers(2))
@@ -58,7 +69,10 @@ def assembly(seed, size=1.0):
             place = Pose(size * rng.normal(size=3), rotation(rng))
             free = free_axes(rng, int(rng.integers(1, 6)))
             if index % 4 == 3:  # a piston, which its other side sees turn first
-                free = FreeAxis("translate", np.eye(3)[2], -0.25, 0.5), FreeAxis("rotate", np.eye(3)[2])
+                free = (
+                    FreeAxis("translate", np.eye(3)[2], -0.25, 0.5),
+                    FreeAxis("rotate", np.eye(3)[2]),
+                )
             connections.append(Connection("joint {}".format(index), *sides, place, free))
     robot, findings = assemble_robot("random", candidates, connections)
     assert not findings and len(robot.joints) == len(candidates) - 1
@@ -93,7 +107,9 @@ def assert_equal_bodies(mass, center, entries, parts):
     """Mass, center and xx, yy, zz, xy, xz, yz of the whole are those of its parts."""
     truth = combine_inertials(parts)
     assert abs(mass / truth.mass - 1.0) < 1e-9
-    assert np.abs(center - truth.center).max() < 1e-9 * np.sqrt(np.trace(truth.inertia) / truth.mass)
+    assert np.abs(center - truth.center).max() < 1e-9 * np.sqrt(
+        np.trace(truth.inertia) / truth.mass
+    )
     assert np.abs(entries - truth.inertia[ENTRIES]).max() < 1e-9 * np.abs(truth.inertia).max()
 
 
@@ -110,7 +126,10 @@ def load(robot, form):
 
 def set_joints(model, data, robot, values):
     for joint in robot.joints:
-        if joint.is_ball and model.jnt_type[model.joint(joint.name).id if has(model, joint.name) else 0] == BALL:
+        if (
+            joint.is_ball
+            and model.jnt_type[model.joint(joint.name).id if has(model, joint.name) else 0] == BALL
+        ):
             turn = np.eye(3)
             for free, value in zip(joint.free, values[joint.name]):
                 turn = turn @ rotation_about(joint.pose.rotation @ free.axis, value)
@@ -140,7 +159,9 @@ def test_100_random_assemblies_load_in_mujoco_and_agree(form):
         masses = model.body_mass[1:]
         center = masses @ data.xipos[1:] / masses.sum()
         total = np.zeros((3, 3))
-        for mass, moments, axes, point in zip(masses, model.body_inertia[1:], data.ximat[1:], data.xipos[1:]):
+        for mass, moments, axes, point in zip(
+            masses, model.body_inertia[1:], data.ximat[1:], data.xipos[1:]
+        ):
             turn, arm = axes.reshape(3, 3), point - center
             total += (turn * moments) @ turn.T + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
         parts = [link.inertial.place(place @ link.pose) for link in robot.links]
@@ -183,8 +204,12 @@ def test_pinocchio_loads_100_random_assemblies_and_agrees():
         for joint in robot.joints:
             for count, (free, value) in enumerate(zip(joint.free, values[joint.name]), start=1):
                 last = count == len(joint.free)
-                one = model.joints[model.getJointId(joint.name if last else "{}_axis_{}".format(joint.name, count))]
-                q[one.idx_q : one.idx_q + one.nq] = value if one.nq == 1 else (np.cos(value), np.sin(value))
+                one = model.joints[
+                    model.getJointId(joint.name if last else "{}_axis_{}".format(joint.name, count))
+                ]
+                q[one.idx_q : one.idx_q + one.nq] = (
+                    value if one.nq == 1 else (np.cos(value), np.sin(value))
+                )
                 if free.is_limited:
                     ends = model.lowerPositionLimit[one.idx_q], model.upperPositionLimit[one.idx_q]
                     assert ends == (free.lower, free.upper)
@@ -195,11 +220,15 @@ def test_pinocchio_loads_100_random_assemblies_and_agrees():
             frame = data.oMf[model.getFrameId(link.name)]
             total = place.matrix @ maps[link.name] @ link.pose.matrix
             joint = robot.joint_of(link.name)
-            own = Pose() if joint is None else Pose(joint.pose.position)  # A link's origin is at its joint.
+            own = (
+                Pose() if joint is None else Pose(joint.pose.position)
+            )  # A link's origin is at its joint.
             size = max(1.0, np.abs(total[:3, 3]).max())
             assert np.abs(frame.homogeneous - total @ own.matrix).max() < 1e-12 * size
             parts.append(link.inertial.place(Pose(total[:3, 3], total[:3, :3])))
-        whole = sum((at.act(part) for at, part in zip(data.oMi, model.inertias)), pinocchio.Inertia.Zero())
+        whole = sum(
+            (at.act(part) for at, part in zip(data.oMi, model.inertias)), pinocchio.Inertia.Zero()
+        )
         assert_equal_bodies(whole.mass, whole.lever, whole.inertia[ENTRIES], parts)
 
 
@@ -228,19 +257,26 @@ def test_opensim_loads_40_random_assemblies_and_agrees():
             ):
                 coordinate.setValue(state, float(value))
                 if free.is_limited:
-                    assert (coordinate.getRangeMin(), coordinate.getRangeMax()) == (free.lower, free.upper)
+                    assert (coordinate.getRangeMin(), coordinate.getRangeMax()) == (
+                        free.lower,
+                        free.upper,
+                    )
         model.realizePosition(state)
         maps, parts = moved(robot, values), []
         for link in robot.links:
             found = model.getBodySet().get(usd.identifier(link.name)).getTransformInGround(state)
             turn = np.array([[found.R().asMat33().get(i, j) for j in range(3)] for i in range(3)])
             true = maps[link.name] @ link.pose.matrix
-            assert np.abs(vector(found.p()) - true[:3, 3]).max() < 1e-11 * max(1.0, np.abs(true[:3, 3]).max())
+            assert np.abs(vector(found.p()) - true[:3, 3]).max() < 1e-11 * max(
+                1.0, np.abs(true[:3, 3]).max()
+            )
             assert np.abs(turn - true[:3, :3]).max() < 1e-11
             parts.append(link.inertial.place(Pose(true[:3, 3], true[:3, :3])))
         whole = model.getMatterSubsystem().calcSystemCentralInertiaInGround(state)
         entries = [*vector(whole.getMoments()), *vector(whole.getProducts())]
-        assert_equal_bodies(model.getTotalMass(state), vector(model.calcMassCenterPosition(state)), entries, parts)
+        assert_equal_bodies(
+            model.getTotalMass(state), vector(model.calcMassCenterPosition(state)), entries, parts
+        )
 
 
 def vector(values):
@@ -273,7 +309,9 @@ def arm(values=None, mimic=None, is_fixed=False, free=None):
     ]
     free = free or (FreeAxis("rotate", z, -1.0, 1.0, values or {}),)
     hinge = Joint("hinge", "base", "arm", free, Pose(rng.normal(size=3)))
-    slide = Joint("slide", "arm", "hand", (FreeAxis("translate", x, 0.0, 0.5, values or {}),), mimic=mimic)
+    slide = Joint(
+        "slide", "arm", "hand", (FreeAxis("translate", x, 0.0, 0.5, values or {}),), mimic=mimic
+    )
     return Robot("arm", tuple(links), (hinge, slide))
 
 
@@ -286,19 +324,34 @@ def test_fixed_base_does_not_fall_in_any_format():
         tree = URDF.from_xml_string(urdf.write(robot).encode())
         assert tree.get_root() == ("world" if is_fixed else "base")
         joints = ElementTree.fromstring(sdf.write(robot)).iter("joint")
-        assert [joint.findtext("child") for joint in joints if joint.findtext("parent") == "world"] == [
-            "base"
-        ] * is_fixed
+        assert [
+            joint.findtext("child") for joint in joints if joint.findtext("parent") == "world"
+        ] == ["base"] * is_fixed
         stage = stage_of(usd.write(robot))
         alone = [prim for prim in stage.Traverse() if prim.IsA(UsdPhysics.FixedJoint)]
         assert len(alone) == is_fixed
         for prim in alone:
             joint = UsdPhysics.Joint(prim)
-            assert not joint.GetBody0Rel().GetTargets() and str(joint.GetBody1Rel().GetTargets()[0]) == "/Robot/base"
-            assert np.abs(np.array(joint.GetLocalPos0Attr().Get()) - robot.links[0].pose.position).max() < 1e-6
-        (node,) = [node for node in json.loads(gltf_robot.write(robot))["nodes"] if node["name"] == "base"]
-        khr, omi = (node["extensions"][name]["motion"] for name in ("KHR_physics_rigid_bodies", "OMI_physics_body"))
-        assert khr.get("isKinematic", False) == is_fixed and omi["type"] == ("kinematic" if is_fixed else "dynamic")
+            assert (
+                not joint.GetBody0Rel().GetTargets()
+                and str(joint.GetBody1Rel().GetTargets()[0]) == "/Robot/base"
+            )
+            assert (
+                np.abs(
+                    np.array(joint.GetLocalPos0Attr().Get()) - robot.links[0].pose.position
+                ).max()
+                < 1e-6
+            )
+        (node,) = [
+            node for node in json.loads(gltf_robot.write(robot))["nodes"] if node["name"] == "base"
+        ]
+        khr, omi = (
+            node["extensions"][name]["motion"]
+            for name in ("KHR_physics_rigid_bodies", "OMI_physics_body")
+        )
+        assert khr.get("isKinematic", False) == is_fixed and omi["type"] == (
+            "kinematic" if is_fixed else "dynamic"
+        )
 
 
 VALUES = {"damping": 0.5, "friction": 0.25, "effort": 12.0, "velocity": 3.0, "stiffness": 7.0}
@@ -314,7 +367,9 @@ def test_stated_values_of_joints_are_in_each_format():
         "urdf": [("joint_values_lost", ["stiffness"])],
         "sdf": [("joint_values_lost", ["mimic"])],
         "mjcf": [("joint_values_lost", ["velocity"])],
-        **dict.fromkeys(("usd", "gltf"), [("joint_values_lost", ["friction", "mimic", "velocity"])]),
+        **dict.fromkeys(
+            ("usd", "gltf"), [("joint_values_lost", ["friction", "mimic", "velocity"])]
+        ),
     }
     hinge, slide = URDF.from_xml_string(urdf.write(robot).encode()).joints
     for joint in (hinge, slide):
@@ -332,25 +387,48 @@ def test_stated_values_of_joints_are_in_each_format():
     ):
         assert [float(element.text) for element in root.iter(name)] == [value] * 2
     model = mujoco.MjModel.from_xml_string(mjcf.write(robot))
-    assert model.dof_damping[-2:].tolist() == [0.5] * 2 and model.dof_frictionloss[-2:].tolist() == [0.25] * 2
-    assert model.jnt_stiffness.tolist()[1:] == [7.0] * 2 and model.jnt_actfrcrange[1:].tolist() == [[-12.0, 12.0]] * 2
+    assert (
+        model.dof_damping[-2:].tolist() == [0.5] * 2
+        and model.dof_frictionloss[-2:].tolist() == [0.25] * 2
+    )
+    assert (
+        model.jnt_stiffness.tolist()[1:] == [7.0] * 2
+        and model.jnt_actfrcrange[1:].tolist() == [[-12.0, 12.0]] * 2
+    )
     assert model.eq_data[0, :3].tolist() == [0.125, 0.25, 0.0]
-    assert (model.eq_obj1id[0], model.eq_obj2id[0]) == (model.joint("slide").id, model.joint("hinge").id)
+    assert (model.eq_obj1id[0], model.eq_obj2id[0]) == (
+        model.joint("slide").id,
+        model.joint("hinge").id,
+    )
     stage = stage_of(usd.write(robot))
     for name, direction, unit in (("hinge", "angular", np.pi / 180.0), ("slide", "linear", 1.0)):
         drive = UsdPhysics.DriveAPI.Get(stage.GetPrimAtPath("/Robot/" + name), direction)
-        assert abs(drive.GetDampingAttr().Get() - 0.5 * unit) < 1e-7 and drive.GetMaxForceAttr().Get() == 12.0
+        assert (
+            abs(drive.GetDampingAttr().Get() - 0.5 * unit) < 1e-7
+            and drive.GetMaxForceAttr().Get() == 12.0
+        )
         assert abs(drive.GetStiffnessAttr().Get() - 7.0 * unit) < 1e-7
-    joints = json.loads(gltf_robot.write(robot))["extensions"]["KHR_physics_rigid_bodies"]["physicsJoints"]
+    joints = json.loads(gltf_robot.write(robot))["extensions"]["KHR_physics_rigid_bodies"][
+        "physicsJoints"
+    ]
     common = {"mode": "force", "axis": 0, "damping": 0.5, "stiffness": 7.0, "maxForce": 12.0}
-    assert [joint["drives"] for joint in joints] == [[{"type": kind, **common}] for kind in ("angular", "linear")]
+    assert [joint["drives"] for joint in joints] == [
+        [{"type": kind, **common}] for kind in ("angular", "linear")
+    ]
 
 
 def test_missing_efforts_are_placeholders_with_a_note():
-    for values, names in ((VALUES, []), ({"effort": 1.0}, ["hinge", "slide"]), ({}, ["hinge", "slide"])):
+    for values, names in (
+        (VALUES, []),
+        ({"effort": 1.0}, ["hinge", "slide"]),
+        ({}, ["hinge", "slide"]),
+    ):
         found = [one for one in urdf.check(arm(values)) if one.code == "urdf_effort_unknown"]
         assert [one.values["joints"] for one in found] == ([names] if names else [])
-    (limit, _) = [joint.limit for joint in URDF.from_xml_string(urdf.write(arm({"effort": 1.0})).encode()).joints]
+    (limit, _) = [
+        joint.limit
+        for joint in URDF.from_xml_string(urdf.write(arm({"effort": 1.0})).encode()).joints
+    ]
     assert (limit.effort, limit.velocity) == (1.0, urdf.VELOCITY)
 
 
@@ -371,7 +449,9 @@ def test_sdf_has_a_joint_and_a_light_link_for_each_axis():
             assert joint.findtext("parent") == below and joint.get("type") == kinds[one.kind]
             assert np.array_equal(np.array(joint.findtext("axis/xyz").split(), float), one.axis)
             below = joint.findtext("child")
-        masses = {link.get("name"): float(link.findtext("inertial/mass")) for link in root.iter("link")}
+        masses = {
+            link.get("name"): float(link.findtext("inertial/mass")) for link in root.iter("link")
+        }
         assert below == "arm" and masses["arm_axis_1"] == masses["arm"] * 2.0**-20
 
 
@@ -381,7 +461,9 @@ def test_links_on_fixed_joints_alone_have_a_note():
     for form in ("urdf", "mjcf"):
         assert [one.code for one in check(stiff, form)] == ["joints_all_fixed"]
         assert "joints_all_fixed" not in [one.code for one in check(arm(), form)]
-        assert not check(stiff, form, inertial_only=True) and not check(Robot("one", links[:1]), form)
+        assert not check(stiff, form, inertial_only=True) and not check(
+            Robot("one", links[:1]), form
+        )
 
 
 def test_colliders_are_left_out_on_request():
@@ -397,13 +479,25 @@ def test_usd_breaks_no_rule_of_its_own_validators():
     """Articulations, joints, bodies and colliders, among others."""
     validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
     assert len(validators) > 20
-    pair = Robot("pair", (*assembly(3).links, Link("apart", arm().links[0].inertial)), assembly(3).joints)
-    for robot in (arm(VALUES, is_fixed=True), arm(), assembly(3), pair, Robot("one", arm().links[:1])):
+    pair = Robot(
+        "pair", (*assembly(3).links, Link("apart", arm().links[0].inertial)), assembly(3).joints
+    )
+    for robot in (
+        arm(VALUES, is_fixed=True),
+        arm(),
+        assembly(3),
+        pair,
+        Robot("one", arm().links[:1]),
+    ):
         stage = stage_of(usd.write(with_primitives(robot, "box")))
         errors = UsdValidation.ValidationContext(validators).Validate(stage)
         assert not [error.GetMessage() for error in errors]
         # Newton refuses an articulation of several trees.
-        roots = [prim.GetName() for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.ArticulationRootAPI)]
+        roots = [
+            prim.GetName()
+            for prim in stage.Traverse()
+            if prim.HasAPI(UsdPhysics.ArticulationRootAPI)
+        ]
         trees = ["Robot"] if robot.joints else []
         assert roots == ([usd.identifier(pair.roots[0].name)] if robot is pair else trees)
 
@@ -413,7 +507,11 @@ def test_usd_layer_of_masses_holds_fixed_roots(unit):
     robot = Robot("arm", arm(is_fixed=True).links)
     paths = {link.name: ["scene", link.name] for link in robot.links}
     layer = stage_of(usd.write_over(robot, paths, "./geometry.usdc", unit)).GetRootLayer()
-    (prim,) = [spec for spec in layer.GetPrimAtPath("/scene").nameChildren if spec.typeName == "PhysicsFixedJoint"]
+    (prim,) = [
+        spec
+        for spec in layer.GetPrimAtPath("/scene").nameChildren
+        if spec.typeName == "PhysicsFixedJoint"
+    ]
     assert prim.relationships["physics:body1"].targetPathList.explicitItems == ["/scene/base"]
     place = np.array(prim.attributes["physics:localPos0"].default) * unit
     assert (

@@ -29,24 +29,38 @@ class Writer:
 
     def inertial(self):
         numbers = self.text(self.rng.uniform(2, 3, 3))
-        return '<inertial mass="{}" diaginertia="{}" {}/>'.format(self.rng.uniform(1, 3), numbers, self.place())
+        return '<inertial mass="{}" diaginertia="{}" {}/>'.format(
+            self.rng.uniform(1, 3), numbers, self.place()
+        )
 
     def geom(self):
-        kind = self.rng.choice(["box", "ellipsoid", *["capsule", "cylinder", "sphere"] * self.is_even])
+        kind = self.rng.choice(
+            ["box", "ellipsoid", *["capsule", "cylinder", "sphere"] * self.is_even]
+        )
         has_ends = self.is_even and kind != "sphere" and self.rng.random() < 0.5
-        place = 'fromto="{}"'.format(self.text(self.rng.normal(size=6))) if has_ends else self.place()
-        return '<geom type="{}" size="{}" {}/>'.format(kind, self.text(self.rng.uniform(0.1, 0.5, 3)), place)
+        place = (
+            'fromto="{}"'.format(self.text(self.rng.normal(size=6))) if has_ends else self.place()
+        )
+        return '<geom type="{}" size="{}" {}/>'.format(
+            kind, self.text(self.rng.uniform(0.1, 0.5, 3)), place
+        )
 
     def scale(self):
         own = self.rng.uniform(0.5, 2, 1 if self.is_even else 3)
         text = '{}"{}"'.format(EVEN if self.is_even else UNEVEN, self.text(own))
-        return "" if self.rng.random() < 0.3 else text + ' massscale="1.5"' * (self.rng.random() < 0.3)
+        return (
+            "" if self.rng.random() < 0.3 else text + ' massscale="1.5"' * (self.rng.random() < 0.3)
+        )
 
     def content(self, depth):
         parts = [self.geom()]
         for _ in range(self.rng.integers(1, 3) if depth else 0):
             if self.rng.random() < 0.6:
-                parts.append("<frame {} {}>{}</frame>".format(self.place(), self.scale(), self.content(depth - 1)))
+                parts.append(
+                    "<frame {} {}>{}</frame>".format(
+                        self.place(), self.scale(), self.content(depth - 1)
+                    )
+                )
             else:
                 parts.append(self.body(depth - 1))
         return "".join(parts)
@@ -54,7 +68,9 @@ class Writer:
     def body(self, depth):
         self.count += 1
         name, place = "b{}".format(self.count), self.place()
-        return '<body name="{}" {}>{}{}</body>'.format(name, place, self.inertial(), self.content(depth))
+        return '<body name="{}" {}>{}{}</body>'.format(
+            name, place, self.inertial(), self.content(depth)
+        )
 
 
 def matrix(quaternion):
@@ -71,23 +87,37 @@ def check_links(path):
     """Compare names, inertials and shapes with those of MuJoCo, and return our links."""
     model = mujoco.MjModel.from_xml_path(str(path))
     links = read_description(path).links
-    assert [link.name for link in links] == [model.body(index).name for index in range(1, model.nbody)]
+    assert [link.name for link in links] == [
+        model.body(index).name for index in range(1, model.nbody)
+    ]
     for index, link in enumerate(links, start=1):
         assert not link.findings
         if link.inertial is not None:
             stated, turn = link.inertial, matrix(model.body_iquat[index])
             np.testing.assert_allclose(stated.mass, model.body_mass[index], rtol=1e-12)
-            np.testing.assert_allclose(stated.center, model.body_ipos[index], atol=1e-12 * max(abs(stated.center)))
+            np.testing.assert_allclose(
+                stated.center, model.body_ipos[index], atol=1e-12 * max(abs(stated.center))
+            )
             inertia = turn @ np.diag(model.body_inertia[index]) @ turn.T
-            np.testing.assert_allclose(stated.inertia, inertia, rtol=0, atol=1e-9 * stated.inertia.max())
-        geoms = range(model.body_geomadr[index], model.body_geomadr[index] + model.body_geomnum[index])
+            np.testing.assert_allclose(
+                stated.inertia, inertia, rtol=0, atol=1e-9 * stated.inertia.max()
+            )
+        geoms = range(
+            model.body_geomadr[index], model.body_geomadr[index] + model.body_geomnum[index]
+        )
         found = {tuple(np.round(model.geom_pos[geom], 9)): geom for geom in geoms}
         assert len(link.shapes) == len(geoms)
         for shape in (stated.shape for stated in link.shapes if stated.shape.kind != "mesh"):
             geom = found[tuple(np.round(shape.pose.position, 9))]
-            halves = {"box": 0.5, "capsule": (1.0, 0.5), "cylinder": (1.0, 0.5)}.get(shape.kind, 1.0)
-            np.testing.assert_allclose(np.multiply(shape.size, halves), model.geom_size[geom, : len(shape.size)])
-            np.testing.assert_allclose(shape.pose.rotation, matrix(model.geom_quat[geom]), atol=1e-9)
+            halves = {"box": 0.5, "capsule": (1.0, 0.5), "cylinder": (1.0, 0.5)}.get(
+                shape.kind, 1.0
+            )
+            np.testing.assert_allclose(
+                np.multiply(shape.size, halves), model.geom_size[geom, : len(shape.size)]
+            )
+            np.testing.assert_allclose(
+                shape.pose.rotation, matrix(model.geom_quat[geom]), atol=1e-9
+            )
     return links
 
 
@@ -113,7 +143,11 @@ PART = '<mujoco><worldbody><body name="part"><geom/></body></worldbody></mujoco>
 
 
 def write_child(folder):
-    files = {"c.xml": CHILD.format(INERTIAL), "more/inner.xml": INNER.format(INERTIAL), "meshes/t.obj": MESH}
+    files = {
+        "c.xml": CHILD.format(INERTIAL),
+        "more/inner.xml": INNER.format(INERTIAL),
+        "meshes/t.obj": MESH,
+    }
     for name, text in {**files, "part.xml": PART}.items():
         (folder / "child" / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / "child" / name).write_text(text)
@@ -124,16 +158,25 @@ def write_child(folder):
 def test_attached_models_are_those_of_mujoco(tmp_path, chosen):
     """Names have all prefixes; a body leaves its own frames behind, and models have their own settings and folders."""
     path = write_child(tmp_path)
-    asset = '<asset><model name="m" file="child/c.xml"/></asset><default><geom size="11"/></default>'
+    asset = (
+        '<asset><model name="m" file="child/c.xml"/></asset><default><geom size="11"/></default>'
+    )
     attach = '<attach model="m" {} prefix="{}"/>'
     body = '<body name="own"><geom/><frame pos="0 0 5" euler="0 0 90" scale="3">{}</frame></body>{}'
-    path.write_text(MODEL.format(asset, body.format(attach.format(chosen, "p_"), attach.format(chosen, "q_"))))
+    path.write_text(
+        MODEL.format(asset, body.format(attach.format(chosen, "p_"), attach.format(chosen, "q_")))
+    )
     assert all(link.span is None and link.place.file for link in check_links(path)[1:])
     codes = [found.code for one in audit(path) for found in one.findings]
     assert codes and not any(code.startswith("mesh") for code in codes)
 
 
-FAULTS = {"../../out": "mesh_outside", "none": "mesh_missing", "own": "include_twice", "robot": "description_unknown"}
+FAULTS = {
+    "../../out": "mesh_outside",
+    "none": "mesh_missing",
+    "own": "include_twice",
+    "robot": "description_unknown",
+}
 
 
 @pytest.mark.parametrize("name", FAULTS)
@@ -148,7 +191,10 @@ def test_attached_file_keeps_the_rules_of_includes(tmp_path, name):
     with pytest.raises(FileError) as refused:
         read_description(folder / "model.xml")
     found = refused.value.finding
-    assert FAULTS[name] in (found.code, found.values.get("cause", {}).get("code")) and found.values["line"] == 1
+    assert (
+        FAULTS[name] in (found.code, found.values.get("cause", {}).get("code"))
+        and found.values["line"] == 1
+    )
 
 
 def test_attached_model_without_its_body_is_a_finding(tmp_path):
@@ -157,7 +203,9 @@ def test_attached_model_without_its_body_is_a_finding(tmp_path):
         body = '<body name="own"><geom size="1"/>\n<attach {} prefix="p_"/></body>'.format(attach)
         path.write_text(MODEL.format('<asset><model name="m" file="child/c.xml"/></asset>', body))
         (link,) = read_description(path).links
-        assert [(one.code, one.values["line"]) for one in link.findings] == [("description_number", 2)]
+        assert [(one.code, one.values["line"]) for one in link.findings] == [
+            ("description_number", 2)
+        ]
 
 
 def test_attachments_of_attachments_are_limited(tmp_path):
@@ -165,7 +213,9 @@ def test_attachments_of_attachments_are_limited(tmp_path):
     for index in range(40):
         body = '<frame><attach model="m" prefix="a"/><attach model="m" prefix="b"/></frame>'
         asset = '<asset><model name="m" file="{}.xml"/></asset>'.format(index + 1)
-        (tmp_path / "{}.xml".format(index)).write_text(MODEL.format(asset, '<body name="b"/>' + body))
+        (tmp_path / "{}.xml".format(index)).write_text(
+            MODEL.format(asset, '<body name="b"/>' + body)
+        )
     (tmp_path / "40.xml").write_text(MODEL.format("", '<geom size="1"/>'))
     with pytest.raises(FileError) as refused:
         read_description(tmp_path / "0.xml")
@@ -184,10 +234,15 @@ FACES = 'face="0 2 1 0 1 3 0 3 2 1 2 4 2 3 4 3 1 4"'
 def test_inline_mesh_has_the_inertia_of_mujoco(tmp_path, faces, more, frame):
     """Its own inertia, as MuJoCo computes it from single-precision vertices, has no finding."""
     mesh = '<asset><mesh name="m" vertex="{}" {} {}/></asset>'.format(STAR, faces, more)
-    head = '<default><mesh inertia="exact"/><default class="big"><mesh scale="2 2 2"/></default></default>' + mesh
+    head = (
+        '<default><mesh inertia="exact"/><default class="big"><mesh scale="2 2 2"/></default></default>'
+        + mesh
+    )
     body = '<body name="a">{}<frame {}><geom type="mesh" mesh="m" pos="3 2 1" euler="10 20 30"/></frame></body>'
     path = tmp_path / "model.xml"
-    path.write_text("<mujoco>{}<worldbody>{}</worldbody></mujoco>".format(head, body.format("", frame)))
+    path.write_text(
+        "<mujoco>{}<worldbody>{}</worldbody></mujoco>".format(head, body.format("", frame))
+    )
     model = mujoco.MjModel.from_xml_path(str(path))
     numbers = model.body_mass[1], model.body_ipos[1], model.body_iquat[1], model.body_inertia[1]
     form = '<inertial mass="{}" pos="{}" quat="{}" diaginertia="{}"/>'
@@ -196,17 +251,25 @@ def test_inline_mesh_has_the_inertia_of_mujoco(tmp_path, faces, more, frame):
     (one,) = audit(path)
     assert not one.entries
     np.testing.assert_allclose(one.density, 1000.0, rtol=1e-5)
-    np.testing.assert_allclose(one.geometry.inertia, one.link.inertial.inertia, atol=1e-5 * model.body_inertia[1].max())
+    np.testing.assert_allclose(
+        one.geometry.inertia, one.link.inertial.inertia, atol=1e-5 * model.body_inertia[1].max()
+    )
     np.testing.assert_allclose(one.geometry.center, one.link.inertial.center, atol=1e-5)
 
 
 FEW, OPEN, WORD = "0 0 0 1 0", "0 0 0 1 0 0 2 0 0 3 0 0", "0 0 nan 1 0 0 0 1 0 0 0 1"
 
 
-@pytest.mark.parametrize("numbers", [FEW, OPEN, WORD, *(STAR + '" face="0 1' + end for end in ("", " 9", " 1.5")), "x"])
+@pytest.mark.parametrize(
+    "numbers", [FEW, OPEN, WORD, *(STAR + '" face="0 1' + end for end in ("", " 9", " 1.5")), "x"]
+)
 def test_wrong_inline_mesh_is_a_finding_at_its_asset(tmp_path, numbers):
     path = tmp_path / "model.xml"
     body = '<body name="a">{}<geom type="mesh" mesh="m"/></body>'.format(INERTIAL)
-    path.write_text(MODEL.format('\n<asset><mesh name="m" vertex="{}"/></asset>\n\n'.format(numbers), body))
+    path.write_text(
+        MODEL.format('\n<asset><mesh name="m" vertex="{}"/></asset>\n\n'.format(numbers), body)
+    )
     (one,) = audit(path)
-    assert [(entry.finding.code, entry.place.line) for entry in one.entries] == [("description_number", 2)]
+    assert [(entry.finding.code, entry.place.line) for entry in one.entries] == [
+        ("description_number", 2)
+    ]

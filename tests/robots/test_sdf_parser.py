@@ -23,17 +23,23 @@ LIBRARY = "sdformat12"  # The parser of SDF 1.9, in Debian 12.
 def parse(tmp_path_factory):
     """A function from a text to what the parser says of it, a list of words each."""
     compiler, config = shutil.which("g++"), shutil.which("pkg-config")
-    flags = config and subprocess.run([config, "--cflags", "--libs", LIBRARY], capture_output=True, text=True)
+    flags = config and subprocess.run(
+        [config, "--cflags", "--libs", LIBRARY], capture_output=True, text=True
+    )
     if not compiler or not flags or flags.returncode:
         pytest.skip("needs libsdformat")
     folder = tmp_path_factory.mktemp("sdf")
     program = str(folder / "read_sdf")
-    subprocess.run([compiler, "-std=c++17", str(SOURCE), "-o", program, *flags.stdout.split()], check=True)
+    subprocess.run(
+        [compiler, "-std=c++17", str(SOURCE), "-o", program, *flags.stdout.split()], check=True
+    )
 
     def run(text, *options):
         path = folder / "model.sdf"
         path.write_text(text, encoding="utf-8")
-        done = subprocess.run([program, *options, str(path)], capture_output=True, text=True, check=True)
+        done = subprocess.run(
+            [program, *options, str(path)], capture_output=True, text=True, check=True
+        )
         messages = [["message", line] for line in done.stderr.splitlines()]
         return [*messages, *(line.split("\t") for line in done.stdout.splitlines())]
 
@@ -43,18 +49,27 @@ def parse(tmp_path_factory):
 def test_gazebo_takes_each_link_and_has_its_numbers(parse):
     many = bodies(500)
     said = parse(sdf.write(many))
-    assert {words[0] for words in said} == {"link"}, [words for words in said if words[0] != "link"][:3]
+    assert {words[0] for words in said} == {"link"}, [
+        words for words in said if words[0] != "link"
+    ][:3]
     for link, words in zip(many.links, said, strict=True):
         true, values = link.inertial, np.array(words[2:], np.float64)
-        assert words[1] == link.name and values[0] == true.mass and (values[1:4] == true.center).all()
-        assert np.abs(values[4:13].reshape(3, 3) - true.inertia).max() <= 1e-14 * np.abs(true.inertia).max()
+        assert (
+            words[1] == link.name and values[0] == true.mass and (values[1:4] == true.center).all()
+        )
+        assert (
+            np.abs(values[4:13].reshape(3, 3) - true.inertia).max()
+            <= 1e-14 * np.abs(true.inertia).max()
+        )
 
 
 def test_gazebo_takes_joints_and_shapes(parse):
     chain = bodies(24, chain=True, away=True).with_fixed_roots()
     dressed = Link("dressed", chain.links[0].inertial, Pose(), shapes(chain.links[1].pose))
     said = parse(sdf.write(Robot("world", (*chain.links, dressed), chain.joints)))
-    assert {words[0] for words in said} == {"link", "joint"}, [words for words in said if words[0] == "error"]
+    assert {words[0] for words in said} == {"link", "joint"}, [
+        words for words in said if words[0] == "error"
+    ]
     joints = {words[1]: words[3:5] for words in said if words[0] == "joint"}
     assert joints.pop("body 0_joint") == ["world", "body 0"]
     assert joints == {joint.name: [joint.parent, joint.child] for joint in chain.joints}
@@ -81,23 +96,39 @@ def framed_model(rng, name, depth=0):
 
     def pose():
         numbers = " ".join(map(repr, rng.normal(size=6).tolist()))
-        return '<pose relative_to="{}">{}</pose>'.format(rng.choice(known) if rng.random() < 0.8 else "", numbers)
+        return '<pose relative_to="{}">{}</pose>'.format(
+            rng.choice(known) if rng.random() < 0.8 else "", numbers
+        )
 
     for index in range(8):
-        kind, own = rng.choice(["link", "joint", "frame", "model"]) if index else "link", "{}{}".format(name, index)
+        kind, own = (
+            rng.choice(["link", "joint", "frame", "model"]) if index else "link",
+            "{}{}".format(name, index),
+        )
         if kind == "link":
-            forms = "".join('<{0} name="{0}">{{}}<geometry><sphere/></geometry></{0}>'.format(role) for role in ROLES)
+            forms = "".join(
+                '<{0} name="{0}">{{}}<geometry><sphere/></geometry></{0}>'.format(role)
+                for role in ROLES
+            )
             parts.append('<link name="{}">{}{}</link>'.format(own, pose(), forms))
             links.append(own)
         elif kind == "frame":
             attached = rng.choice(["", *links])
-            parts.append('<frame name="{}" attached_to="{}">{}</frame>'.format(own, attached, pose()))
+            parts.append(
+                '<frame name="{}" attached_to="{}">{}</frame>'.format(own, attached, pose())
+            )
         elif kind == "joint" and len(links) > 1:
-            ends = "<parent>{}</parent><child>{}</child>".format(*rng.choice(links, 2, replace=False))
+            ends = "<parent>{}</parent><child>{}</child>".format(
+                *rng.choice(links, 2, replace=False)
+            )
             parts.append('<joint name="{}" type="fixed">{}{}</joint>'.format(own, pose(), ends))
         elif kind == "model" and depth < 2:
             inner = framed_model(rng, own, depth + 1)
-            placement = 'placement_frame="{}0">{}'.format(own, pose()) if rng.random() < 0.5 else ">" + pose()
+            placement = (
+                'placement_frame="{}0">{}'.format(own, pose())
+                if rng.random() < 0.5
+                else ">" + pose()
+            )
             parts.append(inner.replace(">", " " + placement, 1))
             known += [own + "::" + own + "0", own + "::__model__"]
         else:
@@ -132,9 +163,7 @@ def test_poses_in_frames_are_those_of_gazebo(parse, tmp_path, seed):
 @pytest.mark.parametrize("frame", ["none", "b", "world", "a::x", "m", "around"])
 def test_unknown_frame_of_sdf_is_a_finding_at_its_pose(parse, tmp_path, frame):
     """Gazebo knows none of them either: frames outside of the model, and frames in each other."""
-    around = (
-        '<frame name="around"><pose relative_to="more"/></frame><frame name="more"><pose relative_to="around"/></frame>'
-    )
+    around = '<frame name="around"><pose relative_to="more"/></frame><frame name="more"><pose relative_to="around"/></frame>'
     shape = '\n<visual name="v"><pose relative_to="{}">0 0 0 0 0 0</pose><geometry><sphere/></geometry></visual>'
     inner = '<model name="n">{}<link name="a">{}</link></model>'.format(around, shape.format(frame))
     text = '<sdf version="1.9"><model name="m">{}<link name="b"/></model></sdf>'.format(inner)

@@ -15,13 +15,20 @@ from body_moments.core.robots.write.texts import robot_text, with_geometry
 from tests.core.bodies import box
 from tests.robots.links import inertial, rotation, shaped
 
-SHEET = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float), np.array([[0, 1, 2], [0, 2, 3]])
+SHEET = (
+    np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float),
+    np.array([[0, 1, 2], [0, 2, 3]]),
+)
 
 
 def arm():
     """A robot and its links' surfaces: two joined links, a sheet apart, a link without faces; names with accents."""
     rng = np.random.default_rng(11)
-    bodies = {"Rümpf 1": shaped(rng, "sheared"), "hand": box((-0.1, -0.2, 0.0), (0.3, 0.1, 0.5)), "sheet": SHEET}
+    bodies = {
+        "Rümpf 1": shaped(rng, "sheared"),
+        "hand": box((-0.1, -0.2, 0.0), (0.3, 0.1, 0.5)),
+        "sheet": SHEET,
+    }
     bodies["wire"] = box((0, 0, 0), (1, 2, 3))
     links = [
         Link(
@@ -32,8 +39,12 @@ def arm():
         )
         for name, body in bodies.items()
     ]
-    joint = Joint("wrist", "Rümpf 1", "hand", (FreeAxis("rotate", np.array([0.0, 0.0, 1.0]), -1.0, 1.0),))
-    surfaces = {name: Surface.from_triangles(*body) for name, body in bodies.items() if name != "wire"}
+    joint = Joint(
+        "wrist", "Rümpf 1", "hand", (FreeAxis("rotate", np.array([0.0, 0.0, 1.0]), -1.0, 1.0),)
+    )
+    surfaces = {
+        name: Surface.from_triangles(*body) for name, body in bodies.items() if name != "wire"
+    }
     return Robot("arm", tuple(links), (joint,)), surfaces
 
 
@@ -73,13 +84,17 @@ def test_mujoco_takes_thin_plates_from_urdf():
         )
 
 
-@pytest.mark.parametrize(("count", "suffix"), [(MOST_TRIANGLES, ".stl"), (MOST_TRIANGLES + 2, ".obj")])
+@pytest.mark.parametrize(
+    ("count", "suffix"), [(MOST_TRIANGLES, ".stl"), (MOST_TRIANGLES + 2, ".obj")]
+)
 def test_mujoco_loads_meshes_of_any_size(tmp_path, count, suffix):
     points, triangles = box((0, 0, 0), (1, 2, 3))
     surface = Surface.from_triangles(points, np.resize(triangles, (count, 3)))
     link = Link("large", inertial(points, triangles), shapes=(Shape("mesh"),))
     for _ in range(2):  # The second replaces the files of the first.
-        robot, _ = with_geometry(Robot("large", (link,)), "mjcf", lambda _: surface, tmp_path / "large.xml")
+        robot, _ = with_geometry(
+            Robot("large", (link,)), "mjcf", lambda _: surface, tmp_path / "large.xml"
+        )
     assert Path(robot.links[0].shapes[0].file).suffix == suffix
     text, findings = robot_text(robot, "mjcf")
     (tmp_path / "large.xml").write_text(text, encoding="utf-8")

@@ -18,7 +18,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 NAMES = sorted(
-    path.stem for path in Path(__file__).parent.glob("*.py") if "\ndef run(budget_seconds" in path.read_text("utf-8")
+    path.stem
+    for path in Path(__file__).parent.glob("*.py")
+    if "\ndef run(budget_seconds" in path.read_text("utf-8")
 )
 
 
@@ -29,7 +31,9 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=int(time.time()))
     parser.add_argument("--reports", type=Path, default=ROOT / ".envs" / "soak")
     options = parser.parse_args()
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's job in the background has it ignored
+    signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # a shell's job in the background has it ignored
     unknown = {word.partition(":")[0] for word in options.names} - set(NAMES)
     if unknown:
         parser.error("unknown: " + ", ".join(sorted(unknown)))
@@ -47,7 +51,9 @@ def main() -> int:
         except Exception:
             report = traceback.format_exc()
             failed.append(name)
-        text = "{} in {:.0f} s, seed {}: {}".format(name, time.monotonic() - begun, options.seed, report)
+        text = "{} in {:.0f} s, seed {}: {}".format(
+            name, time.monotonic() - begun, options.seed, report
+        )
         (options.reports / (name + ".txt")).write_text(text + "\n", encoding="utf-8")
         print(text, flush=True)
     print("failed: " + ", ".join(failed) if failed else "all passed", flush=True)
@@ -56,7 +62,9 @@ def main() -> int:
 
 if __name__ == "__main__":
     sys.path.insert(0, str(ROOT))
-    importlib.import_module("tests.conftest")  # the add-on under its name, and user files of Blender out of the way
+    importlib.import_module(
+        "tests.conftest"
+    )  # the add-on under its name, and user files of Blender out of the way
     importlib.import_module("bpy")  # bmesh is there from then on
     sys.modules["body_moments"].register()
     sys.exit(main())

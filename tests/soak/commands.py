@@ -36,7 +36,10 @@ def run(*words, timeout=3600, **options) -> tuple[int, str]:
 def children(pid: int) -> list[int]:
     """The processes that a process has started and that are still there. Linux alone knows them so."""
     with suppress(OSError):
-        return [int(word) for word in Path("/proc/{}/task/{}/children".format(pid, pid)).read_text().split()]
+        return [
+            int(word)
+            for word in Path("/proc/{}/task/{}/children".format(pid, pid)).read_text().split()
+        ]
     return []
 
 
@@ -72,5 +75,8 @@ def check_documents(found: list[dict], paths: list[Path]) -> Counter:
     for document in found:
         assert (document["status"] == "ok") == (not document["errors"]), document["file"]
         reasons = [error["reason"] for error in document["errors"]]
-        assert not [reason for reason in reasons if any(word in reason for word in FAULTS)], (document["file"], reasons)
+        assert not [reason for reason in reasons if any(word in reason for word in FAULTS)], (
+            document["file"],
+            reasons,
+        )
     return Counter(document["status"] for document in found)

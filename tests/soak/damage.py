@@ -28,7 +28,9 @@ def whole_files(folder: Path) -> dict[str, bytes]:
     """A sound file of each format that has a checksum."""
     sound = hostile_files.seeds(folder)
     values = np.random.default_rng(1).integers(0, 999, 500).astype("<u2")
-    header = "NRRD0004\ntype: uint16\ndimension: 3\nsizes: 10 10 5\nendian: little\nencoding: gzip\n\n"
+    header = (
+        "NRRD0004\ntype: uint16\ndimension: 3\nsizes: 10 10 5\nendian: little\nencoding: gzip\n\n"
+    )
     hostile_files.empty_scene()
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
     bpy.ops.wm.usd_export(filepath=str(folder / "sphere.usdz"))

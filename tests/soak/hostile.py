@@ -29,15 +29,24 @@ def run(budget_seconds: float, seed: int, fuzzed: int = 900) -> str:
             total += commands.check_documents(found, paths)
             for document in found:
                 expected = cases.get(Path(document["file"]), hostile_files.STATUSES - {"missing"})
-                assert document["status"] in expected, (document["file"], document["status"], document["errors"])
+                assert document["status"] in expected, (
+                    document["file"],
+                    document["status"],
+                    document["errors"],
+                )
                 if document["status"] in ("crashed", "timeout", "memory"):
                     killers.append("{} {}".format(document["status"], Path(document["file"]).name))
             assert not marker.exists(), "a script of a file has run"
             seed += 1
             if time.monotonic() >= end:
                 break
-            paths, cases = hostile_files.write_damaged(folder / "fuzzed {}".format(seed), 300, seed), {}
-    text = "{} files: {}".format(total.total(), ", ".join("{} {}".format(*one) for one in total.most_common()))
+            paths, cases = (
+                hostile_files.write_damaged(folder / "fuzzed {}".format(seed), 300, seed),
+                {},
+            )
+    text = "{} files: {}".format(
+        total.total(), ", ".join("{} {}".format(*one) for one in total.most_common())
+    )
     return text + "".join("\n  " + killer for killer in killers[:50])
 
 
@@ -48,7 +57,18 @@ def measured(paths: list[Path], folder: Path) -> list[dict]:
         "".join(hostile_lines(paths)),
         encoding="ascii",
     )
-    words = ("--manifest", listed, "--timeout", TIMEOUT, "--format", "jsonl", "--output", result, "--memory-mb", 2500)
+    words = (
+        "--manifest",
+        listed,
+        "--timeout",
+        TIMEOUT,
+        "--format",
+        "jsonl",
+        "--output",
+        result,
+        "--memory-mb",
+        2500,
+    )
     code, said = commands.run(*words)
     assert code == 1 and "Traceback" not in said, (code, said[-2000:])
     left = {path.name for path in folder.iterdir() if path.name.startswith(".")}

@@ -116,7 +116,9 @@ def damaged(data: bytes, suffix: str, chance: random.Random) -> bytes:
         elif kind == 5 and chance.random() < 0.3:
             del found[place:]
         else:
-            found[place : place + 1] = bytes([found[place] ^ (1 << chance.randrange(8))]) if found else b""
+            found[place : place + 1] = (
+                bytes([found[place] ^ (1 << chance.randrange(8))]) if found else b""
+            )
     return bytes(found)
 
 
@@ -167,7 +169,19 @@ def _names() -> list[str]:
         character = chr(code)
         if character != "/":
             found.setdefault(unicodedata.category(character), character)
-    extra = ["\U0001f600", "e\u0301", "\u202egnp", "a\nb", "-rf", "--output", "%s{}", "~", "$HOME", "'\"", "CON"]
+    extra = [
+        "\U0001f600",
+        "e\u0301",
+        "\u202egnp",
+        "a\nb",
+        "-rf",
+        "--output",
+        "%s{}",
+        "~",
+        "$HOME",
+        "'\"",
+        "CON",
+    ]
     return sorted({*("x" + character for character in found.values()), *extra})
 
 
@@ -192,22 +206,44 @@ def write_cases(folder: Path, marker: Path) -> dict[Path, set[str]]:
     put("garbage.blend", b"BLENDER garbage", "error")
     put("nothing.blend", b"", "error")
     put("not one.blend", sound[".stl"], "error")
-    put("a lost letter.ply", sound[".ply"].replace(b"property", b"propery", 1), "error", "crashed", "timeout")
-    put("millions.ply", b"ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n", "error", "crashed", "memory")
+    put(
+        "a lost letter.ply",
+        sound[".ply"].replace(b"property", b"propery", 1),
+        "error",
+        "crashed",
+        "timeout",
+    )
+    put(
+        "millions.ply",
+        b"ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n",
+        "error",
+        "crashed",
+        "memory",
+    )
     put("far.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2147483647\n", "error", "crashed", "ok")
     put("deep.gltf", b'{"a":' * 100_000, "error", "crashed")
     put("no end.glb", b"glTF\x02\0\0\0\xff\xff\xff\x7f", "error")
     put("nodes in a circle.gltf", _circle(), "error", "crashed", "timeout")
     put("stl of gigabytes.stl", bytes(80) + struct.pack("<I", 0xFFFFFFFF), "error")
     put("nothing to measure.usda", b'#usda 1.0\ndef Xform "a"\n{\n}\n', "error")
-    put("refers to itself.usda", b'#usda 1.0\ndef "a" (references = @./refers to itself.usda@</a>)\n{\n}\n', "error")
     put(
-        "huge.npy", b"\x93NUMPY\1\0v\0{'descr': '<f8', 'fortran_order': False, 'shape': (99999, 99999, 99999)}", "error"
+        "refers to itself.usda",
+        b'#usda 1.0\ndef "a" (references = @./refers to itself.usda@</a>)\n{\n}\n',
+        "error",
+    )
+    put(
+        "huge.npy",
+        b"\x93NUMPY\1\0v\0{'descr': '<f8', 'fortran_order': False, 'shape': (99999, 99999, 99999)}",
+        "error",
     )
     put("objects.npy", _pickled(), "error")
     put("bomb.nii.gz", gzip.compress(sound[".nii"][:352] + bytes(1 << 24)), "error", "ok")
     put("bomb.npz", _zip_bomb(), "error")
-    put("words.nrrd", b"NRRD0004\ntype: float\ndimension: 3\nsizes: 1 1 1\nspace directions: " + b"(" * 9999, "error")
+    put(
+        "words.nrrd",
+        b"NRRD0004\ntype: float\ndimension: 3\nsizes: 1 1 1\nspace directions: " + b"(" * 9999,
+        "error",
+    )
     put(
         "outside.nhdr",
         b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 1 1 1\nencoding: raw\ndata file: ../../x\n",

@@ -16,7 +16,9 @@ import numpy as np
 from tests.soak import commands
 
 
-def run(budget_seconds: float, seed: int, children: int = 20, supervisors: int = 5, files: int = 60) -> str:
+def run(
+    budget_seconds: float, seed: int, children: int = 20, supervisors: int = 5, files: int = 60
+) -> str:
     """One run with kills of children, and one whose supervisor is killed and goes on, until the budget is used up."""
     end, chance, rounds = time.monotonic() + budget_seconds, random.Random(seed), 0
     while True:
@@ -64,7 +66,9 @@ def _kill_children(paths: list[Path], folder: Path, count: int, chance: random.R
             before = _lines(result)
             commands.kill(chance.choice(victims))
             killed += 1
-            commands.wait_until(lambda before=before: process.poll() is not None or _lines(result) > before)
+            commands.wait_until(
+                lambda before=before: process.poll() is not None or _lines(result) > before
+            )
             time.sleep(chance.uniform(0.0, 0.1))
         else:
             time.sleep(0.05)
@@ -84,15 +88,21 @@ def _kill_supervisors(paths: list[Path], folder: Path, count: int, chance: rando
         done = _lines(result)
         wanted = done + chance.randrange(len(paths) // (count + 1))
         commands.wait_until(
-            lambda wanted=wanted, process=process: process.poll() is not None or _lines(result) >= wanted
+            lambda wanted=wanted, process=process: (
+                process.poll() is not None or _lines(result) >= wanted
+            )
         )
         time.sleep(chance.uniform(0.0, 0.05))
         born = commands.children(process.pid)
         process.send_signal(
-            chance.choice((signal.SIGKILL, signal.SIGKILL, signal.SIGTERM)) if number else signal.SIGKILL
+            chance.choice((signal.SIGKILL, signal.SIGKILL, signal.SIGTERM))
+            if number
+            else signal.SIGKILL
         )
         process.wait(20)
-        assert commands.wait_until(lambda born=born: not any(map(commands.is_running, born)), 5.0), "children survive"
+        assert commands.wait_until(
+            lambda born=born: not any(map(commands.is_running, born)), 5.0
+        ), "children survive"
         resume = ("--resume",)
     code, said = commands.run(*words, "--resume")
     assert code == 0, said[-2000:]
@@ -100,7 +110,8 @@ def _kill_supervisors(paths: list[Path], folder: Path, count: int, chance: rando
     lines = journal.read_bytes().splitlines()
     assert len(lines) <= len(paths) + count, "files were measured again"
     _check_nothing_left(
-        folder, {"files", *(path.name for path in folder.glob("children.*")), result.name, journal.name}
+        folder,
+        {"files", *(path.name for path in folder.glob("children.*")), result.name, journal.name},
     )
 
 

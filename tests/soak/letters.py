@@ -14,7 +14,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-FONTS = "", "DejaVuSansMono.woff2"  # the one that Blender starts with, and one of those that it ships
+FONTS = (
+    "",
+    "DejaVuSansMono.woff2",
+)  # the one that Blender starts with, and one of those that it ships
 CHARACTERS = string.ascii_letters + string.digits
 NOISES = (0.0, 1e-4, 1e-3)  # standard deviations of the corners, by the letter's largest extent
 SAME_CLASS = 1e-6  # letters whose signatures are nearer, whatever their size, are one shape
@@ -56,7 +59,11 @@ def library():
             label = "{:s} {:s}".format(font_name.split(".")[0] or "Bfont", character)
             own = signed(*outline(character, font_name, 12))
             letters.append((label, character, font_name, own))
-            alike = (other for other, *_, known in letters if similarity(known, own).distance(True) < SAME_CLASS)
+            alike = (
+                other
+                for other, *_, known in letters
+                if similarity(known, own).distance(True) < SAME_CLASS
+            )
             classes[label] = classes.get(first := next(alike), first)
     return letters, classes
 
@@ -87,7 +94,9 @@ def run(budget_seconds: float, seed: int) -> str:
     letters, classes = library()
     count = len(set(classes.values()))
     lines = ["{} letters, {} classes".format(len(letters), count)]
-    lines += ["one shape: {} and {}".format(*pair) for pair in classes.items() if pair[0] != pair[1]]
+    lines += [
+        "one shape: {} and {}".format(*pair) for pair in classes.items() if pair[0] != pair[1]
+    ]
     tried, failures = 0, {noise: [] for noise in NOISES}
     while not tried or time.monotonic() < end:
         tried += len(letters)
@@ -98,6 +107,8 @@ def run(budget_seconds: float, seed: int) -> str:
         assert share >= 0.99 or noise > 1e-4, failures[noise]
         pairs = sorted({"{} as {}".format(*pair) for pair in failures[noise]})
         lines.append(
-            "noise {:g}: {:.2%} of {} found; {}".format(noise, share, tried, ", ".join(pairs) or "none missed")
+            "noise {:g}: {:.2%} of {} found; {}".format(
+                noise, share, tried, ", ".join(pairs) or "none missed"
+            )
         )
     return "\n".join(lines)

@@ -63,7 +63,9 @@ class Session:
         for number in range(STEPS):
             step = self.draw.choice(PERSON + OURS + OURS)
             self.calls.append(step.__name__)
-            self.counted["of ours" if step in OURS else "undo and redo" if step in HISTORY else "of a person"] += 1
+            self.counted[
+                "of ours" if step in OURS else "undo and redo" if step in HISTORY else "of a person"
+            ] += 1
             kept = self.unkeyed() if step in OURS else {}
             try:
                 step(self)
@@ -79,8 +81,13 @@ class Session:
         """Return the state of each object that no operator may change."""
         return {
             obj.name: (
-                [key.value for key in obj.data.shape_keys.key_blocks] if obj.data.shape_keys else [],
-                [(modifier.name, getattr(modifier, "thickness", None)) for modifier in obj.modifiers],
+                [key.value for key in obj.data.shape_keys.key_blocks]
+                if obj.data.shape_keys
+                else [],
+                [
+                    (modifier.name, getattr(modifier, "thickness", None))
+                    for modifier in obj.modifiers
+                ],
                 obj.get("own"),
             )
             for obj in self.objects
@@ -101,7 +108,11 @@ class Session:
         scene = bpy.context.scene
         is_stored = properties.is_stored(obj) and staleness.stale_reason(obj, scene) is None
         current = displayed.displayed(obj, scene) if following.is_live(obj) else None
-        shown = None if current is None or current.verdict == displayed.Verdict.OUT_OF_DATE else current.world
+        shown = (
+            None
+            if current is None or current.verdict == displayed.Verdict.OUT_OF_DATE
+            else current.world
+        )
         drawn, now = displayed.drawn(obj, scene), current or displayed.displayed(obj, scene)
         same = drawn is None or (drawn.world, drawn.verdict) == (now.world, now.verdict)
         assert same, (place, obj.name, "overlay and panel differ")
@@ -110,22 +121,32 @@ class Session:
         try:
             truth = measured(obj)
         except MeasureError as refusal:
-            raise AssertionError((place, obj.name, "shown, and cannot be measured", str(refusal))) from None
+            raise AssertionError(
+                (place, obj.name, "shown, and cannot be measured", str(refusal))
+            ) from None
         body = truth.mass_properties
         reach = np.linalg.norm(body.center) + np.linalg.norm(body.radii_of_gyration)
         if is_stored:
             stored = properties.stored(obj).in_world(obj.matrix_world, 1.0)
             found = arrays(stored)
-            same = np.allclose([stored.mass, stored.volume], [body.mass, truth.volume], rtol=RTOL, atol=0.0)
+            same = np.allclose(
+                [stored.mass, stored.volume], [body.mass, truth.volume], rtol=RTOL, atol=0.0
+            )
             assert same and np.linalg.norm(found.center - body.center) <= RTOL * reach, (
                 place,
                 obj.name,
                 "stored",
             )
             spread = np.abs(found.inertia - body.inertia).max()
-            assert spread <= 10.0 * RTOL * body.principal.moments.max(), (place, obj.name, "stored inertia")
+            assert spread <= 10.0 * RTOL * body.principal.moments.max(), (
+                place,
+                obj.name,
+                "stored inertia",
+            )
         if shown is not None:
-            same = np.allclose([shown.mass, shown.volume], [body.mass, truth.volume], rtol=RTOL, atol=0.0)
+            same = np.allclose(
+                [shown.mass, shown.volume], [body.mass, truth.volume], rtol=RTOL, atol=0.0
+            )
             assert same and np.linalg.norm(shown.center - body.center) <= RTOL * reach, (
                 place,
                 obj.name,
@@ -201,9 +222,13 @@ def changes_shape_key(session):
 
 def keys(session):
     obj = session.any()
-    obj.keyframe_insert(session.draw.choice(("location", "scale")), frame=bpy.context.scene.frame_current)
+    obj.keyframe_insert(
+        session.draw.choice(("location", "scale")), frame=bpy.context.scene.frame_current
+    )
     if obj.data.shape_keys:
-        obj.data.shape_keys.key_blocks[-1].keyframe_insert("value", frame=bpy.context.scene.frame_current)
+        obj.data.shape_keys.key_blocks[-1].keyframe_insert(
+            "value", frame=bpy.context.scene.frame_current
+        )
 
 
 def goes_to_frame(session):
@@ -213,7 +238,9 @@ def goes_to_frame(session):
 def adds_modifier(session):
     obj = session.any()
     if len(obj.modifiers) < 2:
-        obj.modifiers.new("Solidify" if session.draw.random() < 0.3 else "Subdivision", "SUBSURF").levels = 1
+        obj.modifiers.new(
+            "Solidify" if session.draw.random() < 0.3 else "Subdivision", "SUBSURF"
+        ).levels = 1
 
 
 def changes_modifier(session):
@@ -276,7 +303,9 @@ def waits(session):
 
 
 def sets_material(session):
-    bpy.ops.object.body_moments_set_material(material=session.draw.choice(("PLA", "Steel, Carbon", "Oak, Red")))
+    bpy.ops.object.body_moments_set_material(
+        material=session.draw.choice(("PLA", "Steel, Carbon", "Oak, Red"))
+    )
 
 
 def copies_settings(session):
@@ -306,11 +335,30 @@ def totals(session):
 HISTORY = (undoes, redoes)
 PERSON = (
     *(adds, duplicates, deletes, selects, selects, moves, turns, scales, edits, edits_in_edit_mode),
-    *(changes_shape_key, keys, goes_to_frame, goes_to_frame, adds_modifier, changes_modifier, paints, hides),
+    *(
+        changes_shape_key,
+        keys,
+        goes_to_frame,
+        goes_to_frame,
+        adds_modifier,
+        changes_modifier,
+        paints,
+        hides,
+    ),
     *(sets_density, sets_mass, sets_kind, sets_unit, *(3 * HISTORY)),
 )
 OURS = (
-    *(measures, measures, measures, clears, switches_live, waits, sets_material, copies_settings, finds_symmetry),
+    *(
+        measures,
+        measures,
+        measures,
+        clears,
+        switches_live,
+        waits,
+        sets_material,
+        copies_settings,
+        finds_symmetry,
+    ),
     *(moves_origin, turns_axes, adds_empty, totals),
 )
 

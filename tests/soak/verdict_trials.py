@@ -25,7 +25,12 @@ def collect(seed, trials, budget_seconds=float("inf")):
         name, label, error = breakages.trial(seed + k)
         column = 3 if error is None else 0 if error == 0.0 else 1 if error <= 0.01 else 2
         labelled = label not in ("exact", "exact, with a note")
-        assert labelled or column == 0 or (column == 1 and error < 1e-4), (seed + k, name, label, error)
+        assert labelled or column == 0 or (column == 1 and error < 1e-4), (
+            seed + k,
+            name,
+            label,
+            error,
+        )
         assert column != 3 or label == "open", (seed + k, name, label)
         table[name, label, column] += 1
         if time.monotonic() - begun > budget_seconds:
@@ -38,11 +43,17 @@ def markdown(table):
     labels = importlib.import_module("tests.core.solid.breakages").LABELS
     lines = ["| verdict | " + " | ".join(COLUMNS) + " |", "|---|" + "---:|" * len(COLUMNS)]
     for label in labels:
-        counts = [sum(n for (_, of, k), n in table.items() if (of, k) == (label, column)) for column in range(4)]
+        counts = [
+            sum(n for (_, of, k), n in table.items() if (of, k) == (label, column))
+            for column in range(4)
+        ]
         lines.append("| {} | {} |".format(label, " | ".join(map(str, counts))))
     lines += ["", "| damage | " + " | ".join(labels) + " |", "|---|" + "---:|" * len(labels)]
     for name in dict.fromkeys(name for name, *_ in table):
-        counts = [sum(n for (of, at, _), n in table.items() if (of, at) == (name, label)) for label in labels]
+        counts = [
+            sum(n for (of, at, _), n in table.items() if (of, at) == (name, label))
+            for label in labels
+        ]
         lines.append("| {} | {} |".format(name.replace("_", " "), " | ".join(map(str, counts))))
     return "\n".join(lines)
 
@@ -50,7 +61,9 @@ def markdown(table):
 def run(budget_seconds, seed):
     """Run trials until the time is used up."""
     table = collect(seed % 2**31, 10**9, budget_seconds)
-    return "{} trials, no wrong number without a label\n{}".format(sum(table.values()), markdown(table))
+    return "{} trials, no wrong number without a label\n{}".format(
+        sum(table.values()), markdown(table)
+    )
 
 
 def main():

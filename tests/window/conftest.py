@@ -50,7 +50,11 @@ def pytest_collection_modifyitems(items):
     selected = {item.path: item for item in items}  # the last one of each file
     ahead, done = set(), set()
     for item in everything:
-        if item.path.is_relative_to(ROOT / "tests" / "window") and item.path in selected and item.path not in done:
+        if (
+            item.path.is_relative_to(ROOT / "tests" / "window")
+            and item.path in selected
+            and item.path not in done
+        ):
             ahead.add(item)
             done |= {item.path} if item is selected[item.path] else set()
     kept = ahead.union(items)
@@ -62,7 +66,9 @@ def blender() -> str:
     """The command of a real Blender."""
     command = harness.blender_command()
     if command is None:
-        pytest.skip("needs a real Blender: put one on the PATH or name it with the variable BLENDER")
+        pytest.skip(
+            "needs a real Blender: put one on the PATH or name it with the variable BLENDER"
+        )
     return command
 
 
@@ -109,7 +115,9 @@ def open_window(run_blender, file: Path, folder: Path, **more):
     artefacts = ROOT / "tests" / "window" / "artefacts"
     artefacts.mkdir(exist_ok=True)
     log = folder / "blender.log"
-    with harness.Window(run_blender.blender, run_blender.user, file, log, artefacts, **more) as opened:
+    with harness.Window(
+        run_blender.blender, run_blender.user, file, log, artefacts, **more
+    ) as opened:
         yield opened
 
 

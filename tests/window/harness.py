@@ -48,7 +48,15 @@ class Window:
     Positions are pixels from the lower left corner of the window, as Blender counts them.
     """
 
-    def __init__(self, blender: str, user: Path, file: Path, log: Path, artefacts: Path, size: tuple[int, int] = SIZE):
+    def __init__(
+        self,
+        blender: str,
+        user: Path,
+        file: Path,
+        log: Path,
+        artefacts: Path,
+        size: tuple[int, int] = SIZE,
+    ):
         self.blender, self.file, self.log, self.artefacts = blender, file, log, artefacts
         self.width, self.height = size
         self.environment = {**os.environ, "BLENDER_USER_RESOURCES": str(user)}
@@ -139,7 +147,9 @@ class Window:
     def move(self, x: float, y: float, *more) -> None:
         """Put the pointer there; the small step before lets Blender notice where it is. more: words for xdotool."""
         top = self.height - 1 - y
-        self._xdotool("mousemove", round(x) - 2, round(top), "mousemove", round(x), round(top), *more)
+        self._xdotool(
+            "mousemove", round(x) - 2, round(top), "mousemove", round(x), round(top), *more
+        )
 
     def click(self, x: float, y: float) -> None:
         self.move(x, y)
@@ -179,7 +189,9 @@ class Window:
             self.wait("area.spaces.active.show_region_ui")
         self.wait("regions['UI'].width > 100")
         # a tab is known only once it has been drawn, and setting one that is not known raises
-        change = f"try:\n    regions['UI'].active_panel_category = {name!r}\nexcept TypeError:\n    pass"
+        change = (
+            f"try:\n    regions['UI'].active_panel_category = {name!r}\nexcept TypeError:\n    pass"
+        )
         end = time.monotonic() + STEP_LIMIT
         while self.get("regions['UI'].active_panel_category") != name:
             if time.monotonic() > end:
@@ -267,7 +279,9 @@ class Window:
         """A picture of the screen, drawn anew, kept in the folder of artefacts; a .png has every pixel as it is."""
         self.redraw()
         path = self.artefacts / f"{name}.{form}"
-        subprocess.run(["scrot", "-o", "-q", "85", str(path)], env=self.environment, check=True, timeout=240)
+        subprocess.run(
+            ["scrot", "-o", "-q", "85", str(path)], env=self.environment, check=True, timeout=240
+        )
         return path
 
     def pixels(self, name: str) -> np.ndarray:

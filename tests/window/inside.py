@@ -25,7 +25,9 @@ seen: list[Path] = []
 def answer(source: str) -> dict:
     window = bpy.context.window_manager.windows[0]
     # a file browser may take the whole window
-    area = next((area for area in window.screen.areas if area.type == "VIEW_3D"), window.screen.areas[0])
+    area = next(
+        (area for area in window.screen.areas if area.type == "VIEW_3D"), window.screen.areas[0]
+    )
     regions = {region.type: region for region in area.regions}
     names = {"bpy": bpy, "window": window, "area": area, "regions": regions, "result": None}
     try:

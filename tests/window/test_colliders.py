@@ -29,7 +29,9 @@ bpy.ops.view3d.view_selected()
 bpy.ops.ed.undo_push(message="Chairs")
 """
 COUNT = "sum('body_collider' in obj for obj in bpy.data.objects)"
-RUNNING = "[op.bl_idname for op in window.modal_operators if 'body_moments' in op.bl_idname.lower()]"
+RUNNING = (
+    "[op.bl_idname for op in window.modal_operators if 'body_moments' in op.bl_idname.lower()]"
+)
 
 
 def chairs(window, count):
@@ -71,4 +73,7 @@ def test_esc_leaves_nothing_behind(window):
     window.picture("colliders running")
     window.key("Escape")
     window.wait("not " + RUNNING)
-    assert window.get("[len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.collections)]") == before
+    assert (
+        window.get("[len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.collections)]")
+        == before
+    )

@@ -53,7 +53,9 @@ def test_nothing_but_the_record_is_on_the_output(run_blender, cube_file):
 
 def test_missing_file_is_an_error_beside_other_records(run_blender, cube_file, tmp_path):
     output = tmp_path / "out.json"
-    done = run_blender(*COMMAND, "--output", output, tmp_path / "missing.blend", cube_file, check=False)
+    done = run_blender(
+        *COMMAND, "--output", output, tmp_path / "missing.blend", cube_file, check=False
+    )
     assert done.returncode == 1
     missing, measured = json.loads(output.read_text(encoding="utf-8"))
     assert missing["objects"] == []

@@ -101,7 +101,9 @@ def test_print_part_with_another_unit_takes_four_clicks(window):
     window.press("scene.body_moments_set_millimeters")
     window.wait("bpy.context.scene.unit_settings.length_unit == 'MILLIMETERS'")
     assert clicks + 1 == 4
-    assert window.get(f"{PART}['body_mass']") == pytest.approx(1240.0 * (0.06**3 + 0.04**3), rel=1e-6)
+    assert window.get(f"{PART}['body_mass']") == pytest.approx(
+        1240.0 * (0.06**3 + 0.04**3), rel=1e-6
+    )
     center = window.get(f"list({PART}.location)")
     assert center == [20.0, -10.0, 30.0]
 
@@ -110,7 +112,9 @@ def test_the_rows_of_the_panel_are_the_stored_numbers(window):
     window.point_at_view()
     window.redraw()
     shown = rows(window)
-    stored = window.get(f"[{PART}[key] for key in ('body_mass', 'body_volume', 'body_area', 'body_density')]")
+    stored = window.get(
+        f"[{PART}[key] for key in ('body_mass', 'body_volume', 'body_area', 'body_density')]"
+    )
     values = [(float(text), unit) for text, unit in shown if re.fullmatch(r"[-0-9.e]+", text)]
     for value, unit in zip(stored, ("kg", "m³", "m²", "kg/m³"), strict=True):
         assert (value, unit) in values
@@ -199,7 +203,9 @@ for name, below in (("Lower", True), ("Upper", False)):
 part.modifiers.new("Armature", "ARMATURE").object = rig
 bpy.context.view_layer.update()
 """
-REFUSED = f"__import__('sys').modules['{PACKAGE}.blender.session.stored.outcome'].last() is not None"
+REFUSED = (
+    f"__import__('sys').modules['{PACKAGE}.blender.session.stored.outcome'].last() is not None"
+)
 RIG_OBJECT = "bpy.data.objects['Rig']"
 # operator: options, what is there before, what must have happened
 CLICKED = {
@@ -237,8 +243,16 @@ CLICKED = {
         "bpy.ops.object.select_all(action='DESELECT')",
         "[obj.name for obj in bpy.context.selected_objects] == ['Part']",
     ),
-    "object.body_moments_measure_assembly": ({"target": "COLLECTION"}, "", f"'body_mass' in {COLLECTION}"),
-    "object.body_moments_clear_assembly": ({"target": "COLLECTION"}, ASSEMBLY, f"'body_mass' not in {COLLECTION}"),
+    "object.body_moments_measure_assembly": (
+        {"target": "COLLECTION"},
+        "",
+        f"'body_mass' in {COLLECTION}",
+    ),
+    "object.body_moments_clear_assembly": (
+        {"target": "COLLECTION"},
+        ASSEMBLY,
+        f"'body_mass' not in {COLLECTION}",
+    ),
     "object.body_moments_assembly_empty": (
         {"target": "COLLECTION"},
         ASSEMBLY,
@@ -254,7 +268,11 @@ CLICKED = {
         "bpy.context.scene.cursor.location = (0, 0, 0)",
         "abs(bpy.context.scene.cursor.location.x - 1.5) < 1e-5",
     ),
-    "object.body_moments_measure_bones": ({}, RIG, f"'body_mass' in {RIG_OBJECT}.pose.bones['Upper']"),
+    "object.body_moments_measure_bones": (
+        {},
+        RIG,
+        f"'body_mass' in {RIG_OBJECT}.pose.bones['Upper']",
+    ),
     "object.body_moments_clear_bones": (
         {},
         RIG + "bpy.ops.object.body_moments_measure_bones()",
@@ -268,7 +286,11 @@ CLICKED = {
         f"bmesh.ops.reverse_faces(b, faces=[b.faces[2]])\nb.to_mesh({PART}.data)\nb.free()",
         "bpy.context.mode == 'EDIT_MESH'",
     ),
-    "object.body_moments_clear": ({}, "bpy.ops.object.body_moments_measure()", f"'body_mass' not in {PART}"),
+    "object.body_moments_clear": (
+        {},
+        "bpy.ops.object.body_moments_measure()",
+        f"'body_mass' not in {PART}",
+    ),
     "object.body_moments_align_to_world": (
         {},
         f"{PART}.rotation_euler = (0.3, 0.2, 0.1)",
@@ -331,8 +353,16 @@ IN_BROWSER = {
     "object.body_moments_export_bill": ("csv", ASSEMBLY, "{path}.is_file()"),
     "object.body_moments_save_numbers": ("json", MEASURED, "{path}.is_file()"),
     "object.body_moments_fourier": ("npz", "", "{path}.is_file()"),
-    "object.body_moments_import_scan": ("npy", "", "any(obj.type == 'VOLUME' for obj in bpy.data.objects)"),
-    "object.body_moments_import_surfaces": ("obj", "", "any(obj.type == 'SURFACE' for obj in bpy.data.objects)"),
+    "object.body_moments_import_scan": (
+        "npy",
+        "",
+        "any(obj.type == 'VOLUME' for obj in bpy.data.objects)",
+    ),
+    "object.body_moments_import_surfaces": (
+        "obj",
+        "",
+        "any(obj.type == 'SURFACE' for obj in bpy.data.objects)",
+    ),
     "import_scene.body_moments_audit": ("urdf", "", "'Audit of window.urdf' in bpy.data.texts"),
     "object.body_moments_find_in_library": (
         "jsonl",
@@ -351,7 +381,11 @@ def prepared(window):
 
 
 def click(window, operator, options, before):
-    window.ask("if bpy.context.mode != 'OBJECT':\n    bpy.ops.object.mode_set(mode='OBJECT')\n" + BRICK + before)
+    window.ask(
+        "if bpy.context.mode != 'OBJECT':\n    bpy.ops.object.mode_set(mode='OBJECT')\n"
+        + BRICK
+        + before
+    )
     window.ask(f"bpy.app.driver_namespace['pressed'] = ({operator!r}, {options!r})")
     window.choose(OWN_MENU, operator)
 
@@ -405,7 +439,11 @@ TURNED = f"{PART}.rotation_euler = (0.3, 0.2, 0.1)"
 EMPTIES = "[obj.parent is not None for obj in bpy.data.objects if obj.type == 'EMPTY']"
 PLACE = f"[round(value, 3) for value in {PART}.location]"
 MASS = f"[{PART}.rigid_body.mass, *{PLACE}]"
-CHECKBOX, TITLE, ROW = 144, 56, 23  # pixels from the pointer where F9 was pressed, and between settings
+CHECKBOX, TITLE, ROW = (
+    144,
+    56,
+    23,
+)  # pixels from the pointer where F9 was pressed, and between settings
 # operator: which setting is clicked, what is there before, what is looked at, after the action, after the click
 REDONE = {
     "object.body_moments_add_empty": (0, "", EMPTIES, [True], [False]),
@@ -416,7 +454,13 @@ REDONE = {
         ["Center of Mass", "Center of Mass Marker"],
         ["Center of Mass"],
     ),
-    "object.body_moments_axes_to_principal": (0, TURNED, PLACE, [1.488, 2.049, 2.901], [1.488, 2.049, 2.901]),
+    "object.body_moments_axes_to_principal": (
+        0,
+        TURNED,
+        PLACE,
+        [1.488, 2.049, 2.901],
+        [1.488, 2.049, 2.901],
+    ),
     "object.body_moments_set_rigid_body_mass": (
         1,
         "bpy.ops.rigidbody.object_add()",
@@ -463,7 +507,12 @@ def test_every_operator_has_been_pressed():
     pressed = {*CLICKED, *IN_BROWSER, *REDONE}
     for path in Path(__file__).parent.glob("test_*.py"):
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            if isinstance(node, ast.Call) and ast.unparse(node.func) in ("window.press", "window.choose"):
+            if isinstance(node, ast.Call) and ast.unparse(node.func) in (
+                "window.press",
+                "window.choose",
+            ):
                 pressed |= {word.value for word in node.args if isinstance(word, ast.Constant)}
     assert made - pressed - BY_KEYS == set()
-    assert {name for name in pressed - made if "body_moments" in name and "_MT_" not in name} == set()
+    assert {
+        name for name in pressed - made if "body_moments" in name and "_MT_" not in name
+    } == set()

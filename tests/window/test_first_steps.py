@@ -28,8 +28,12 @@ result = found and [found.stands, found.margin]
 
 @pytest.fixture(scope="module")
 def window(run_blender, cube_file, tmp_path_factory):
-    with open_window(run_blender, cube_file, tmp_path_factory.mktemp("log"), size=(1280, 800)) as opened:
-        opened.ask("bpy.context.preferences.system.viewport_aa = '8'\n" + EMPTY_SCENE + OPEN + ADD_CUBE)
+    with open_window(
+        run_blender, cube_file, tmp_path_factory.mktemp("log"), size=(1280, 800)
+    ) as opened:
+        opened.ask(
+            "bpy.context.preferences.system.viewport_aa = '8'\n" + EMPTY_SCENE + OPEN + ADD_CUBE
+        )
         yield opened
 
 

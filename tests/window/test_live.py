@@ -14,7 +14,9 @@ bpy.context.scene.unit_settings.scale_length = 1.0
 bpy.ops.surface.primitive_nurbs_surface_torus_add()
 bpy.ops.view3d.view_selected()
 """
-MODULE = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.live.following']"
+MODULE = (
+    "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.live.following']"
+)
 LIVE = MODULE + ".current_numbers(bpy.context.object)"
 TORUS_VOLUME = f"getattr({LIVE}, 'measurement', None) and {LIVE}.measurement.volume"
 TORUS = 2.0 * math.pi**2 * 0.75 * 0.0625 * (1.0 - 1.9e-7)
@@ -70,7 +72,9 @@ FOLLOWING, STALENESS, OUTCOME = (
 )
 SPHERE = "bpy.context.object"
 VOLUME = f"{FOLLOWING}.current_numbers({SPHERE}).measurement.volume"
-TRUTH = f"import bmesh\nb = bmesh.new()\nb.from_mesh({SPHERE}.data)\nresult = b.calc_volume()\nb.free()"
+TRUTH = (
+    f"import bmesh\nb = bmesh.new()\nb.from_mesh({SPHERE}.data)\nresult = b.calc_volume()\nb.free()"
+)
 
 
 def stroke(window):
@@ -96,7 +100,10 @@ def test_numbers_follow_a_stroke_when_it_stops(window):
     truth = window.ask(TRUTH)
     assert abs(truth / before - 1.0) > 1e-5
     assert window.get(VOLUME) == pytest.approx(truth, rel=1e-6)
-    assert window.ask(f"result = {STALENESS}.stale_reason({SPHERE}, bpy.context.scene)") == "Geometry changed"
+    assert (
+        window.ask(f"result = {STALENESS}.stale_reason({SPHERE}, bpy.context.scene)")
+        == "Geometry changed"
+    )
     window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
     assert "Traceback" not in window.output()
 

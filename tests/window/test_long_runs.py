@@ -14,7 +14,9 @@ import pytest
 from tests.close import close
 from tests.soak import commands
 
-RUNNING = "[op.bl_idname for op in window.modal_operators if 'body_moments' in op.bl_idname.lower()]"
+RUNNING = (
+    "[op.bl_idname for op in window.modal_operators if 'body_moments' in op.bl_idname.lower()]"
+)
 SCANS = 3
 
 
@@ -44,13 +46,17 @@ def test_esc_keeps_measured_library_files_for_resuming(window, tmp_path):
     library(tmp_path, slow=True)
     start(window, tmp_path)
     journal = tmp_path / "body_moments.jsonl.journal"
-    assert commands.wait_until(lambda: journal.exists() and journal.read_bytes().count(b"\n") == SCANS, 240.0)
+    assert commands.wait_until(
+        lambda: journal.exists() and journal.read_bytes().count(b"\n") == SCANS, 240.0
+    )
     assert window.get(RUNNING)
     window.picture("library running")
     window.point_at_view()
     window.key("Escape")
     window.wait("not " + RUNNING)
-    assert sorted(path.name for path in tmp_path.iterdir() if path.suffix not in (".npy", ".raw")) == [journal.name]
+    assert sorted(
+        path.name for path in tmp_path.iterdir() if path.suffix not in (".npy", ".raw")
+    ) == [journal.name]
 
 
 def test_library_left_alone_leaves_results_and_a_report(window, tmp_path):
@@ -59,7 +65,9 @@ def test_library_left_alone_leaves_results_and_a_report(window, tmp_path):
     assert commands.wait_until((tmp_path / "body_moments.html").exists, 240.0)
     window.wait("not " + RUNNING)
     lines = (tmp_path / "body_moments.jsonl").read_text(encoding="utf-8").splitlines()
-    assert [json.loads(line)["objects"][0]["mass"] for line in lines] == [60.0 * (1 + one) for one in range(SCANS)]
+    assert [json.loads(line)["objects"][0]["mass"] for line in lines] == [
+        60.0 * (1 + one) for one in range(SCANS)
+    ]
     window.picture("library done")
 
 
@@ -107,7 +115,10 @@ def test_esc_during_measure_leaves_nothing(parts):
     assert window.get(MEASURED) == PART_COUNT
     window.picture("many-measured")
     mass = window.get(MASS)
-    window.ask("for obj in bpy.context.selected_objects:\n    obj.body_moments.density = 2000.0", limit=200.0)
+    window.ask(
+        "for obj in bpy.context.selected_objects:\n    obj.body_moments.density = 2000.0",
+        limit=200.0,
+    )
     window.redraw()
     assert close(window.get(MASS), 2.0 * mass, 1e-12)
 
@@ -115,11 +126,18 @@ def test_esc_during_measure_leaves_nothing(parts):
 def test_esc_during_rigid_body_masses_changes_no_object(parts):
     window = parts
     window.point_at_view()
-    window.ask("bpy.ops.object.body_moments_set_rigid_body_mass('INVOKE_DEFAULT', True, add=True, axes=True)")
+    window.ask(
+        "bpy.ops.object.body_moments_set_rigid_body_mass('INVOKE_DEFAULT', True, add=True, axes=True)"
+    )
     window.key("Escape")
     window.wait("not " + RUNNING, limit=200.0)
     assert window.get("sum(obj.rigid_body is not None for obj in bpy.data.objects)") == 0
-    assert window.get("[tuple(obj.rotation_euler) for obj in bpy.data.objects if any(obj.rotation_euler)]") == []
+    assert (
+        window.get(
+            "[tuple(obj.rotation_euler) for obj in bpy.data.objects if any(obj.rotation_euler)]"
+        )
+        == []
+    )
 
 
 RING = """
@@ -144,11 +162,15 @@ def test_esc_during_a_transform_leaves_nothing(window, tmp_path):
 
 def test_transform_writes_a_file_and_shows_slices(window, tmp_path):
     path = tmp_path / "ring.npz"
-    window.ask("[a for a in window.screen.areas if a.type == 'PROPERTIES'][0].type = 'IMAGE_EDITOR'")
+    window.ask(
+        "[a for a in window.screen.areas if a.type == 'PROPERTIES'][0].type = 'IMAGE_EDITOR'"
+    )
     window.ask(TRANSFORM.format(str(path), 16))
     window.wait("not " + RUNNING)
     assert window.get(IMAGES) == [[3 * 16 + 4, 16]]
-    shown = "[a for a in window.screen.areas if a.type == 'IMAGE_EDITOR'][0].spaces.active.image.name"
+    shown = (
+        "[a for a in window.screen.areas if a.type == 'IMAGE_EDITOR'][0].spaces.active.image.name"
+    )
     assert window.get(shown) == "Fourier Transform of Ring"
     window.picture("fourier")
     with np.load(path) as found:

@@ -25,7 +25,9 @@ scene.frame_set(1)
 view.view_rotation = (0.50, 0.46, 0.50, 0.53)
 view.view_location, view.view_distance = (0.0, -0.6, 1.0), 5.0
 """
-CURVES = "bpy.data.objects['Figure'].animation_data.action.layers[0].strips[0].channelbags[0].fcurves"
+CURVES = (
+    "bpy.data.objects['Figure'].animation_data.action.layers[0].strips[0].channelbags[0].fcurves"
+)
 EMPTY = "next(obj for obj in bpy.data.objects if 'body_balance_group' in obj)"
 
 
@@ -71,13 +73,18 @@ def test_spin_is_keyed_and_the_path_is_traced(jump):
     assert "Traceback" not in window.output()
 
 
-@pytest.mark.skipif("BODY_MOMENTS_FILM" not in os.environ, reason="needs BODY_MOMENTS_FILM: makes the film, in minutes")
+@pytest.mark.skipif(
+    "BODY_MOMENTS_FILM" not in os.environ,
+    reason="needs BODY_MOMENTS_FILM: makes the film, in minutes",
+)
 def test_jump_is_filmed_floaty_and_falling(run_blender, cube_file, tmp_path):
     """Ten seconds for docs/weight.md, left among the artefacts as jump.webp."""
     image = pytest.importorskip("PIL.Image")
     with open_window(run_blender, cube_file, tmp_path) as window:
         window.ask(FIGURE + JUMP)
-        window.ask("view = area.spaces.active.region_3d\nview.view_location.y, view.view_distance = -0.65, 4.6")
+        window.ask(
+            "view = area.spaces.active.region_3d\nview.view_location.y, view.view_distance = -0.65, 4.6"
+        )
         window.ask("bpy.context.preferences.system.viewport_aa = '8'")
         window.open_tab("Moments")
         window.point_at_view()
@@ -99,7 +106,12 @@ def test_jump_is_filmed_floaty_and_falling(run_blender, cube_file, tmp_path):
             for frame in range(1, 33):
                 window.ask(f"bpy.context.scene.frame_set({frame})")
                 files.append(window.picture(f"film-{part}-{frame:02d}", "png"))
-    several = [image.open(file).convert("RGB").crop((60, 130, 820, 690)).resize((570, 420)) for file in files]
+    several = [
+        image.open(file).convert("RGB").crop((60, 130, 820, 690)).resize((570, 420))
+        for file in files
+    ]
     film, milliseconds = files[0].with_name("jump.webp"), [*[150] * 31, 350] * 2
-    several[0].save(film, save_all=True, append_images=several[1:], duration=milliseconds, loop=0, quality=60)
+    several[0].save(
+        film, save_all=True, append_images=several[1:], duration=milliseconds, loop=0, quality=60
+    )
     assert film.stat().st_size <= 700_000

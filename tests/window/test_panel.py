@@ -94,7 +94,9 @@ for number in range(30):
 """
 
 
-@pytest.mark.parametrize("scene", ["bpy.ops.mesh.primitive_cube_add(location=(1.0, 2.0, 3.0))", SUZANNE, PARTS])
+@pytest.mark.parametrize(
+    "scene", ["bpy.ops.mesh.primitive_cube_add(location=(1.0, 2.0, 3.0))", SUZANNE, PARTS]
+)
 def test_mass_volume_and_center_are_above_350_pixels(window, scene):
     window.ask("import bmesh\nfor obj in bpy.data.objects:\n    obj.hide_set(True)\n" + scene)
     window.ask("bpy.ops.object.select_all(action='SELECT')")

@@ -26,7 +26,9 @@ def bracket_file(run_blender, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def window(run_blender, bracket_file, tmp_path_factory):
-    with open_window(run_blender, bracket_file, tmp_path_factory.mktemp("log"), size=(1600, 1000)) as opened:
+    with open_window(
+        run_blender, bracket_file, tmp_path_factory.mktemp("log"), size=(1600, 1000)
+    ) as opened:
         opened.ask("bpy.context.preferences.system.viewport_aa = '8'")
         yield opened
 
@@ -70,7 +72,9 @@ def test_a_nurbs_sphere_is_the_ball_that_it_is(window):
     window.point_at_view()
     window.picture("nurbs")
     assert window.get(f"{sphere}['body_method']") == "NURBS exact"
-    assert window.get(f"{sphere}['body_volume']") == pytest.approx(4.0 * math.pi / 3.0 * (1.0 - 1.95e-7), rel=1e-8)
+    assert window.get(f"{sphere}['body_volume']") == pytest.approx(
+        4.0 * math.pi / 3.0 * (1.0 - 1.95e-7), rel=1e-8
+    )
 
 
 def test_a_scan_is_imported_and_measured(window, tmp_path):
@@ -86,7 +90,9 @@ def test_a_scan_is_imported_and_measured(window, tmp_path):
     window.wait("'body_mass' in bpy.context.object")
     window.point_at_view()
     window.picture("volume")
-    assert window.get("bpy.context.object['body_mass']") == pytest.approx(16 * 12 * 8 * 900.0, rel=1e-12)
+    assert window.get("bpy.context.object['body_mass']") == pytest.approx(
+        16 * 12 * 8 * 900.0, rel=1e-12
+    )
 
 
 def test_nothing_was_printed_by_a_failing_panel(window):

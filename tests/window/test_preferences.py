@@ -47,7 +47,9 @@ def saved(run_blender, cube_file, tmp_path_factory):
     folder = tmp_path_factory.mktemp("preferences")
     script, file = folder / "measured.py", folder / "measured.blend"
     script.write_text(MEASURED, encoding="utf-8")
-    run_blender("--background", cube_file, "--python-exit-code", "1", "--python", script, "--", file)
+    run_blender(
+        "--background", cube_file, "--python-exit-code", "1", "--python", script, "--", file
+    )
     return file
 
 

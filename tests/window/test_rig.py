@@ -80,7 +80,9 @@ def test_bones_are_measured_and_drawn_in_their_pose(rig):
     window.picture("rig-bones")
     window.ask("bpy.context.scene.body_moments.overlay.show = True")
     window.ask("bpy.ops.object.mode_set(mode='POSE')\nbpy.ops.pose.select_all(action='SELECT')")
-    window.ask("with bpy.context.temp_override(area=area, region=regions['WINDOW']):\n    bpy.ops.view3d.view_all()")
+    window.ask(
+        "with bpy.context.temp_override(area=area, region=regions['WINDOW']):\n    bpy.ops.view3d.view_all()"
+    )
     window.picture("rig-overlay")
     assert "Traceback" not in window.output()
 
@@ -102,8 +104,16 @@ def test_the_assembly_is_a_tree(rig):
         "bpy.context.view_layer.active_layer_collection = bpy.context.view_layer.layer_collection.children['Character']"
     )
     window.ask("bpy.ops.object.body_moments_measure_assembly('EXEC_DEFAULT', True)")
-    assert 4000.0 < window.get("bpy.data.collections['Character']['body_mass']") < 4125.0  # bent, so a little less
-    window.ask("bpy.context.view_layer.objects.active = bpy.data.objects['Skin']\n" + first_in_properties("COLLECTION"))
-    assert len(window.get("[row.name for row in bpy.data.collections['Character'].body_moments.rows]")) == 3
+    assert (
+        4000.0 < window.get("bpy.data.collections['Character']['body_mass']") < 4125.0
+    )  # bent, so a little less
+    window.ask(
+        "bpy.context.view_layer.objects.active = bpy.data.objects['Skin']\n"
+        + first_in_properties("COLLECTION")
+    )
+    assert (
+        len(window.get("[row.name for row in bpy.data.collections['Character'].body_moments.rows]"))
+        == 3
+    )
     window.picture("rig-assembly")
     assert "Traceback" not in window.output()

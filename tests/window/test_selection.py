@@ -46,7 +46,10 @@ for cls in bpy.types.Panel.__subclasses__():
         cls.draw = lambda self, context: None  # the rows above the list, which differ from object to object
 """
 )
-FIRST_LINE, LINE_STEP = 172, 20.7  # pixels, the first above the button under the list, with its filters open
+FIRST_LINE, LINE_STEP = (
+    172,
+    20.7,
+)  # pixels, the first above the button under the list, with its filters open
 FIRST_OF_CLOSED = 125
 FILTERS = {  # Pixels from the left of the sidebar and above that button.
     "opened": (31, 27),
@@ -128,7 +131,9 @@ def three(listed):
 
 def test_columns_sort_and_warnings_come_first_on_request(three):
     window, button_name = three, "object.body_moments_copy"
-    window.ask("bpy.ops.object.select_all(action='DESELECT')\nbpy.data.objects['A'].select_set(True)")
+    window.ask(
+        "bpy.ops.object.select_all(action='DESELECT')\nbpy.data.objects['A'].select_set(True)"
+    )
     window.redraw()
     button = center(window, button_name)
     click_filter(window, "opened", button)
@@ -142,7 +147,9 @@ def test_columns_sort_and_warnings_come_first_on_request(three):
     click_filter(window, "reversed", button)
     assert lines(window, button) == "CBA"
     click_filter(window, "reversed", button)
-    window.ask("bpy.data.objects['C'].data.vertices[0].co.x -= 1.0\nbpy.data.objects['C'].data.update()")
+    window.ask(
+        "bpy.data.objects['C'].data.vertices[0].co.x -= 1.0\nbpy.data.objects['C'].data.update()"
+    )
     window.redraw()
     assert lines(window, button) == "ABC"
     click_filter(window, "warnings first", button)

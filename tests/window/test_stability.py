@@ -17,8 +17,14 @@ panel.bl_options = set()
 bpy.utils.register_class(panel)
 """
 SESSION = f"import sys\nstability = sys.modules['{PACKAGE}.blender.session.stored.stability']\n"
-SUPPORT = SESSION + f"found = stability.support({CUBE})\nresult = [found.stands, found.margin, found.height]"
-STEP_ARROW = 286, 168  # pixels right of and below the pointer where F9 was pressed: the arrow at the end of the Step
+SUPPORT = (
+    SESSION
+    + f"found = stability.support({CUBE})\nresult = [found.stands, found.margin, found.height]"
+)
+STEP_ARROW = (
+    286,
+    168,
+)  # pixels right of and below the pointer where F9 was pressed: the arrow at the end of the Step
 KEYS = (
     "len(bpy.data.objects['Balance'].animation_data.action.layers[0].strips[0].channelbags[0].fcurves[0]"
     ".keyframe_points)"
@@ -27,7 +33,10 @@ EMPTIES = "[obj.name for obj in bpy.context.scene.objects if 'body_balance_group
 
 
 def test_button_computes_stability_of_a_leaning_box(window):
-    window.ask(OPEN + f"{CUBE}.scale.z = 2.0\n{CUBE}.rotation_euler.x = 0.5\nbpy.context.view_layer.update()")
+    window.ask(
+        OPEN
+        + f"{CUBE}.scale.z = 2.0\n{CUBE}.rotation_euler.x = 0.5\nbpy.context.view_layer.update()"
+    )
     window.open_tab("Moments")
     window.press("object.body_moments_stability")
     window.wait(f"'body_mass' in {CUBE}")
@@ -42,7 +51,9 @@ def test_button_lays_body_on_the_ground_and_undo_restores_it(window):
     window.press("object.body_moments_rest_on_ground")
     window.wait(f"{CUBE}.location.z < 1.5")
     stands, margin, height = window.ask(SUPPORT)
-    assert stands and margin == pytest.approx(1.0, rel=1e-6) and height == pytest.approx(1.0, rel=1e-6)
+    assert (
+        stands and margin == pytest.approx(1.0, rel=1e-6) and height == pytest.approx(1.0, rel=1e-6)
+    )
     window.point_at_view()
     window.picture("stability-rests")
     window.key("ctrl+z")
@@ -63,7 +74,9 @@ def test_a_balance_group_is_followed_after_its_dialog(window):
     window.key("Return")
     window.wait(EMPTIES)
     window.wait("bpy.context.scene.frame_current == 4")
-    path = window.get("[tuple(round(c, 5) for c in point) for point in [bpy.data.objects['Balance'].location]]")
+    path = window.get(
+        "[tuple(round(c, 5) for c in point) for point in [bpy.data.objects['Balance'].location]]"
+    )
     assert path[0][0] == pytest.approx(0.4, rel=1e-5)
     window.point_at_view()
     window.picture("balance-path")

@@ -108,7 +108,12 @@ spacing = {{"use_spacing": True, "spacing": (0.004, 0.004, 0.004)}}
 bpy.ops.object.body_moments_import_scan("EXEC_DEFAULT", True, filepath={file!r}, **spacing)
 """
 # The tutorial's own script, without its file.
-SCRIPT = (ROOT / "docs" / "tutorial-arm.md").read_text(encoding="utf-8").split("```python")[1].partition("```")[0]
+SCRIPT = (
+    (ROOT / "docs" / "tutorial-arm.md")
+    .read_text(encoding="utf-8")
+    .split("```python")[1]
+    .partition("```")[0]
+)
 KEPT = [line for line in SCRIPT.splitlines() if "bpy.ops.wm" not in line]
 SELECT_ARM = """
 bpy.ops.object.select_all(action="DESELECT")
@@ -144,15 +149,23 @@ PAGES = {
     ),
     "arm": ("\n".join(KEPT) + SELECT_ARM, (), "object.body_moments_measure"),
     "section": (LETTER, ("Section",), "object.body_moments_measure_section"),
-    "moments": ("bpy.ops.mesh.primitive_cone_add()\n", ("Advanced", "Moments"), "object.body_moments_compute_moments"),
+    "moments": (
+        "bpy.ops.mesh.primitive_cone_add()\n",
+        ("Advanced", "Moments"),
+        "object.body_moments_compute_moments",
+    ),
     "fourier": (WHEEL, ("Advanced",), "object.body_moments_measure"),
 }
 
 
 @pytest.fixture(scope="module")
 def window(run_blender, cube_file, tmp_path_factory):
-    with open_window(run_blender, cube_file, tmp_path_factory.mktemp("log"), size=(1280, 800)) as opened:
-        opened.ask("bpy.context.preferences.system.viewport_aa = '8'\nbpy.context.scene.use_gravity = True")
+    with open_window(
+        run_blender, cube_file, tmp_path_factory.mktemp("log"), size=(1280, 800)
+    ) as opened:
+        opened.ask(
+            "bpy.context.preferences.system.viewport_aa = '8'\nbpy.context.scene.use_gravity = True"
+        )
         yield opened
 
 
@@ -172,8 +185,24 @@ def take_picture(window, name: str) -> None:
 
 def test_printed_part_is_weighed_and_stands(window, run_blender, tmp_path):
     part, file = str(tmp_path / "part.stl"), tmp_path / "bracket.blend"
-    run_blender("--background", "--python-exit-code", "1", "--python", ROOT / "tests" / "demo.py", "--", "build", file)
-    run_blender("--background", file, "--python-exit-code", "1", "--python-expr", EXPORT_BRACKET.format(part))
+    run_blender(
+        "--background",
+        "--python-exit-code",
+        "1",
+        "--python",
+        ROOT / "tests" / "demo.py",
+        "--",
+        "build",
+        file,
+    )
+    run_blender(
+        "--background",
+        file,
+        "--python-exit-code",
+        "1",
+        "--python-expr",
+        EXPORT_BRACKET.format(part),
+    )
     begin(window, PRINTED_PART.format(part), "Stability")
     take_picture(window, "printed-part")
     window.ask("bpy.ops.object.body_moments_set_material(material='PLA')")
@@ -210,19 +239,26 @@ def test_bones_of_a_figure_are_weighed(window):
     window.wait("'body_mass' in bpy.context.object")
     take_picture(window, "rig-bones")
     window.press("object.body_moments_rig_center")
-    window.ask("rig = bpy.data.objects['Figure']\nrig.pose.bones['thigh.L'].rotation_euler.x = -0.8")
+    window.ask(
+        "rig = bpy.data.objects['Figure']\nrig.pose.bones['thigh.L'].rotation_euler.x = -0.8"
+    )
     take_picture(window, "rig-center")
 
 
 def test_copies_are_found_and_laid_onto_the_part(window):
-    window.ask("bpy.context.preferences.addons['bl_ext.user_default.body_moments'].preferences.show_advanced = True")
+    window.ask(
+        "bpy.context.preferences.addons['bl_ext.user_default.body_moments'].preferences.show_advanced = True"
+    )
     begin(window, PARTS, "Advanced", "Shape", closer=1.1)
     window.press("object.body_moments_find_similar")
     window.wait("len(bpy.context.selected_objects) == 2")
     take_picture(window, "library-found")
     window.press("object.body_moments_match_pose")
     take_picture(window, "library-matched")
-    assert window.get("(bpy.data.objects['Suzanne'].location - bpy.context.object.location).length") < 1e-5
+    assert (
+        window.get("(bpy.data.objects['Suzanne'].location - bpy.context.object.location).length")
+        < 1e-5
+    )
 
 
 def test_menu_names_the_formats_of_robots(window):

@@ -48,7 +48,9 @@ def test_one_undo_takes_the_balance_back(figure):
 
 def test_weight_follows_a_bone_that_is_dragged(figure):
     window = figure
-    window.ask(f"bone = {RIG}.pose.bones['spine']\n{RIG}.data.bones.active = bone.bone\nbone.select = True")
+    window.ask(
+        f"bone = {RIG}.pose.bones['spine']\n{RIG}.data.bones.active = bone.bone\nbone.select = True"
+    )
     window.point_at_view()
     window.key("r")
     x, y, width, height = window.region("WINDOW")

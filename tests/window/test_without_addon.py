@@ -91,7 +91,9 @@ def without_addon(run_blender, tmp_path_factory):
     run_blender("--background", "--python-exit-code", "1", "--python", made, "--", file)
     command = [run_blender.blender, "--background", "--factory-startup", str(file)]
     command += ["--python-exit-code", "1", "--python", str(read)]
-    done = subprocess.run(command, capture_output=True, encoding="utf-8", errors="replace", timeout=600)
+    done = subprocess.run(
+        command, capture_output=True, encoding="utf-8", errors="replace", timeout=600
+    )
     assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
     (line,) = [line for line in done.stdout.splitlines() if line.startswith("SEEN ")]
     return json.loads(line.removeprefix("SEEN "))
@@ -102,8 +104,13 @@ def test_group_follows_animation_without_the_addon(without_addon):
         assert np.array_equal(matrix, np.eye(4))
         height = 1.0 + 2.0 * (frame - 1) / 10.0
         exact_volume = count * VOLUME * 2.0 * height
-        exact = np.array([CENTER[0] + 4.0 * (count - 1) / 2.0, CENTER[1] + y, -2.0 * height * CENTER[2]])
-        assert np.abs(center - exact).max() < FLOAT32 * max(np.abs(exact).max(), 4.0 * count), (frame, count)
+        exact = np.array(
+            [CENTER[0] + 4.0 * (count - 1) / 2.0, CENTER[1] + y, -2.0 * height * CENTER[2]]
+        )
+        assert np.abs(center - exact).max() < FLOAT32 * max(np.abs(exact).max(), 4.0 * count), (
+            frame,
+            count,
+        )
         assert abs(volume / exact_volume - 1.0) < FLOAT32, (frame, count)
         assert abs(mass / (DENSITY * UNIT**3 * exact_volume) - 1.0) < FLOAT32, (frame, count)
     assert [round(y, 4) for _, _, y, *_ in without_addon] == [0.0, 20.0, 10.0, 10.0]  # it has moved

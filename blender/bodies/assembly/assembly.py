@@ -29,7 +29,15 @@ from ....core.numerics.rotations import rotation_matrix
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ....core.verdict.verdict import open_body_caveats
-from ...read.assembly import Member, MemberKind, Root, members_key, members_of, settings_of, structure_hash
+from ...read.assembly import (
+    Member,
+    MemberKind,
+    Root,
+    members_key,
+    members_of,
+    settings_of,
+    structure_hash,
+)
 from ...read.findings import (
     BOOLEAN_OPERAND,
     HIDDEN_OBJECT_MEASURED,
@@ -104,7 +112,9 @@ class Assembly:
     measurement: Measurement
 
 
-def measure_assembly(root: Root, depsgraph: Depsgraph, options: MeasureOptions = AS_SET) -> Assembly:
+def measure_assembly(
+    root: Root, depsgraph: Depsgraph, options: MeasureOptions = AS_SET
+) -> Assembly:
     """Measure a collection, or an empty with its children, as one body; MeasureError if it has no mass."""
     member = members_of(root, depsgraph)
     results: Results = {}
@@ -117,14 +127,20 @@ def measure_members(
     root: Member, depsgraph: Depsgraph, results: Results, options: MeasureOptions = AS_SET
 ) -> Generator[int, None, None]:
     """Store the result or refusal of each object of an assembly in `results`; yield the number of results."""
-    objects = {member.data: None for member in root.walk() if member.is_measured or _is_sheared(member)}
+    objects = {
+        member.data: None for member in root.walk() if member.is_measured or _is_sheared(member)
+    }
     for together in measure_many(list(objects), depsgraph, options):
         for obj, outcome in together:
-            results[obj] = internal_error.finding_of(outcome) if isinstance(outcome, Exception) else outcome
+            results[obj] = (
+                internal_error.finding_of(outcome) if isinstance(outcome, Exception) else outcome
+            )
         yield len(results)
 
 
-def assemble(root: Member, results: Results, depsgraph: Depsgraph, options: MeasureOptions = AS_SET) -> Assembly:
+def assemble(
+    root: Member, results: Results, depsgraph: Depsgraph, options: MeasureOptions = AS_SET
+) -> Assembly:
     """Return the assembly of measured members, or raise MeasureError if it has no mass."""
     unit = options.meters_per_unit(depsgraph.scene)
     whole = member_body(root, results, unit)
@@ -135,7 +151,11 @@ def member_body(member: Member, results: Results, unit: float) -> MemberBody:
     """Return the moments of a member; `unit` is in meters per Blender unit."""
     parts = tuple(member_body(part, results, unit) for part in member.members)
     if member.kind in (MemberKind.OBJECT, MemberKind.POINT):
-        own = MemberBody(member) if member.left_out is not None else _object_body(member, results[member.data])
+        own = (
+            MemberBody(member)
+            if member.left_out is not None
+            else _object_body(member, results[member.data])
+        )
         return _sum(own, (own, *parts), parts)
     whole = _sum(MemberBody(member), parts, parts)
     if member.kind == MemberKind.INSTANCE:
@@ -145,14 +165,23 @@ def member_body(member: Member, results: Results, unit: float) -> MemberBody:
 
 def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -> Measurement:
     """Return the results of an assembly as one body, or raise MeasureError if it has no mass."""
-    data, mass = whole.member.data, whole.mass
+    data = whole.member.data
+    mass = whole.mass
     if mass is None:
         raise ReadError(ASSEMBLY_WITHOUT_MEMBERS, subject=data.name)
-    rotation, location, place = np.eye(3), np.zeros(3), ""
+    rotation = np.eye(3)
+    location = np.zeros(3)
+    place = ""
     if isinstance(data, bpy.types.Object):
         at = locate(data, depsgraph)
-        rotation, location, place = at.rotation, at.location * unit, matrix_hash(data)
-    measured = [(part.member.data, part.measurement) for part in whole.walk() if part.measurement is not None]
+        rotation = at.rotation
+        location = at.location * unit
+        place = matrix_hash(data)
+    measured = [
+        (part.member.data, part.measurement)
+        for part in whole.walk()
+        if part.measurement is not None
+    ]
     fingerprints = {obj: measurement.fingerprint for obj, measurement in measured}
     given = settings_of(data).mass_from == "MASS"
     return measure_total(
@@ -164,10 +193,14 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
         area=whole.area,
         rotation=rotation,
         location=location,
-        fingerprint=fingerprint(members_key(whole.member, fingerprints).encode(), place, structure_hash(whole.member)),
+        fingerprint=fingerprint(
+            members_key(whole.member, fingerprints).encode(), place, structure_hash(whole.member)
+        ),
         findings=tuple(findings_of(whole, depsgraph.scene)),
         density_from=DENSITY_FROM_MASS if given else finding(DENSITY_FROM_MEMBERS),
-        health=merge_health((measurement.health, 1, measurement.area) for _, measurement in measured)
+        health=merge_health(
+            (measurement.health, 1, measurement.area) for _, measurement in measured
+        )
         if measured
         else None,
     )
@@ -181,7 +214,9 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
     named: dict[str, list[str]] = {MEMBERS_NOT_MEASURED: refused}
     for part in members:
         if part.member.left_out is not None:
-            named.setdefault(_LEFT_OUT.get(part.member.left_out.code, MEMBERS_EXCLUDED), []).append(part.member.name)
+            named.setdefault(_LEFT_OUT.get(part.member.left_out.code, MEMBERS_EXCLUDED), []).append(
+                part.member.name
+            )
     objects = [(part.member, part.measurement) for part in members if part.measurement is not None]
     named[MEMBERS_HIDDEN] = [
         member.name
@@ -189,12 +224,20 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
         if any(each.code == HIDDEN_OBJECT_MEASURED for each in measured.findings)
     ]
     named[MEMBERS_DENSITY_UNSET] = [
-        member.name for member, measured in objects if unset_density(member.data, measured, scene) is not None
+        member.name
+        for member, measured in objects
+        if unset_density(member.data, measured, scene) is not None
     ]
-    yield from (finding(code, count=len(names), names=names) for code, names in named.items() if names)
+    yield from (
+        finding(code, count=len(names), names=names) for code, names in named.items() if names
+    )
     yield from open_body_caveats((member.name, measured.method) for member, measured in objects)
     for part in members[1:]:
-        yield from (each.of_sources([part.member.name]) for each in part.findings if each.code == ASSEMBLY_MASS_GIVEN)
+        yield from (
+            each.of_sources([part.member.name])
+            for each in part.findings
+            if each.code == ASSEMBLY_MASS_GIVEN
+        )
 
 
 _LEFT_OUT: dict[str, str] = {
@@ -221,7 +264,9 @@ def _object_body(member: Member, result: Measured | Stacked | Finding) -> Member
     )
 
 
-def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody, ...]) -> MemberBody:
+def _sum(
+    like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody, ...]
+) -> MemberBody:
     """Return a copy of `like` with `parts`, and the sums of the masses, volumes and areas of bodies with a mass."""
     bodies = [body for body in bodies if body.masses]
     masses: dict[int, list[Moments]] = {}
@@ -243,11 +288,13 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
     settings = settings_of(data)
     if settings.mass_from != "MASS":
         return whole
-    given, mass = GivenPart.from_settings(settings, unit), shortest_decimal(settings.mass)
+    given = GivenPart.from_settings(settings, unit)
+    mass = shortest_decimal(settings.mass)
     rotation, location = np.eye(3), np.zeros(3)
     if isinstance(data, bpy.types.Object):
         place, turn, _scale = data.matrix_world.decompose()
-        rotation, location = rotation_matrix(turn), np.array(place[:], np.float64) * unit
+        rotation = rotation_matrix(turn)
+        location = np.array(place[:], np.float64) * unit
     try:
         moments, findings = given_moments(mass, given, rotation, location, whole.mass)
     except MeasureError as error:
@@ -260,7 +307,9 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
 
 def _is_sheared(member: Member) -> bool:
     """Return whether an instance stretches its members unevenly, so that their areas have no common factor."""
-    return member.matrix is not None and not are_similarities(np.array([member.matrix])[:, :3, :3])[0]
+    return (
+        member.matrix is not None and not are_similarities(np.array([member.matrix])[:, :3, :3])[0]
+    )
 
 
 def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBody:

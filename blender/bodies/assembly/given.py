@@ -44,16 +44,24 @@ def given_moments(
     if geometry is not None:
         factor = mass / geometry.total
         central = geometry.truncate(KNOWN_ORDER).about_center()
-        raw, rounding, inputs = central.raw * factor, central.rounding_error * factor, central.input_error * factor
+        raw = central.raw * factor
+        rounding = central.rounding_error * factor
+        inputs = central.input_error * factor
         center = central.about
-        raw[0], rounding[0], inputs[0] = mass, U * mass, 0.0
+        raw[0] = mass
+        rounding[0] = U * mass
+        inputs[0] = 0.0
     findings = []
     if given.center is not None:
         center = location + rotation @ given.center
-        raw[1:4], rounding[1:4], inputs[1:4] = 0.0, 0.0, 0.0
+        raw[1:4] = 0.0
+        rounding[1:4] = 0.0
+        inputs[1:4] = 0.0
         findings.append(finding(CENTER_GIVEN))
     if given.inertia is not None:
-        raw[4:], rounding[4:], inputs[4:] = 0.0, 0.0, 0.0
+        raw[4:] = 0.0
+        rounding[4:] = 0.0
+        inputs[4:] = 0.0
         second = rotation @ _second_moments(np.array(given.inertia)) @ rotation.T
         raw[SECOND_MOMENT_INDEX] = (second + second.T) / 2.0
         rounding[4:10] = 16.0 * U * np.trace(given.inertia)
@@ -66,7 +74,9 @@ def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
     second = np.trace(inertia) / 2.0 * np.eye(3) - inertia
     values, axes = np.linalg.eigh(second)
     if values[0] < -GIVEN_RTOL * np.trace(inertia) or not np.isfinite(values).all():
-        raise ReadError(GIVEN_INERTIA_IMPOSSIBLE, moments=np.sort(np.linalg.eigvalsh(inertia)).tolist())
+        raise ReadError(
+            GIVEN_INERTIA_IMPOSSIBLE, moments=np.sort(np.linalg.eigvalsh(inertia)).tolist()
+        )
     return (axes * np.maximum(values, 0.0)) @ axes.T
 
 
@@ -77,9 +87,13 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
     given = GivenPart.from_settings(request.obj.body_moments, request.settings.unit)
     if not given:
         return body
-    geometry = body.mass or find_extent(body, request.settings)  # raises MeasureError if there is no extent
+    geometry = body.mass or find_extent(
+        body, request.settings
+    )  # raises MeasureError if there is no extent
     location = reading.location * request.settings.unit
-    mass, findings = given_moments(request.settings.mass, given, reading.rotation, location, geometry)
+    mass, findings = given_moments(
+        request.settings.mass, given, reading.rotation, location, geometry
+    )
     if given.center is not None and _is_outside(mass.about, reading, request.settings.unit):
         findings.append(finding(GIVEN_CENTER_OUTSIDE))
     key = body.density_key + GivenPart.from_settings(request.obj.body_moments, 1.0).key
@@ -104,13 +118,18 @@ def read_point(request: Request) -> Reading | None:
 
 def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, Body]:
     """Return the results of a part without geometry, and its body, or raise ReadError if it has no mass."""
-    properties, settings = request.obj.body_moments, request.settings
+    properties = request.obj.body_moments
+    settings = request.settings
     given = GivenPart.from_settings(properties, settings.unit)
     location = reading.location * settings.unit
-    own = shortest_decimal(properties.mass) if settings.mass is None else settings.mass  # a point has no density
+    own = (
+        shortest_decimal(properties.mass) if settings.mass is None else settings.mass
+    )  # a point has no density
     mass, findings = given_moments(own, given, reading.rotation, location, None)
     varying = GivenPart.from_settings(properties, 1.0).key
-    settings = replace(settings, kind=properties.kind.lower(), density=None, mass=own, varying=varying)
+    settings = replace(
+        settings, kind=properties.kind.lower(), density=None, mass=own, varying=varying
+    )
     measurement = measure_total(
         mass,
         name=reading.name,
@@ -123,6 +142,9 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
         fingerprint=fingerprint(mass.raw.tobytes(), matrix_hash(request.obj), settings.digest),
         density_from=DENSITY_FROM_MASS,
     )
-    volume, area = measurement.volume_moments, measurement.area_moments
+    volume = measurement.volume_moments
+    area = measurement.area_moments
     assert volume is not None
-    return measurement, Body(volume, area, measurement.health, measurement.method, tuple(findings), mass=mass)
+    return measurement, Body(
+        volume, area, measurement.health, measurement.method, tuple(findings), mass=mass
+    )

@@ -27,7 +27,11 @@ from ....core.bodies.mesh_body import MAX_MASS_MOMENT, MeshBody
 from ....core.bodies.reading import Reading, attribute_to_source, to_si
 from ....core.density.grid_options import GridOptions
 from ....core.density.grid_values import density_function, empty_background_note
-from ....core.density.polynomial_mass import find_negative_point, local_coordinates, polynomial_mass_of_images
+from ....core.density.polynomial_mass import (
+    find_negative_point,
+    local_coordinates,
+    polynomial_mass_of_images,
+)
 from ....core.density.voxel_fill import MAX_VOXELS, inside_moments
 from ....core.measurement.settings import Settings
 from ....core.mesh.surface import Surface
@@ -54,7 +58,9 @@ from ..findings import (
 )
 from ..request import Request
 
-MAX_CHECKED_INSTANCES = 50  # different places of a surface in which the sign of the density is checked
+MAX_CHECKED_INSTANCES = (
+    50  # different places of a surface in which the sign of the density is checked
+)
 MAX_OUTSIDE_SHARE = 1e-9  # of the volume: a smaller share outside the grid is rounding
 
 
@@ -75,14 +81,19 @@ def polynomial_mass_result(
     reading: Reading, body: MeshBody, density: DensityField, settings: Settings, order: int
 ) -> tuple[list[Moments], list[Finding]]:
     """Return the mass moments of all parts to an order (of a shell per meter of thickness), and the findings."""
-    polynomial, findings, unit, shell = density.polynomial, [], settings.unit, settings.kind == "shell"
+    polynomial = density.polynomial
+    findings = []
+    unit = settings.unit
+    shell = settings.kind == "shell"
     assert polynomial is not None
     pieces = list(
         _sheet_pieces(reading, density.in_world, unit)
         if shell
         else _solid_pieces(reading, body, density.in_world, unit)
     )
-    if not density.in_world and any(polar_rotation(part.matrices)[1].any() for part in reading.parts):
+    if not density.in_world and any(
+        polar_rotation(part.matrices)[1].any() for part in reading.parts
+    ):
         findings.append(finding(SHEARED_DENSITY_AXES))
     findings += _negative_density_note(density, pieces, shell)
     parts = []
@@ -102,7 +113,9 @@ def polynomial_mass_result(
     return parts, findings
 
 
-def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float) -> Iterator[_Piece]:
+def _solid_pieces(
+    reading: Reading, body: MeshBody, in_world: bool, unit: float
+) -> Iterator[_Piece]:
     """Yield the repaired surfaces around the body."""
     is_united = body.method.procedure == Procedure.UNION
     if is_united and reading.instance_count > 1 and not in_world:
@@ -125,7 +138,8 @@ def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Pi
     """Yield the surfaces before repair; unevenly stretched images become surfaces of their own."""
     for part in reading.parts:
         matrices = to_si(part.matrices, unit)
-        fields, axes = local_coordinates(matrices), polar_rotation(matrices)[0]
+        fields = local_coordinates(matrices)
+        axes = polar_rotation(matrices)[0]
         for surface, image_matrices, which in group_by_similarity(part.surface, matrices):
             to_local = fields[which]
             if surface is not part.surface:  # mapped already: only the turn is left
@@ -133,7 +147,9 @@ def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Pi
             yield _Piece(surface, image_matrices, image_matrices if in_world else to_local)
 
 
-def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: bool) -> list[Finding]:
+def _negative_density_note(
+    density: DensityField, pieces: list[_Piece], shell: bool
+) -> list[Finding]:
     """Return a finding if the density may be negative in the body; raise ReadError if it is negative."""
     polynomial = density.polynomial
     assert polynomial is not None
@@ -142,7 +158,9 @@ def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: b
     for piece in pieces:
         low, high = piece.surface.box
         box = low + corners * (high - low)
-        boxes.append(np.einsum("kij,nj->kni", piece.fields[:, :3, :3], box) + piece.fields[:, None, :3, 3])
+        boxes.append(
+            np.einsum("kij,nj->kni", piece.fields[:, :3, :3], box) + piece.fields[:, None, :3, 3]
+        )
     boxes = np.concatenate(boxes)
     if polynomial.lower_bound(boxes.min(axis=(0, 1)), boxes.max(axis=(0, 1))) >= 0.0:
         return []
@@ -159,14 +177,17 @@ def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: b
             if worst is not None:
                 value, place = worst
                 point = [float(x) for x in place]
-                raise ReadError(DENSITY_NEGATIVE, density=float(value), point=point, frame=density.frame)
+                raise ReadError(
+                    DENSITY_NEGATIVE, density=float(value), point=point, frame=density.frame
+                )
             is_doubtful |= is_undecided
     return [finding(DENSITY_POSSIBLY_NEGATIVE)] if is_doubtful else []
 
 
 def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
     """Return the solid with the density of the Volume object that its settings name, or raise MeasureError."""
-    name, source = request.obj.name, request.obj.body_moments.density_volume
+    name = request.obj.name
+    source = request.obj.body_moments.density_volume
     grid = GridOptions.from_settings(source.body_moments)
     try:
         with tracking_paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
@@ -178,7 +199,9 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
     except MeasureError as error:
         if error.subject == name:  # the error is about the solid already
             raise
-        raise ReadError(OBJECT_UNREADABLE, subject=name, object=source.name, cause=error.finding.as_record()) from error
+        raise ReadError(
+            OBJECT_UNREADABLE, subject=name, object=source.name, cause=error.finding.as_record()
+        ) from error
 
 
 def voxel_filled_body(
@@ -191,7 +214,9 @@ def voxel_filled_body(
         raise ReadError(OPEN_SURFACE_OF_GRID, subject=name)
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, subject=name, **names)
-    corner = affine_matrices(np.eye(3), reading.low - 0.5)  # from corners of voxels, not from their centers
+    corner = affine_matrices(
+        np.eye(3), reading.low - 0.5
+    )  # from corners of voxels, not from their centers
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ corner
     if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
         raise ReadError(GRID_EMPTY, subject=name, **names)
@@ -199,11 +224,15 @@ def voxel_filled_body(
     triangles = np.concatenate(
         [_corners(solid, inverse @ place) for solid, matrices in body.solids for place in matrices]
     )
-    low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(np.int64)
+    low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(
+        np.int64
+    )
     high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
     if np.prod((high - low).astype(float)) > MAX_VOXELS:
         raise ReadError(GRID_TOO_LARGE, subject=name, **names, samples=(high - low).tolist())
-    moments, volume = inside_moments(triangles - low, _box_densities(reading, options, low, high), order)
+    moments, volume = inside_moments(
+        triangles - low, _box_densities(reading, options, low, high), order
+    )
     volume *= abs(np.linalg.det(matrix[:3, :3]))
     matrix = matrix @ affine_matrices(np.eye(3), low)
     mass = replace(replace(moments, measure=Measure.VOLUME).transform(matrix), measure=Measure.MASS)
@@ -214,7 +243,9 @@ def voxel_filled_body(
         raise ReadError(DENSITY_GRID_ELSEWHERE, subject=name, **names)
     meaning = options._replace(spline_order=1).meaning()
     findings = [
-        finding(GRID_DENSITY, samples=list(reading.shape), cause=meaning.as_record()).of_sources([reading.name]),
+        finding(GRID_DENSITY, samples=list(reading.shape), cause=meaning.as_record()).of_sources(
+            [reading.name]
+        ),
         *empty_background_note(options, reading.background),
     ]
     outside = float(1.0 - volume / body.volume.total)
@@ -239,13 +270,16 @@ def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
     return surface.points[surface.all_triangles()[0]].astype(np.float64, copy=False)
 
 
-def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
+def _box_densities(
+    reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray
+) -> NDArray[np.float64]:
     """Return the densities, kg/m³, of the voxels from index `low` up to, but without, `high`."""
     to_densities = density_function(options, reading.background)
     densities = np.zeros(high - low)
     for start, block in reading.blocks():
         start = np.array(start)
-        begin, end = np.maximum(start, low), np.minimum(start + block.shape, high)
+        begin = np.maximum(start, low)
+        end = np.minimum(start + block.shape, high)
         if (begin < end).all():
             in_block = tuple(slice(a, b) for a, b in zip(begin - start, end - start))
             densities[tuple(slice(a, b) for a, b in zip(begin - low, end - low))] = to_densities(

@@ -80,8 +80,14 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
         if request.settings.kind == "shell":
             raise ReadError(GRID_AS_SHELL)
         filled = filled_by_volume(body, request, KNOWN_ORDER)
-        higher = filled_by_volume(body, request, order).mass if order is not None and order > KNOWN_ORDER else None
-        return replace(filled, higher_mass=higher, density_key=density_key(request.obj, (), request.scene))
+        higher = (
+            filled_by_volume(body, request, order).mass
+            if order is not None and order > KNOWN_ORDER
+            else None
+        )
+        return replace(
+            filled, higher_mass=higher, density_key=density_key(request.obj, (), request.scene)
+        )
     weighed = _weigh(reading, body, request, KNOWN_ORDER)
     if order is not None and order > KNOWN_ORDER:
         body = replace(body, higher_mass=_weigh(reading, body, request, order).mass)
@@ -129,7 +135,9 @@ def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
     if request.settings.kind != "shell":
         raise ReadError(DENSITY_ATTRIBUTE_OF_SOLID)
     parts = [
-        _sheet_moments(reading, i, _vertex_density(reading, i, attribute), request, order, by_vertex=True)
+        _sheet_moments(
+            reading, i, _vertex_density(reading, i, attribute), request, order, by_vertex=True
+        )
         for i in range(len(reading.parts))
     ]
     source = finding(DENSITY_FROM_ATTRIBUTE, attribute=attribute)
@@ -148,7 +156,9 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
         for i, values in enumerate(face_densities.values):
             parts.extend(_sheet_moments(reading, i, values, request, order))
     else:
-        for i, ((solid, matrices), (values, names)) in enumerate(zip(body.solids, face_densities.with_names())):
+        for i, ((solid, matrices), (values, names)) in enumerate(
+            zip(body.solids, face_densities.with_names())
+        ):
             volume = solid.volume
             if order > volume.order:
                 volume = polyhedron_moments(
@@ -162,7 +172,8 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
             parts += weighed
             by_part.append((reading.parts[i].source_object_name, findings))
     findings = [*face_densities.missing_note(), *findings_by_part(by_part, reading.name)]
-    health, densities = body.health, np.concatenate(face_densities.values)
+    health = body.health
+    densities = np.concatenate(face_densities.values)
     if not shell and health.nested_components + health.overlapping_components and np.ptp(densities):
         findings.append(finding(OVERLAPPING_DENSITIES))
     return _Weighed(
@@ -183,21 +194,30 @@ class _FaceDensities:
         met: dict[Any, None] = {}
         self.faces_without_density = self.faces = 0
         for part in reading.parts:
-            slots, faces = part.attributes.materials, part.attributes.face_slots
+            slots = part.attributes.materials
+            faces = part.attributes.face_slots
             known = [material_density(material) for material in slots]
             # slot -1, no material, takes the last entry
             table = np.array(
-                [*(default_density if density is None else density for density in known), default_density], float
+                [
+                    *(default_density if density is None else density for density in known),
+                    default_density,
+                ],
+                float,
             )
             lacks = np.array([*(density is None for density in known), True])
             self.values.append(table[faces])
             self.slots.append((faces, slots))
             self.faces_without_density += int(lacks[faces].sum()) * len(part.matrices)
             self.faces += len(faces) * len(part.matrices)
-            met |= dict.fromkeys(slots[i] for i in np.unique(faces).tolist() if i >= 0 and slots[i] is not None)
+            met |= dict.fromkeys(
+                slots[i] for i in np.unique(faces).tolist() if i >= 0 and slots[i] is not None
+            )
         self.materials = sorted(met, key=lambda material: material.name_full)
         if self.faces_without_density and not default_density > 0.0:
-            raise ReadError(MATERIAL_WITHOUT_DENSITY, count=self.faces_without_density, total=self.faces)
+            raise ReadError(
+                MATERIAL_WITHOUT_DENSITY, count=self.faces_without_density, total=self.faces
+            )
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -208,7 +228,11 @@ class _FaceDensities:
         if not self.faces_without_density:
             return
         names = [material.name for material in self.materials if material_density(material) is None]
-        values = {"count": self.faces_without_density, "total": self.faces, "density": self.default_density}
+        values = {
+            "count": self.faces_without_density,
+            "total": self.faces,
+            "density": self.default_density,
+        }
         if names:
             yield finding(OBJECT_DENSITY_USED_FOR_MATERIALS, **values, materials=names)
         else:
@@ -218,7 +242,9 @@ class _FaceDensities:
         """Return a note that names at most MAX_NAMED materials with their densities."""
         known = [(material.name, material_density(material)) for material in self.materials]
         known = [(name, value) for name, value in known if value is not None]
-        parts = [finding(DENSITY_OF_MATERIAL, material=name, density=value) for name, value in known]
+        parts = [
+            finding(DENSITY_OF_MATERIAL, material=name, density=value) for name, value in known
+        ]
         parts = truncate_findings(parts, MAX_NAMED)
         if self.faces_without_density:
             parts.append(finding(DENSITY_OF_OTHERS, density=self.default_density))
@@ -227,7 +253,9 @@ class _FaceDensities:
     def with_names(self) -> Iterator[tuple[NDArray, NDArray]]:
         """Yield (f,) densities and (f,) material names of the mesh faces for each part."""
         for values, (faces, slots) in zip(self.values, self.slots):
-            names = np.array([*(material.name if material else "" for material in slots), ""], object)
+            names = np.array(
+                [*(material.name if material else "" for material in slots), ""], object
+            )
             yield values, names[faces]
 
 
@@ -240,12 +268,18 @@ def _solid_moments(
     has_foreign_material = is_slight = False
     mixed = bool(part_densities(components, values).has_several_materials.any())
     # a mean density by area needs the areas after the map
-    for matrix_group in [matrices[rows] for rows, _ in similarity_groups(matrices)] if mixed else [matrices]:
+    for matrix_group in (
+        [matrices[rows] for rows, _ in similarity_groups(matrices)] if mixed else [matrices]
+    ):
         part_density = part_densities(components, values, matrix_group[0, :3, :3])
         density = part_density.density[components.part]
         mass = solid_mass_moments(components.points, components.triangles, density, volume)
         moments.append(sum_of_images(mass, matrix_group))
-        negligible = NEGLIGIBLE * float(mass.total) / float(np.linalg.norm(np.ptp(components.points, axis=0)))
+        negligible = (
+            NEGLIGIBLE
+            * float(mass.total)
+            / float(np.linalg.norm(np.ptp(components.points, axis=0)))
+        )
         findings += _mixed_parts_notes(components, part_density, names, negligible)
         foreign = part_density.has_foreign_cavity_material
         has_foreign_material = bool(foreign.any())
@@ -265,7 +299,11 @@ def _mixed_parts_notes(
     first = np.sort(part_density.first_face[which])
     slight = bool(part_density.range_by_area[which].sum() < negligible)
     faces = np.unique(parts.face[np.isin(parts.part, which) & (parts.face >= 0)])
-    values = {"count": len(which), "total": parts.number, "materials": sorted(set(names[faces].tolist()))}
+    values = {
+        "count": len(which),
+        "total": parts.number,
+        "materials": sorted(set(names[faces].tolist())),
+    }
     return [finding(MIXED_MATERIALS, first, slight=slight, **values)]
 
 
@@ -290,7 +328,9 @@ def _sheet_moments(
     def measured(surface: Surface) -> Moments:
         triangles, faces = surface.all_triangles()
         density = values[triangles] if by_vertex else values[faces]
-        area = polyhedron_moments(surface, area_order=order, threads=request.settings.threads, allow_open=True)[1]
+        area = polyhedron_moments(
+            surface, area_order=order, threads=request.settings.threads, allow_open=True
+        )[1]
         return sheet_mass_moments(surface.points, triangles, density, area, stored=by_vertex)
 
     return area_of_instances(

@@ -106,7 +106,9 @@ class FlatRegion:
             if self.curves:
                 moments = _curve_moments(self.curves, order, self.rounded, self.stored)
             else:
-                moments = region_moments(self.points, self.edges, order, rounded=self.rounded, stored=self.stored)
+                moments = region_moments(
+                    self.points, self.edges, order, rounded=self.rounded, stored=self.stored
+                )
         if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
             raise ReadError(MOMENTS_OVERFLOW, order=order)
         return moments
@@ -149,8 +151,12 @@ def clearer_refusal(no_body: MeasureError, not_flat: MeasureError) -> MeasureErr
 
 
 def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
-    points, error, findings = reading.points * unit, reading.error * unit, list(reading.findings)
-    plane = fit_plane(points, reading.triangles, reading.rotation, reading.location * unit, error, reading.facing)
+    points = reading.points * unit
+    error = reading.error * unit
+    findings = list(reading.findings)
+    plane = fit_plane(
+        points, reading.triangles, reading.rotation, reading.location * unit, error, reading.facing
+    )
     flat = project(plane, points)
     if reading.loops is not None:
         edges = orient_loops(flat, reading.loops)
@@ -197,7 +203,11 @@ def area_findings(found: FlatRegion, area: float) -> list[Finding]:
 
 
 def _curves(
-    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SectionReading, plane: Plane, unit: float
+    obj: bpy.types.Object,
+    depsgraph: bpy.types.Depsgraph,
+    reading: SectionReading,
+    plane: Plane,
+    unit: float,
 ) -> tuple[tuple[Curve, ...], float] | None:
     """Return the outlines along the plane's axes and their float32 error, or None if only the polygons are usable."""
     if reading.loops is None:
@@ -226,10 +236,15 @@ def _curve_moments(curves: tuple[Curve, ...], order: int, rounded: float, stored
     size = (reach ** monomials(order))[positions].prod(axis=1)
     raw, rounding, moved = np.zeros((3, len(moments.raw)))
     raw[positions] = moments.raw[positions]
-    for bounds, step, known in ((rounding, rounded, moments.rounding_error), (moved, stored, np.zeros_like(raw))):
+    for bounds, step, known in (
+        (rounding, rounded, moments.rounding_error),
+        (moved, stored, np.zeros_like(raw)),
+    ):
         way = step * np.sqrt(2.0)
         # the curves sweep over no more than their control polygons are long
-        bounds[positions] = known[positions] + way * (sum(lengths) + 2.0 * way * len(corners)) * size
+        bounds[positions] = (
+            known[positions] + way * (sum(lengths) + 2.0 * way * len(corners)) * size
+        )
     return Moments(raw, about, Measure.AREA, rounding, moved)
 
 

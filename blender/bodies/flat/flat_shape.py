@@ -101,12 +101,18 @@ class FlatShape:
     def pieces(self) -> Iterator[Surface]:
         """Yield a wall along the outline, one `size` high on both sides, as far from points as the outline."""
         ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
-        count, height = len(ends), self.size
-        low, high = (np.insert(ends.reshape(-1, 2), 2, side * height, axis=1) for side in (-1.0, 1.0))
+        count = len(ends)
+        height = self.size
+        low, high = (
+            np.insert(ends.reshape(-1, 2), 2, side * height, axis=1) for side in (-1.0, 1.0)
+        )
         points = np.concatenate([low, high]) @ self.axes.T + self.center
-        a, b = 2 * np.arange(count), 2 * np.arange(count) + 1
+        a = 2 * np.arange(count)
+        b = 2 * np.arange(count) + 1
         above = 2 * count
-        triangles = np.concatenate([np.stack([a, b, b + above], axis=1), np.stack([a, b + above, a + above], axis=1)])
+        triangles = np.concatenate(
+            [np.stack([a, b, b + above], axis=1), np.stack([a, b + above, a + above], axis=1)]
+        )
         yield Surface.from_triangles(points, triangles)
 
     def match(self, target: FlatShape, residual: Residual) -> RigidMatch:
@@ -118,7 +124,9 @@ class FlatShape:
 
     def find_symmetries(self, tolerance: float) -> tuple[Symmetry, Symmetry]:
         """Return the symmetry of the outline and that of the moments; `tolerance` is relative to the size."""
-        zernike, near, skin = self.zernike(self.radius), tolerance * self.size, OutlineDistance(self)
+        zernike = self.zernike(self.radius)
+        near = tolerance * self.size
+        skin = OutlineDistance(self)
 
         def distance(points: NDArray) -> NDArray[np.float64]:
             return skin.distance(points @ self.axes.T + self.center, within=near)
@@ -146,10 +154,16 @@ def distance_from(shape: Shape | FlatShape) -> SurfaceDistance:
     return OutlineDistance(shape) if isinstance(shape, FlatShape) else SurfaceDistance(shape)
 
 
-def flat_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float | None = None) -> FlatShape:
+def flat_shape_of(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float | None = None
+) -> FlatShape:
     """Return a flat object's shape, or raise MeasureError if it is not flat, or its outlines cross."""
-    region = flat_region(obj, depsgraph, selected=False, resolution=OUTLINE_RESOLUTION, exact=False, unit=unit)
-    mark = fingerprint(region.points.tobytes(), matrix_hash(obj), settings_hash(obj, depsgraph.scene))
+    region = flat_region(
+        obj, depsgraph, selected=False, resolution=OUTLINE_RESOLUTION, exact=False, unit=unit
+    )
+    mark = fingerprint(
+        region.points.tobytes(), matrix_hash(obj), settings_hash(obj, depsgraph.scene)
+    )
     with name_subject(obj.name):
         shape = FlatShape(region, region.moments(MAX_ORDER_BY_MOMENTS), mark)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
@@ -160,7 +174,9 @@ def flat_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: f
 BodyShape = TypeVar("BodyShape")
 
 
-def comparable_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, flat: bool = False) -> Shape | FlatShape:
+def comparable_shape_of(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, flat: bool = False
+) -> Shape | FlatShape:
     """Return the shape of an object's body, else its flat shape; with `flat`, the flat shape is tried first."""
     return body_or_flat(obj, depsgraph, partial(surface_shape_of, depsgraph=depsgraph), flat)
 

@@ -60,13 +60,19 @@ from ..stacks.stack import MeasuredStack, Stacked
 from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
-NOISE_FACTORS = 0.5, 1.0, 2.0  # factors on the level of noise: a unique frame is the same for all of them
+NOISE_FACTORS = (
+    0.5,
+    1.0,
+    2.0,
+)  # factors on the level of noise: a unique frame is the same for all of them
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
 MAX_MISFIT = 0.02  # relative to the size: coordinates with a larger misfit tell no group
 COARSE_NOISE = 1e-4, 1e-3  # noise in the moments of a ball with facets
-MAX_FACETS = 0.05  # relative to the size: between a body of revolution and the polygons that stand for it
+MAX_FACETS = (
+    0.05  # relative to the size: between a body of revolution and the polygons that stand for it
+)
 SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
 
 
@@ -139,25 +145,38 @@ class Shape:
 
     def pose(self) -> dict[str, Any]:
         """Return the pose for a record (`docs/shape.md`), with harmonics to order 30 if the body may be round."""
-        body, constant = self.measurement.mass_properties, self.body.mass is None
-        axes, unique = body.principal.axes, body.principal.is_unique
+        body = self.measurement.mass_properties
+        constant = self.body.mass is None
+        axes = body.principal.axes
+        unique = body.principal.is_unique
         moments = self.moments if constant else self.measurement.mass_moments[0]
-        alike, factors = equivalent_frames(moments), NOISE_FACTORS
+        alike = equivalent_frames(moments)
+        factors = NOISE_FACTORS
         pose: dict[str, Any] = {"symmetry": None, "symmetry_order": None}
         if constant:
             if len(alike.revolution_axes) == 1 and self._is_polygonal:
                 alike = turn_by_harmonics(alike, self._harmonics(axis_last(alike)))
                 if not alike.revolution_axes:
-                    axes, unique, factors = nearest_frame(alike, axes), len(alike.frames) == 1, ()
+                    axes = nearest_frame(alike, axes)
+                    unique = len(alike.frames) == 1
+                    factors = ()
             pose = self._point_group()
-        angle = alike.tilt if EQUAL_AXES[body.principal.symmetry] else body.axes_bound(MATRIX_STRAIN)
-        if constant and alike.revolution_axes and not str(pose["symmetry"]).endswith(("K", "∞v", "∞h")):
+        angle = (
+            alike.tilt if EQUAL_AXES[body.principal.symmetry] else body.axes_bound(MATRIX_STRAIN)
+        )
+        if (
+            constant
+            and alike.revolution_axes
+            and not str(pose["symmetry"]).endswith(("K", "∞v", "∞h"))
+        ):
             angle = np.pi  # noise hides the axes that the body has
         position = body.rounding_error["center"] + body.input_error["center"]
         unique = unique and max(angle, position / self.size) <= MAX_POSE_BOUND
         for factor in factors if unique else ():
             each = equivalent_frames(moments, factor * NOISE_LEVEL)
-            is_same = len(each.frames) == 1 and np.abs(each.frames[0] - axes).max() < MAX_FRAME_CHANGE
+            is_same = (
+                len(each.frames) == 1 and np.abs(each.frames[0] - axes).max() < MAX_FRAME_CHANGE
+            )
             unique = unique and bool(is_same) and not each.revolution_axes
         return {
             "matrix": pose_matrix(body.center, axes),
@@ -184,14 +203,23 @@ class Shape:
 
     def _harmonics(self, frame: NDArray) -> AxialHarmonics:
         """Return the harmonics about the third axis of a frame, cached for the last axis."""
-        if not self._known_harmonics or abs(self._known_harmonics[0].frame[:, 2] @ frame[:, 2]) < 1.0 - EQUAL_AXES_ATOL:
-            self._known_harmonics[:] = [axial_harmonics(self.pieces(), self.center, frame, area=self._sheets)]
+        if (
+            not self._known_harmonics
+            or abs(self._known_harmonics[0].frame[:, 2] @ frame[:, 2]) < 1.0 - EQUAL_AXES_ATOL
+        ):
+            self._known_harmonics[:] = [
+                axial_harmonics(self.pieces(), self.center, frame, area=self._sheets)
+            ]
         return self._known_harmonics[0].in_frame(frame)
 
     def _confirmed_group(self, found: Symmetry) -> str | None:
         """Return the group that the surface has, or the groups that it may have; None if coordinates are too coarse."""
-        moved = max(float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()) / self.size
-        near, far = NOISE_LEVEL + 4.0 * moved, 4.0 * NOISE_LEVEL + 16.0 * moved
+        moved = (
+            max(float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces())
+            / self.size
+        )
+        near = NOISE_LEVEL + 4.0 * moved
+        far = 4.0 * NOISE_LEVEL + 16.0 * moved
         if far > MAX_MISFIT:
             return None
         placed = self._placed_triangles(near, far)
@@ -207,7 +235,11 @@ class Shape:
             names = [found.group] if known else [*names, found.group]
         elif not finite:  # as many corners at one distance as a ball has
             coarse = [symmetry(self.moments, noise, self._harmonics) for noise in COARSE_NOISE]
-            names = [each.group for each in coarse if len(each.revolution_axes) and placed.is_round(each, MAX_FACETS)]
+            names = [
+                each.group
+                for each in coarse
+                if len(each.revolution_axes) and placed.is_round(each, MAX_FACETS)
+            ]
         return " or ".join(dict.fromkeys(names)) or None
 
     @property
@@ -229,7 +261,9 @@ class Shape:
         sheets = self._sheets
 
         def pieces() -> Iterator[Surface]:
-            return (piece.transform(np.eye(3) / scale, -self.center / scale) for piece in self.pieces())
+            return (
+                piece.transform(np.eye(3) / scale, -self.center / scale) for piece in self.pieces()
+            )
 
         known = min(order, MAX_ORDER_BY_MOMENTS)
         volume, area = polyhedron_moments(
@@ -245,7 +279,9 @@ class Shape:
         if (order > MAX_ORDER_BY_MOMENTS or result.error > MAX_DESCRIPTOR_ERROR) and not sheets:
             whole = join_surfaces(list(pieces()))
             triangles = whole.all_triangles()[0]
-            result = signature(volume, radius, zernike_quadrature(whole.points / radius, triangles, order))
+            result = signature(
+                volume, radius, zernike_quadrature(whole.points / radius, triangles, order)
+            )
         return replace(result, size=scale * result.size)
 
     def match(self, target: Shape, residual: Residual) -> RigidMatch:
@@ -256,10 +292,15 @@ class Shape:
         """Return the symmetry of the surface and that of the moments; `tolerance` is relative to the size."""
         # The tolerance for moments is the same as for the surface.
         allowed = symmetry(self.piece_moments(), max(NOISE_LEVEL, tolerance))
-        placed, found = self._placed_triangles(tolerance, tolerance), allowed
+        placed = self._placed_triangles(tolerance, tolerance)
+        found = allowed
         is_round = placed.is_round(allowed, tolerance)
         # Axes of a higher order than groups can have count as axes of revolution.
-        if not is_round and max(map(placed.turn_order, allowed.revolution_axes), default=np.inf) <= MAX_AXIS_ORDER:
+        if (
+            not is_round
+            and max(map(placed.turn_order, allowed.revolution_axes), default=np.inf)
+            <= MAX_AXIS_ORDER
+        ):
             operations = (placed.groups() or [np.eye(3)[None]])[0]
             found = Symmetry(operations, np.empty((0, 3)), allowed.order)
         held = [placed.holds(operation, tolerance) for operation in found.operations]
@@ -297,7 +338,9 @@ def surface_shape(measured: Measured) -> Shape:
     return shape
 
 
-def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None) -> Shape:
+def shape_of(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None
+) -> Shape:
     """Measure an object for its shape, or raise MeasureError; NoShapeError if it can be measured but has no shape."""
     options = replace(options or MeasureOptions(), pose=True)
     return _shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
@@ -342,13 +385,18 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
     """Return the signatures of a stack's members; None for repaired, distant and ill-conditioned members."""
     found: list[Signature | None] = [None] * len(stack.members)
     linear = np.array([member.matrix[:3, :3] for member in stack.members])
-    is_even, determinant = are_similarities(linear), np.linalg.det(linear)
-    solids = next((member.shape.solids for member in stack.members if member.shape.solids is not None), None)
+    is_even = are_similarities(linear)
+    determinant = np.linalg.det(linear)
+    solids = next(
+        (member.shape.solids for member in stack.members if member.shape.solids is not None), None
+    )
     if solids is None:
         return found
     # A body is a shape in its own coordinates, or the unevenly mapped shape of a single object.
     body_of: dict[tuple[int, int], int] = {}
-    rows, maps, of_member = [], [], {}
+    rows = []
+    maps = []
+    of_member = {}
     for i, member in enumerate(stack.members):
         if member.shape.solids is None:
             continue
@@ -360,7 +408,9 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
         of_member[i] = body_of[key]
     volume = solids.volume.at(np.array(rows))
     centers = volume.about + volume.raw[:, 1:4] / volume.raw[:, :1]
-    of_bodies, scale = _signatures(solids.caps.triangles, np.array(rows), np.array(maps), centers, order)
+    of_bodies, scale = _signatures(
+        solids.caps.triangles, np.array(rows), np.array(maps), centers, order
+    )
     reach = np.finfo(np.float64).eps * np.abs(stack.mass_properties.center).max(axis=1)
     for i, body in of_member.items():
         own = of_bodies[body]
@@ -369,7 +419,9 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
         if own.error > MAX_DESCRIPTOR_ERROR or reach[i] > EXACT_DISTANCE / 2.0 * size:
             continue
         is_mirrored = bool(is_even[i] and determinant[i] < 0.0)
-        found[i] = replace(own, size=size, chirality=-own.chirality if is_mirrored else own.chirality)
+        found[i] = replace(
+            own, size=size, chirality=-own.chirality if is_mirrored else own.chirality
+        )
     return found
 
 
@@ -377,22 +429,29 @@ def _signatures(
     stack: TriangleStack, rows: NDArray[np.intp], maps: NDArray, centers: NDArray, order: int
 ) -> tuple[list[Signature], NDArray[np.float64]]:
     """Return the signatures of linearly mapped surfaces, each scaled to about unit size, and the (k,) scales."""
-    points, triangles, first = [], [], 0
+    points = []
+    triangles = []
+    first = 0
     for row, linear, center in zip(rows.tolist(), maps, centers):
-        start, begin = stack.first_point[row], stack.first_triangle[row]
+        start = stack.first_point[row]
+        begin = stack.first_triangle[row]
         own = (stack.points[start : start + stack.point_counts[row]] - center) @ linear.T
         corners = stack.triangles[begin : begin + stack.triangle_counts[row]] - start + first
         points.append(own)
         triangles.append(corners[:, ::-1] if np.linalg.det(linear) < 0.0 else corners)
         first += len(own)
-    counts, point_counts = stack.triangle_counts[rows], stack.point_counts[rows]
+    counts = stack.triangle_counts[rows]
+    point_counts = stack.point_counts[rows]
     starts = segment_starts(point_counts)
     places = np.concatenate(points)
     radius = np.sqrt(np.maximum.reduceat((places * places).sum(axis=1), starts))
     scale = 2.0 ** np.frexp(radius)[1]  # a power of two rounds nothing
     places /= np.repeat(scale, point_counts)[:, None]
-    reach, nothing = np.maximum.reduceat(np.abs(places), starts), np.zeros((len(rows), 3))
+    reach = np.maximum.reduceat(np.abs(places), starts)
+    nothing = np.zeros((len(rows), 3))
     joined = np.concatenate(triangles)
-    volume = small_moments(places, joined, counts, nothing, reach, nothing, area=False, area_moments=False)[0]
+    volume = small_moments(
+        places, joined, counts, nothing, reach, nothing, area=False, area_moments=False
+    )[0]
     volume = extend_small_moments(volume, order, places, joined, counts, reach)
     return signatures(volume, radius / scale), scale

@@ -34,34 +34,47 @@ class SurfaceDistance:
 
     def __init__(self, shape: Shape | FlatShape):
         whole = join_surfaces(list(shape.pieces()))
-        self._center, self._scale = shape.center, shape.size
+        self._center = shape.center
+        self._scale = shape.size
         self._triangles = triangles = whole.all_triangles()[0]
         self._corners = (whole.points - self._center) / self._scale
         used = whole.used_points()
         middles = whole.points[thinned(triangles)].mean(axis=1)
-        far = np.argsort(((used - self._center) ** 2).sum(axis=1), kind="stable")[-SURFACE_SAMPLES // 10 :]
+        far = np.argsort(((used - self._center) ** 2).sum(axis=1), kind="stable")[
+            -SURFACE_SAMPLES // 10 :
+        ]
         points = np.concatenate([used[far], thinned(used), middles])
         self.points = points.astype(np.float64, copy=False)
-        self._tree = BVHTree.FromPolygons(_as_tuples(self._corners), _as_tuples(triangles), all_triangles=True)
+        self._tree = BVHTree.FromPolygons(
+            _as_tuples(self._corners), _as_tuples(triangles), all_triangles=True
+        )
 
     def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
         """Return (n,) distances of (n, 3) points, in single precision if clearly above or below the limit `within`."""
         scaled = (points - self._center) / self._scale
-        nearest, queries = self._tree.find_nearest, scaled.tolist()
+        nearest = self._tree.find_nearest
+        queries = scaled.tolist()
         reach = np.inf if within is None else 1.01 * max(NEAR_DISTANCE, within / self._scale)
-        distances = np.array([nearest(row, reach)[3] for row in queries], np.float64)  # None becomes NaN
+        distances = np.array(
+            [nearest(row, reach)[3] for row in queries], np.float64
+        )  # None becomes NaN
         distances[np.isnan(distances)] = np.inf
         doubtful = np.flatnonzero(
-            (distances > EXACT_DISTANCE) & (distances < NEAR_DISTANCE) & (distances * self._scale > (within or 0.0))
+            (distances > EXACT_DISTANCE)
+            & (distances < NEAR_DISTANCE)
+            & (distances * self._scale > (within or 0.0))
         )
         for start in range(0, len(doubtful), POINTS_PER_BATCH):
             some = doubtful[start : start + POINTS_PER_BATCH]
             around = [
-                [hit[2] for hit in self._tree.find_nearest_range(queries[i], NEAR_DISTANCE)] for i in some.tolist()
+                [hit[2] for hit in self._tree.find_nearest_range(queries[i], NEAR_DISTANCE)]
+                for i in some.tolist()
             ]
             which = np.repeat(some, [len(hits) for hits in around])
             near_triangles = self._triangles[np.fromiter(chain.from_iterable(around), np.intp)]
-            np.minimum.at(distances, which, triangle_distances(scaled[which], self._corners[near_triangles]))
+            np.minimum.at(
+                distances, which, triangle_distances(scaled[which], self._corners[near_triangles])
+            )
         return distances * self._scale
 
 
@@ -92,7 +105,9 @@ def register_surfaces(
             each_skin.points[:: max(1, len(each_skin.points) // max_points) if max_points else 1]
             for each_skin in (source_skin, target_skin)
         )
-        there = target_skin.distance(scale * (source_points - source.center) @ way.T + target.center)
+        there = target_skin.distance(
+            scale * (source_points - source.center) @ way.T + target.center
+        )
         back = source_skin.distance((target_points - target.center) @ way / scale + source.center)
         return np.concatenate([there, scale * back])
 

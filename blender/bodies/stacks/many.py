@@ -27,7 +27,9 @@ Outcome = Measured | Stacked | Exception
 
 
 def measure_many(
-    objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
+    objects: Sequence[bpy.types.Object],
+    depsgraph: bpy.types.Depsgraph,
+    options: MeasureOptions = AS_SET,
 ) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
     """Measure original objects in batches; yield pairs of an object and its measurement or exception, in order."""
     pending: list[tuple[bpy.types.Object, StackMember | None]] = []
@@ -36,13 +38,16 @@ def measure_many(
         pending.append((obj, collector.add(obj)))
         if len(pending) >= MAX_OBJECTS_PER_STACK or collector.faces >= MAX_FACES_PER_STACK:
             yield from _outcomes(pending, collector)
-            pending, collector = [], _Collector(depsgraph, options)
+            pending = []
+            collector = _Collector(depsgraph, options)
     if pending:
         yield from _outcomes(pending, collector)
 
 
 def measured_in_turn(
-    objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
+    objects: Sequence[bpy.types.Object],
+    depsgraph: bpy.types.Depsgraph,
+    options: MeasureOptions = AS_SET,
 ) -> Callable[[bpy.types.Object], Measured | Stacked]:
     """Return a function from each object, in the given order, to its measurement; it measures ahead in batches."""
     waiting: dict[bpy.types.Object, Outcome] = {}
@@ -86,7 +91,9 @@ class _Collector:
     """A collector of objects that are measured together."""
 
     def __init__(self, depsgraph: bpy.types.Depsgraph, options: MeasureOptions):
-        self.depsgraph, self.options, self.scene = depsgraph, options, depsgraph.scene
+        self.depsgraph = depsgraph
+        self.options = options
+        self.scene = depsgraph.scene
         self.unit = options.meters_per_unit(self.scene)
         self.members: list[StackMember] = []
         self.shapes: list[MeshShape] = []
@@ -130,7 +137,8 @@ class _Collector:
 
     def _settings_of(self, obj: bpy.types.Object) -> Settings | None:
         """Return the settings of a solid of one density or mass, or None for other objects."""
-        options, properties = self.options, obj.body_moments
+        options = self.options
+        properties = obj.body_moments
         if options.order is not None:
             return None
         if options.density is None and (
@@ -170,4 +178,8 @@ class _Collector:
         except Exception as error:
             internal_error.finding_of(error)
             stack = None
-        return {} if stack is None else {member.number: Stacked(stack, i) for i, member in enumerate(stack.members)}
+        return (
+            {}
+            if stack is None
+            else {member.number: Stacked(stack, i) for i, member in enumerate(stack.members)}
+        )

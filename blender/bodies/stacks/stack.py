@@ -30,7 +30,12 @@ from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.integration import area_of_images
 from ....core.polyhedron.third_order import MAX_SMALL_TRIANGLES
 from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
-from ....core.solid.solid_stack import SolidStack, can_be_stacked, measure_stack, small_moments_to_order
+from ....core.solid.solid_stack import (
+    SolidStack,
+    can_be_stacked,
+    measure_stack,
+    small_moments_to_order,
+)
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
 from ....core.verdict.method import Method, Procedure
@@ -95,14 +100,20 @@ def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
         stacks.append((solids.volume, solids.area))
         for i, (shape, is_measured) in enumerate(zip(small, solids.is_measured.tolist())):
             if is_measured:
-                shape.row, shape.solids, shape.findings = i, solids, solids.findings(i)
-                shape.method = METHODS[Procedure.CAPPED if solids.caps.is_capped[i] else Procedure.EXACT]
+                shape.row = i
+                shape.solids = solids
+                shape.findings = solids.findings(i)
+                shape.method = METHODS[
+                    Procedure.CAPPED if solids.caps.is_capped[i] else Procedure.EXACT
+                ]
             else:
                 shape.alone = measure_left_over(solids, i, shape.surface)
     left_over = [shape for shape in shapes if shape.solids is None]
     for row, shape in enumerate(left_over, len(small)):
         solid = shape.alone = shape.alone or measure_solid(shape.surface)
-        shape.row, shape.method, shape.findings = row, METHODS[solid.method], solid.findings
+        shape.row = row
+        shape.method = METHODS[solid.method]
+        shape.findings = solid.findings
         stacks.append((solid.volume.at(None), solid.area.at(None)))
     volume, area = (join_moments(parts) for parts in zip(*stacks))
     return volume, area
@@ -166,17 +177,28 @@ class MeasuredStack:
     @cached_property
     def error_bounds(self) -> NDArray[np.float64]:
         """(n, 2, 4) bounds by rounding, then by float32 coordinates, of volume, area, center and inertia."""
-        volume, area, properties = self.volume, self.area, self.mass_properties
-        rounding, moved = properties.rounding_error, properties.input_error
+        volume = self.volume
+        area = self.area
+        properties = self.mass_properties
+        rounding = properties.rounding_error
+        moved = properties.input_error
         bounds = (
-            (volume.rounding_error[:, 0], area.rounding_error[:, 0], rounding["center"], rounding["inertia"]),
+            (
+                volume.rounding_error[:, 0],
+                area.rounding_error[:, 0],
+                rounding["center"],
+                rounding["inertia"],
+            ),
             (volume.input_error[:, 0], area.input_error[:, 0], moved["center"], moved["inertia"]),
         )
         return np.array(bounds).transpose(2, 0, 1)
 
     def measurement(self, i: int) -> Measurement:
         """Return the measurement of one member."""
-        obj, shape, volume, density = self.members[i].obj, self.members[i].shape, self.volume.at(i), self.density[i]
+        obj = self.members[i].obj
+        shape = self.members[i].shape
+        volume = self.volume.at(i)
+        density = self.density[i]
         return build_measurement(
             name=obj.name,
             type=obj.type,
@@ -187,7 +209,9 @@ class MeasuredStack:
             area=self.area.at(i),
             mass_properties=self.mass_properties.at(i),
             mass_moments=(volume, float(density)),
-            health=replace(shape.health, volume_spread=shape.health.volume_spread * float(self.stretch[i])),
+            health=replace(
+                shape.health, volume_spread=shape.health.volume_spread * float(self.stretch[i])
+            ),
             findings=self.findings[i],
             rotation=self.rotation[i],
             location=self.location[i],
@@ -227,20 +251,25 @@ class Stacked:
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
     """Return the stack of the members with certain volume and mass, or None; all members have the same unit."""
-    unit, axes = members[0].settings.unit, members[0].settings.axes
+    unit = members[0].settings.unit
+    axes = members[0].settings.axes
     own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])
     matrices = np.array([member.matrix for member in members], np.float64)
     usable = np.isfinite(matrices).all(axis=(1, 2))
     usable &= own.raw[which, 0] > own.rounding_error[which, 0]
     usable[usable] = ~are_singular(matrices[usable, :3, :3])
-    members, matrices, which = _chosen(members, usable), matrices[usable], which[usable]
+    members = _chosen(members, usable)
+    matrices = matrices[usable]
+    which = which[usable]
     if not members:
         return None
     matrices[:, :3] *= unit
     volume = image(own.at(which), matrices)
     area = _areas(own_area.at(which), matrices, members)
-    density, mass = np.array([(member.settings.density, member.settings.mass) for member in members], np.float64).T
+    density, mass = np.array(
+        [(member.settings.density, member.settings.mass) for member in members], np.float64
+    ).T
     from_mass = ~np.isnan(mass)
     with np.errstate(divide="ignore", invalid="ignore"):
         density = np.where(from_mass, mass / volume.raw[:, 0], density)
@@ -254,7 +283,10 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
         return None
     if len(rows) < len(members):  # the others are refused by themselves
         members = _chosen(members, rows)
-        which, matrices, density, from_mass = which[rows], matrices[rows], density[rows], from_mass[rows]
+        which = which[rows]
+        matrices = matrices[rows]
+        density = density[rows]
+        from_mass = from_mass[rows]
         volume, area = volume.at(rows), area.at(rows)
     rotation = rotation_matrix([member.quaternion for member in members])
 
@@ -269,7 +301,11 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
             higher_order = solids.to_order(np.array(together), MAX_ORDER)
             sixth.update((row, higher_order.at(i)) for i, row in enumerate(together))
         alone = {row: each.alone for row, each in found.items() if each.alone is not None}
-        small = [row for row, solid in alone.items() if solid.repaired_surface.triangle_count <= MAX_SMALL_TRIANGLES]
+        small = [
+            row
+            for row, solid in alone.items()
+            if solid.repaired_surface.triangle_count <= MAX_SMALL_TRIANGLES
+        ]
         if small:
             higher_order = small_moments_to_order([alone[row] for row in small], MAX_ORDER)
             sixth.update((row, higher_order.at(i)) for i, row in enumerate(small))
@@ -290,7 +326,10 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
         volume.raw[:, 0] / own.raw[which, 0],
         rotation,
         np.array([member.location for member in members]) * unit,
-        [fingerprint(numbers, transform_key(each.obj), each.digest) for numbers, each in zip(geometry, members)],
+        [
+            fingerprint(numbers, transform_key(each.obj), each.digest)
+            for numbers, each in zip(geometry, members)
+        ],
         [_findings(*each) for each in zip(members, find_large_bounds(volume, area, properties))],
     )
 

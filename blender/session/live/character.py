@@ -38,7 +38,9 @@ from .motion import Motion
 
 REACH = 0.01  # points up to this height touch the ground, relative to the character's size
 OUTLINE = 1e-4  # tolerance of the support polygon's corners, relative to its extent
-UNKNOWN, NO_BONE = -2, -1  # in place of a vertex's bone: not looked up yet; no weight
+# in place of a vertex's bone: not looked up yet; no weight
+UNKNOWN = -2
+NO_BONE = -1
 NO_GRAVITY = "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > Gravity."
 
 
@@ -78,7 +80,9 @@ class Parts:
         """Return the parts of several as one."""
         arrays = ("masses", "centers", "spreads", "matrices")
         names = tuple(name for parts in several for name in parts.names)
-        return cls(names, *(np.concatenate([getattr(parts, name) for parts in several]) for name in arrays))
+        return cls(
+            names, *(np.concatenate([getattr(parts, name) for parts in several]) for name in arrays)
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,18 +129,28 @@ class Character:
     spreads: NDArray[np.float64]
     size: float
     _motion: Motion = field(default_factory=lambda: Motion(1))  # of held objects
-    _vertex_bones: dict[int, NDArray[np.intp]] = field(default_factory=dict)  # by session uid of a mesh object
+    _vertex_bones: dict[int, NDArray[np.intp]] = field(
+        default_factory=dict
+    )  # by session uid of a mesh object
 
     @classmethod
-    def from_bodies(cls, armature: Object, bodies: Mapping[str, PlainBody | None], unit: float) -> Character | None:
+    def from_bodies(
+        cls, armature: Object, bodies: Mapping[str, PlainBody | None], unit: float
+    ) -> Character | None:
         """Return the character with these bodies of bones, in rest frames and SI units; None if there is no mass."""
-        bodies = {name: body for name, body in bodies.items() if body is not None and body.mass > 0.0}
+        bodies = {
+            name: body for name, body in bodies.items() if body is not None and body.mass > 0.0
+        }
         if not bodies:
             return None
-        place, frames = float64_matrix(armature.matrix_world), RestBones.read(armature).frames
-        centers, spreads, ends = [], [], []
+        place = float64_matrix(armature.matrix_world)
+        frames = RestBones.read(armature).frames
+        centers = []
+        spreads = []
+        ends = []
         for name, body in bodies.items():
-            bone, (turn, head) = armature.data.bones[name], frames[name]
+            bone = armature.data.bones[name]
+            (turn, head) = frames[name]
             to_bone = np.linalg.inv(place @ float64_matrix(bone.matrix_local))
             tensor = np.array(tensor_rows(body.inertia))
             spread = np.trace(tensor) / 2.0 * np.eye(3) - tensor
@@ -151,23 +165,35 @@ class Character:
     @classmethod
     def from_rig(cls, rig: Rig, unit: float) -> Character | None:
         """Return a character that has just been measured; None if there is no mass."""
-        several = {part.name: part.measurement for part in rig.parts if part.measurement is not None}
-        bodies = {name: PlainBody.of_body(one.in_object_frame(), 0.0, 0.0, 0.0, {}) for name, one in several.items()}
+        several = {
+            part.name: part.measurement for part in rig.parts if part.measurement is not None
+        }
+        bodies = {
+            name: PlainBody.of_body(one.in_object_frame(), 0.0, 0.0, 0.0, {})
+            for name, one in several.items()
+        }
         return cls.from_bodies(rig.armature, bodies, unit)
 
     def pose(self, armature: Object, depsgraph: Depsgraph) -> Parts:
         """Return the parts as evaluated, held objects included."""
         row = {bone.name: index for index, bone in enumerate(armature.pose.bones)}
         matrices = bone_matrices(armature, depsgraph)[[row[name] for name in self.names]]
-        linear, factors = matrices[:, :3, :3], self._factors(armature)
+        linear = matrices[:, :3, :3]
+        factors = self._factors(armature)
         centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
         spreads = factors[:, None, None] * (linear @ self.spreads @ linear.transpose(0, 2, 1))
         parts = Parts(self.names, factors * self.masses, centers, spreads, matrices)
-        return Parts.join([parts, *(self._held_part(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph))])
+        return Parts.join(
+            [
+                parts,
+                *(self._held_part(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph)),
+            ]
+        )
 
     def _factors(self, armature: Object) -> NDArray[np.float64]:
         """Return (p,) factors to the total mass; 1 for bones with their own mass, if it leaves mass for the others."""
-        total, bones = shortest_decimal(armature.body_moments_weight.mass), armature.pose.bones
+        total = shortest_decimal(armature.body_moments_weight.mass)
+        bones = armature.pose.bones
         shares = np.array([bones[name].body_moments.mass_from != "MASS" for name in self.names])
         rest = total - self.masses[~shares].sum()
         if total and rest > 0.0 and shares.any():
@@ -178,30 +204,46 @@ class Character:
         """Return a held object as a part at its own place, without mass if it cannot be measured."""
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
-        mass, center, spread = np.zeros(1), matrix[:3, 3], np.zeros((3, 3))
+        mass = np.zeros(1)
+        center = matrix[:3, 3]
+        spread = np.zeros((3, 3))
         with suppress(MeasureError):
             moments = self._motion.mass_moments(obj, depsgraph)
-            mass, center = np.array([moments.total]), moments.center / unit
+            mass = np.array([moments.total])
+            center = moments.center / unit
             spread = moments.about_center().second() / unit**2
         return Parts((obj.name,), mass, center[None], spread[None], matrix[None])
 
-    def stand(self, armature: Object, depsgraph: Depsgraph, ground: float) -> tuple[Parts, Contacts, Support | None]:
+    def stand(
+        self, armature: Object, depsgraph: Depsgraph, ground: float
+    ) -> tuple[Parts, Contacts, Support | None]:
         """Return the parts as evaluated, their contacts with the ground, and the support, None if nothing touches."""
-        parts, contacts = self.pose(armature, depsgraph), self.contacts(armature, depsgraph, ground)
+        parts = self.pose(armature, depsgraph)
+        contacts = self.contacts(armature, depsgraph, ground)
         if not len(contacts.points):
             return parts, contacts, None
-        return parts, contacts, support_of_contacts(contacts.points, parts.center, down(depsgraph.scene), OUTLINE)
+        return (
+            parts,
+            contacts,
+            support_of_contacts(contacts.points, parts.center, down(depsgraph.scene), OUTLINE),
+        )
 
     def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float) -> Contacts:
         """Return the points that touch the ground, at this height against gravity from the world's origin."""
         names = [bone.name for bone in armature.pose.bones]
         named = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
-        may_touch = np.array([not named or name in named for name in names] + [not named])  # last: no weight
+        may_touch = np.array(
+            [not named or name in named for name in names] + [not named]
+        )  # last: no weight
         gravity = down(depsgraph.scene)
-        reach, lowest, places, bones = REACH * self.size, np.inf, [np.zeros((0, 3))], [np.zeros(0, np.intp)]
+        reach = REACH * self.size
+        lowest = np.inf
+        places = [np.zeros((0, 3))]
+        bones = [np.zeros(0, np.intp)]
         for obj, bone in contact_objects(armature, depsgraph):
             evaluated = obj.evaluated_get(depsgraph)
-            points, matrix = vertex_points(evaluated.data), float64_matrix(evaluated.matrix_world)
+            points = vertex_points(evaluated.data)
+            matrix = float64_matrix(evaluated.matrix_world)
             counts = may_touch[self._bones_of(obj, bone, names, depsgraph)] if named else True
             near, touching, height = find_contacts(points, matrix, gravity, ground, reach, counts)
             lowest = min(lowest, height)
@@ -209,11 +251,17 @@ class Character:
             bones.append(self._bones_of(obj, bone, names, depsgraph, near))
         carriers = np.concatenate(bones)
         carrying = sorted(names[bone] for bone in np.unique(carriers).tolist() if bone != NO_BONE)
-        least, lifted = (lowest if np.isfinite(lowest) else None), sorted(named.difference(carrying))
+        least = lowest if np.isfinite(lowest) else None
+        lifted = sorted(named.difference(carrying))
         return Contacts(np.concatenate(places), carriers, tuple(carrying), tuple(lifted), least)
 
     def _bones_of(
-        self, obj: Object, bone: str | None, names: Sequence[str], depsgraph: Depsgraph, rows: NDArray | None = None
+        self,
+        obj: Object,
+        bone: str | None,
+        names: Sequence[str],
+        depsgraph: Depsgraph,
+        rows: NDArray | None = None,
     ) -> NDArray[np.intp]:
         """Return the bone of most weight for each vertex of an object, as indices; rows: vertices, by default all."""
         mesh = obj.evaluated_get(depsgraph).data
@@ -227,12 +275,18 @@ class Character:
             known = self._vertex_bones[obj.session_uid] = np.full(count, UNKNOWN)
         group_bones = [index.get(group.name, NO_BONE) for group in obj.vertex_groups]
         for row in rows[known[rows] == UNKNOWN].tolist():
-            weights = [(entry.weight, group_bones[entry.group]) for entry in mesh.vertices[row].groups]
-            known[row] = max([pair for pair in weights if pair[1] != NO_BONE], default=(0.0, NO_BONE))[1]
+            weights = [
+                (entry.weight, group_bones[entry.group]) for entry in mesh.vertices[row].groups
+            ]
+            known[row] = max(
+                [pair for pair in weights if pair[1] != NO_BONE], default=(0.0, NO_BONE)
+            )[1]
         return known[rows]
 
 
-_characters: SessionCache[tuple[str, Character | None]] = SessionCache()  # with the stamp of the results
+_characters: SessionCache[tuple[str, Character | None]] = (
+    SessionCache()
+)  # with the stamp of the results
 _weights: SessionCache[tuple[tuple, Weight | None]] = SessionCache()
 
 
@@ -241,7 +295,11 @@ def measure(context: Context, armature: Object) -> Rig:
     rig = measure_rig(context, armature)
     bare = [found for found in rig.measurement.findings if found.code == UNWEIGHTED_VERTICES]
     meshes = skinned_objects(armature, rig.objects)
-    if meshes and len(bare) == len(meshes) and all(found.values["count"] == found.values["total"] for found in bare):
+    if (
+        meshes
+        and len(bare) == len(meshes)
+        and all(found.values["count"] == found.values["total"] for found in bare)
+    ):
         raise ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
     return rig
 
@@ -250,7 +308,9 @@ def character(armature: Object, unit: float) -> Character | None:
     """Return a measured character, None if its bones have not been measured."""
 
     def read() -> Character | None:
-        return Character.from_bodies(armature, {bone.name: properties.stored(bone) for bone in bones}, unit)
+        return Character.from_bodies(
+            armature, {bone.name: properties.stored(bone) for bone in bones}, unit
+        )
 
     bones = armature.pose.bones
     return current_value(_characters, armature, properties.fingerprint(armature), read)
@@ -262,19 +322,30 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     def stand() -> Weight | None:
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         known = character(armature, unit)
-        if known is None or any(name not in armature.pose.bones for name in known.names):  # removed in Edit Mode
+        if known is None or any(
+            name not in armature.pose.bones for name in known.names
+        ):  # removed in Edit Mode
             return None
-        gravity, ground = down(depsgraph.scene), armature.body_moments_weight.ground
+        gravity = down(depsgraph.scene)
+        ground = armature.body_moments_weight.ground
         parts, contacts, support = known.stand(armature, depsgraph, ground)
-        foot = parts.center - (parts.center @ gravity + ground) * gravity if support is None else support.foot
+        foot = (
+            parts.center - (parts.center @ gravity + ground) * gravity
+            if support is None
+            else support.foot
+        )
         inertia = tuple((parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
         moments, axes, _ = principal_axes(inertia)
         rest = properties.stored(armature) or PlainBody(0.0, 0.0, 0.0, 0.0, (), (), (), (), {})
         center = tuple((parts.center * unit).tolist())
-        body = rest._replace(mass=parts.mass, center=center, inertia=inertia, moments=moments, axes=axes)
+        body = rest._replace(
+            mass=parts.mass, center=center, inertia=inertia, moments=moments, axes=axes
+        )
         return Weight(parts, contacts, support, foot, body)
 
-    return current_value(_weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand)
+    return current_value(
+        _weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand
+    )
 
 
 def require_gravity(scene: Scene) -> None:
@@ -285,7 +356,8 @@ def require_gravity(scene: Scene) -> None:
 
 def find(context: Context, armature: Object) -> tuple[Character, float, Rig | None]:
     """Return a character, its ground, and a new Rig. Measure and find the ground only if necessary."""
-    settings, unit = armature.body_moments_weight, shortest_decimal(context.scene.unit_settings.scale_length)
+    settings = armature.body_moments_weight
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
     if not settings.show:
         require_gravity(context.scene)
     rig = _measure_outdated(context, armature)
@@ -298,7 +370,11 @@ def find(context: Context, armature: Object) -> tuple[Character, float, Rig | No
 def _measure_outdated(context: Context, armature: Object) -> Rig | None:
     """Measure the bones unless their results are up to date."""
     is_known = weight(armature, context.evaluated_depsgraph_get()) is not None
-    return None if is_known and stale_reason(armature, context.scene) is None else measure(context, armature)
+    return (
+        None
+        if is_known and stale_reason(armature, context.scene) is None
+        else measure(context, armature)
+    )
 
 
 def store_rest(context: Context, armature: Object) -> None:
@@ -338,15 +414,24 @@ def _find_ground(context: Context, armature: Object, known: Character) -> float:
     posed = known.contacts(armature, context.evaluated_depsgraph_get(), 0.0).height
     if rest is None or posed is None:
         return armature.body_moments_weight.ground
-    return max((height for height in (0.0, rest) if height <= posed + REACH * known.size), default=posed)
+    return max(
+        (height for height in (0.0, rest) if height <= posed + REACH * known.size), default=posed
+    )
 
 
 def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str | None]]:
     """Return (object, bone) of the meshes that may touch the ground, outside Edit Mode; None for skinned meshes."""
     skinned = deformed_meshes(armature)
     hanging = [*hanging_objects(armature, skinned), *held_objects(armature, depsgraph)]
-    several = [*((obj, None) for obj in skinned), *((obj, bone) for obj, bone in hanging if obj.type == "MESH")]
-    return [(obj, bone) for obj, bone in several if not obj.hide_render and obj.visible_get() and obj.mode != "EDIT"]
+    several = [
+        *((obj, None) for obj in skinned),
+        *((obj, bone) for obj, bone in hanging if obj.type == "MESH"),
+    ]
+    return [
+        (obj, bone)
+        for obj, bone in several
+        if not obj.hide_render and obj.visible_get() and obj.mode != "EDIT"
+    ]
 
 
 def bone_matrices(armature: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:

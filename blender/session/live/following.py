@@ -58,7 +58,11 @@ def current_numbers(obj: Object) -> LiveResult | None:
 def stamp_of(obj: Object) -> Stamp | None:
     """Return a stamp of the settings of live numbers, as Blender does not report every change of a setting."""
     now = current_numbers(obj)
-    return None if now is None else Stamp(Kind.SETTINGS, measuring.settings.VERSION, settings=now.settings)
+    return (
+        None
+        if now is None
+        else Stamp(Kind.SETTINGS, measuring.settings.VERSION, settings=now.settings)
+    )
 
 
 def lag(obj: Object) -> Lag:

@@ -80,10 +80,16 @@ class Followed:
     is_pending: bool = False
 
 
-def map_properties(obj: Object, current: Followed, measured: Measurement, scene: Scene) -> PlainBody:
+def map_properties(
+    obj: Object, current: Followed, measured: Measurement, scene: Scene
+) -> PlainBody:
     """Return the numbers of an object with Live on, in its own frame, mapped to its place and stretch."""
     shown = PlainBody.of_body(
-        measured.in_object_frame(), measured.density, measured.volume, measured.area, measured.error_bound
+        measured.in_object_frame(),
+        measured.density,
+        measured.volume,
+        measured.area,
+        measured.error_bound,
     )
     if current.first_order is None and has_transform(obj, current.transform):
         return shown
@@ -101,23 +107,34 @@ def is_of_another_scale(obj: Object, current: Followed) -> bool:
 def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArray | None:
     """Return the linear map from the measured object to its current state, or None without one."""
     assert current.matrix is not None
-    before, now = current.matrix[:3, :3], float64_matrix(obj.matrix_world)[:3, :3]
-    if measured.kind != "solid" or not np.isfinite(now).all() or are_singular(np.stack([before, now])).any():
+    before = current.matrix[:3, :3]
+    now = float64_matrix(obj.matrix_world)[:3, :3]
+    if (
+        measured.kind != "solid"
+        or not np.isfinite(now).all()
+        or are_singular(np.stack([before, now])).any()
+    ):
         return None
     return now @ np.linalg.inv(before)
 
 
-def _mapped(obj: Object, current: Followed, measured: Measurement, shown: PlainBody, scene: Scene) -> PlainBody:
+def _mapped(
+    obj: Object, current: Followed, measured: Measurement, shown: PlainBody, scene: Scene
+) -> PlainBody:
     """Return the numbers mapped to the current matrix; volume and center are those of the last light pass, if any."""
     linear = _linear_map(obj, current, measured)
     if linear is None or current.matrix is None:
         return shown
-    now, unit = float64_matrix(obj.matrix_world), shortest_decimal(scene.unit_settings.scale_length)
+    now = float64_matrix(obj.matrix_world)
+    unit = shortest_decimal(scene.unit_settings.scale_length)
     stretch = abs(np.linalg.det(linear))
     center = measured.mass_properties.center / unit
     if current.first_order is None:
         volume = measured.volume * stretch
-        center = now[:3, :3] @ np.linalg.solve(current.matrix[:3, :3], center - current.matrix[:3, 3]) + now[:3, 3]
+        center = (
+            now[:3, :3] @ np.linalg.solve(current.matrix[:3, :3], center - current.matrix[:3, 3])
+            + now[:3, 3]
+        )
     else:
         volume, center = current.first_order
         volume = volume * abs(np.linalg.det(now[:3, :3])) * unit**3
@@ -128,15 +145,20 @@ def _mapped(obj: Object, current: Followed, measured: Measurement, shown: PlainB
     if object_settings(obj, scene).mass is None:
         mass *= volume / measured.volume
     turn = rotation_matrix(obj.matrix_world.to_quaternion())
-    image = affine_image(measured.mass_properties, linear, center * unit, mass, turn @ np.transpose(shown.axes))
+    image = affine_image(
+        measured.mass_properties, linear, center * unit, mass, turn @ np.transpose(shown.axes)
+    )
     location = now[:3, 3] * unit
     area = shown.area * stretch ** (2.0 / 3.0)
-    return PlainBody.of_body(image.in_frame(turn, location), mass / volume, volume, area, shown.error_bound)
+    return PlainBody.of_body(
+        image.in_frame(turn, location), mass / volume, volume, area, shown.error_bound
+    )
 
 
 def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Measure an object with Live on as it is now, and keep the outcome to be shown."""
-    current, start = followed[obj], time.thread_time()
+    current = followed[obj]
+    start = time.thread_time()
     measurement, refusal = None, None
     try:
         measurement, current.surface = _measure(obj, current, depsgraph)
@@ -145,10 +167,15 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     except Exception as error:
         refusal = internal_error.finding_of(error)
         current.tracked = None  # a half-followed body is no start for the next edit
-    result = LiveResult(measurement, refusal, time.thread_time() - start, settings_hash(obj, depsgraph.scene))
+    result = LiveResult(
+        measurement, refusal, time.thread_time() - start, settings_hash(obj, depsgraph.scene)
+    )
     current.result = result
-    current.matrix, current.transform = float64_matrix(obj.matrix_world), transform_key(obj)
-    current.first_order, current.is_pending, current.number = None, False, updates.count()
+    current.matrix = float64_matrix(obj.matrix_world)
+    current.transform = transform_key(obj)
+    current.first_order = None
+    current.is_pending = False
+    current.number = updates.count()
     handlers.count_change(obj)
     return result
 
@@ -165,10 +192,13 @@ def stop(obj: Object) -> None:
     handlers.count_change(obj)
 
 
-def _measure(obj: Object, current: Followed, depsgraph: Depsgraph) -> tuple[Measurement, MovingSurface | None]:
+def _measure(
+    obj: Object, current: Followed, depsgraph: Depsgraph
+) -> tuple[Measurement, MovingSurface | None]:
     plain = MeasureOptions(compare=False)
     request = Request.resolve(obj, depsgraph, plain)
-    options, unit = request.settings, request.settings.unit
+    options = request.settings
+    unit = request.settings.unit
     can_track = options.kind == "solid" and options.overlap == "signed" and request.density is None
     reading = read_patches(obj, depsgraph) if can_track and obj.type == "SURFACE" else None
     if reading is None or reading.all_singular:
@@ -212,9 +242,16 @@ def note_updates(events: handlers.Updates) -> None:
     """Follow updated objects at once, as far as the budget allows, and schedule their measurement."""
     global _last_event
     _last_event = time.monotonic()
-    changed = {uid: current for uid in events.reshaped if (current := followed.by_uid(uid)) is not None}
+    changed = {
+        uid: current for uid in events.reshaped if (current := followed.by_uid(uid)) is not None
+    }
     active = events.depsgraph.view_layer.objects.active
-    if active is not None and active.mode == "SCULPT" and active in followed and active.session_uid in events.others:
+    if (
+        active is not None
+        and active.mode == "SCULPT"
+        and active in followed
+        and active.session_uid in events.others
+    ):
         changed[active.session_uid] = followed[active]  # strokes are drawn without evaluating
     for current in changed.values():
         current.is_pending = True
@@ -229,10 +266,12 @@ def note_updates(events: handlers.Updates) -> None:
 
 def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
     """Follow one object, and as many others as the budget of a redraw allows, quickest passes first."""
-    budget, is_first = _budget(), True
+    budget = _budget()
+    is_first = True
     objects = [obj for obj in events.depsgraph.view_layer.objects if obj.session_uid in changed]
     for obj in sorted(objects, key=lambda obj: followed[obj].pass_seconds):
-        current, start = followed[obj], time.thread_time()
+        current = followed[obj]
+        start = time.thread_time()
         allowed = MAX_PASS * _budget() if is_first else budget
         if current.surface is None or current.pass_seconds > allowed:
             current.first_order = None
@@ -240,7 +279,8 @@ def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
             continue
         current.first_order = current.surface.follow(obj, events.depsgraph)
         current.pass_seconds = time.thread_time() - start
-        budget, is_first = budget - current.pass_seconds, False
+        budget = budget - current.pass_seconds
+        is_first = False
 
 
 def _tick() -> float | None:
@@ -251,8 +291,11 @@ def _tick() -> float | None:
     layer = bpy.context.view_layer
     depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
     due = [obj for obj in layer.objects if obj in followed and _is_due(obj)]
-    is_playing = any(window.screen.is_animation_playing for window in bpy.context.window_manager.windows)
-    budget, idle = _budget(), time.monotonic() - _last_event >= IDLE and not is_playing
+    is_playing = any(
+        window.screen.is_animation_playing for window in bpy.context.window_manager.windows
+    )
+    budget = _budget()
+    idle = time.monotonic() - _last_event >= IDLE and not is_playing
     waiting = False
     for seconds, obj in sorted(((_seconds(obj), obj) for obj in due), key=itemgetter(0)):
         if (seconds <= budget or idle) and not _is_stroking(obj):
@@ -273,7 +316,11 @@ def _tick() -> float | None:
 def _is_stroking(obj: Object) -> bool:
     """Return whether a sculpting stroke is being drawn on an object."""
     windows = bpy.context.window_manager.windows if obj.mode == "SCULPT" else ()
-    return any(running.bl_idname.startswith("SCULPT_OT_") for window in windows for running in window.modal_operators)
+    return any(
+        running.bl_idname.startswith("SCULPT_OT_")
+        for window in windows
+        for running in window.modal_operators
+    )
 
 
 def _seconds(obj: Object) -> float:
@@ -305,7 +352,9 @@ class MovingSurface:
     @classmethod
     def from_measured(cls, measured: Measured) -> MovingSurface | None:
         """Return the faces of a measured body, or None unless it is one exact or repaired mesh in its own place."""
-        reading, body, method = measured.reading, measured.body, measured.measurement.method
+        reading = measured.reading
+        body = measured.body
+        method = measured.measurement.method
         if (
             not isinstance(reading, Reading)
             or not isinstance(body, MeshBody)
@@ -317,8 +366,10 @@ class MovingSurface:
             or len(body.solids) != 1
         ):
             return None
-        (part,), ((solid, _matrices),) = reading.parts, body.solids
-        read, surface = part.surface, solid.repaired_surface
+        (part,) = reading.parts
+        ((solid, _matrices),) = body.solids
+        read = part.surface
+        surface = solid.repaired_surface
         if (
             part.source_object_name not in ("", reading.name)
             or len(part.matrices) != 1
@@ -331,7 +382,11 @@ class MovingSurface:
 
     def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]] | None:
         """Return the object's current volume and (3,) center, in its own coordinates; None if it shows other faces."""
-        if obj.type != "MESH" or obj.mode not in {"OBJECT", "POSE", "WEIGHT_PAINT"} or obj.data.is_editmode:
+        if (
+            obj.type != "MESH"
+            or obj.mode not in {"OBJECT", "POSE", "WEIGHT_PAINT"}
+            or obj.data.is_editmode
+        ):
             return None
         try:
             geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
@@ -340,5 +395,7 @@ class MovingSurface:
         points = None if geometry.mesh is None else mesh_points(geometry.mesh, self.corners)
         if points is None or len(points) != len(self.surface.points):
             return None
-        volume, center = volume_and_center(Surface(points, self.surface.triangles, quads=self.surface.quads))
+        volume, center = volume_and_center(
+            Surface(points, self.surface.triangles, quads=self.surface.quads)
+        )
         return (volume, center) if volume > 0.0 and np.isfinite(center).all() else None

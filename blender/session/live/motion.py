@@ -49,7 +49,9 @@ class _Followed:
     density: float = 0.0
     keys: tuple[str, ...] = ()
     triangles: NDArray[np.integer] | None = None
-    hull: tuple[int, ConvexHull] | None = None  # the number of the geometry's last update, and the hull then
+    hull: tuple[int, ConvexHull] | None = (
+        None  # the number of the geometry's last update, and the hull then
+    )
 
 
 @dataclass(eq=False)
@@ -60,9 +62,13 @@ class Motion:
     """
 
     frames: int
-    _followed: dict[int, _Followed] = field(default_factory=dict)  # by session uid, as undo replaces objects
+    _followed: dict[int, _Followed] = field(
+        default_factory=dict
+    )  # by session uid, as undo replaces objects
 
-    def mass_and_center(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]]:
+    def mass_and_center(
+        self, obj: Object, depsgraph: Depsgraph
+    ) -> tuple[float, NDArray[np.float64]]:
         """Return an object's mass, kg, and (3,) center, Blender's units; MeasureError if there is no certain one."""
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
@@ -79,19 +85,29 @@ class Motion:
         """Return the moments of an object's mass to second order, in the world and SI units, or raise MeasureError."""
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
-        followed, change = self._entry(obj), updates.last_change_of_geometry(obj)
-        if followed.moments is None or followed.change != change or not _can_map(followed.moments, matrix):
+        followed = self._entry(obj)
+        change = updates.last_change_of_geometry(obj)
+        if (
+            followed.moments is None
+            or followed.change != change
+            or not _can_map(followed.moments, matrix)
+        ):
             followed.change = change
             return _measured(obj, followed, depsgraph, matrix, unit)
         moments = followed.moments.transform(to_si(matrix[None], unit)[0])
-        return moments if followed.given_mass is None else moments * (followed.given_mass / moments.total)
+        return (
+            moments
+            if followed.given_mass is None
+            else moments * (followed.given_mass / moments.total)
+        )
 
     def _entry(self, obj: Object) -> _Followed:
         return self._followed.setdefault(obj.session_uid, _Followed())
 
     def hull_points(self, obj: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:
         """Return the corners of an object's convex hull, (k, 3) in Blender's units and the world."""
-        followed, change = self._entry(obj), updates.last_change_of_geometry(obj)
+        followed = self._entry(obj)
+        change = updates.last_change_of_geometry(obj)
         if followed.hull is None or followed.hull[0] != change:
             followed.hull = change, object_hull(obj, depsgraph)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
@@ -107,14 +123,17 @@ class Motion:
             return
         blocks = obj.data.shape_keys.key_blocks
         shapes = {
-            name: _coordinates(blocks[name].data) for name in {*keys, *(blocks[k].relative_key.name for k in keys)}
+            name: _coordinates(blocks[name].data)
+            for name in {*keys, *(blocks[k].relative_key.name for k in keys)}
         }
         surface = read_object(obj, depsgraph, edges=False).parts[0].surface
         surface = replace(surface, points=_coordinates(obj.data.shape_keys.reference_key.data))
         offsets = [shapes[name] - shapes[blocks[name].relative_key.name] for name in keys]
-        followed.mixes, followed.keys = fit_mixes(surface, offsets), keys
+        followed.mixes = fit_mixes(surface, offsets)
+        followed.keys = keys
         followed.triangles, _ = surface.all_triangles()
-        followed.density, followed.given_mass = measurement.density, object_settings(obj, depsgraph.scene).mass
+        followed.density = measurement.density
+        followed.given_mass = object_settings(obj, depsgraph.scene).mass
 
 
 def _mixed_keys(obj: Object) -> tuple[str, ...]:
@@ -122,12 +141,24 @@ def _mixed_keys(obj: Object) -> tuple[str, ...]:
     settings = obj.body_moments
     if obj.type != "MESH" or obj.data.shape_keys is None or not obj.data.shape_keys.use_relative:
         return ()
-    if obj.mode != "OBJECT" or obj.show_only_shape_key or any(modifier.show_viewport for modifier in obj.modifiers):
+    if (
+        obj.mode != "OBJECT"
+        or obj.show_only_shape_key
+        or any(modifier.show_viewport for modifier in obj.modifiers)
+    ):
         return ()
     if (settings.kind, settings.density_from, settings.overlap) != ("SOLID", "VALUE", "SIGNED"):
         return ()
-    blocks = [block for block in obj.data.shape_keys.key_blocks if block != obj.data.shape_keys.reference_key]
-    if any(block.vertex_group for block in blocks) or obj.instance_type != "NONE" or len(obj.particle_systems):
+    blocks = [
+        block
+        for block in obj.data.shape_keys.key_blocks
+        if block != obj.data.shape_keys.reference_key
+    ]
+    if (
+        any(block.vertex_group for block in blocks)
+        or obj.instance_type != "NONE"
+        or len(obj.particle_systems)
+    ):
         return ()
     return tuple(block.name for block in blocks if not block.mute)
 
@@ -155,7 +186,9 @@ def _mixed(
     return mass, matrix[:3, :3] @ centers[0] + matrix[:3, 3]
 
 
-def _measured(obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float) -> Moments:
+def _measured(
+    obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
+) -> Moments:
     """Measure an object, keep its moments if its matrices can map them, and return them in the world."""
     measurement = measure_body(obj, depsgraph).measurement
     if measurement.method.procedure == Procedure.OPEN:
@@ -164,7 +197,9 @@ def _measured(obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: ND
     followed.given_mass = object_settings(obj, depsgraph.scene).mass
     mass = moments.truncate(2) * factor
     to_world = to_si(matrix[None], unit)[0]
-    followed.moments = mass.transform(np.linalg.inv(to_world)) if _can_map(moments, matrix) else None
+    followed.moments = (
+        mass.transform(np.linalg.inv(to_world)) if _can_map(moments, matrix) else None
+    )
     return mass
 
 
@@ -172,4 +207,6 @@ def _can_map(moments: Moments, matrix: NDArray) -> bool:
     """Return whether a matrix can map the moments: it is not singular, and a similarity for areas and lengths."""
     if are_singular(matrix[None, :3, :3])[0]:
         return False
-    return moments.measure in (Measure.VOLUME, Measure.MASS) or bool(are_similarities(matrix[None, :3, :3])[0])
+    return moments.measure in (Measure.VOLUME, Measure.MASS) or bool(
+        are_similarities(matrix[None, :3, :3])[0]
+    )

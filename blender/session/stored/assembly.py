@@ -26,7 +26,15 @@ from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measureme
 from ...bodies.findings import ASSEMBLY_MASS_GIVEN, MEMBERS_DENSITY_UNSET
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import Stacked
-from ...read.assembly import Member, MemberKind, Root, is_assembly, members_key, members_of, settings_of
+from ...read.assembly import (
+    Member,
+    MemberKind,
+    Root,
+    is_assembly,
+    members_key,
+    members_of,
+    settings_of,
+)
 from ...write import properties
 from ..tracking import handlers, staleness, stamps
 from . import reference, results
@@ -36,13 +44,21 @@ COLUMNS = (
     *("level", "name", "type", "counted", "method", "mass", "share", "density", "volume", "area"),
     *(f"center_of_mass_{axis}" for axis in "xyz"),
     *(f"inertia_{name}" for name, *_ in TENSOR),
-    *("principal_moment_1", "principal_moment_2", "principal_moment_3", "notes", "warnings", "left_out"),
+    *(
+        "principal_moment_1",
+        "principal_moment_2",
+        "principal_moment_3",
+        "notes",
+        "warnings",
+        "left_out",
+    ),
 )
 
 
 def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     """Store the results of an assembly and its members; return names of members that cannot hold them, and reasons."""
-    scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
+    scene = context.scene
+    depsgraph = context.evaluated_depsgraph_get()
     unit = shortest_decimal(scene.unit_settings.scale_length)
     root = assembly.root.member.data
     about = reference.stored_choice(root)
@@ -51,7 +67,9 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     done: dict[Root, None] = {root: None}
     failures: list[tuple[str, Finding]] = []
     measured: list[tuple[Object, Measured | Stacked]] = []
-    for part in assembly.root.walk():  # an assembly comes before the point mass that it may be itself
+    for (
+        part
+    ) in assembly.root.walk():  # an assembly comes before the point mass that it may be itself
         data = part.member.data
         if data in done:
             continue
@@ -65,7 +83,9 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
                 failures.append((data.name_full, internal_error.finding_of(error)))
     _write_rows(assembly)
     refused = results.store_measured(context, measured)
-    return failures + [(obj.name_full, internal_error.finding_of(refusal)) for obj, refusal in refused.items()]
+    return failures + [
+        (obj.name_full, internal_error.finding_of(refusal)) for obj, refusal in refused.items()
+    ]
 
 
 def clear(root: Root) -> bool:
@@ -82,7 +102,8 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
     A total that is the plain sum of its members follows their masses. An assembly keeps its old stamp if a member's
     results are out of date, or if instances or given masses are in its total. member: the only one that changes.
     """
-    scene, depsgraph = context.scene, context.view_layer.depsgraph
+    scene = context.scene
+    depsgraph = context.view_layer.depsgraph
     roots = [scene.collection, *scene.collection.children_recursive, *scene.objects]
     stored = [root for root in roots if "body_fingerprint" in root and is_assembly(root)]
     if depsgraph is None or not stored:
@@ -91,7 +112,9 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
     if member is None:
         depsgraph = context.evaluated_depsgraph_get()
     before = {
-        root: _member_bodies(members_of(root, depsgraph)) for root in stored if staleness.was_current(root, scene)
+        root: _member_bodies(members_of(root, depsgraph))
+        for root in stored
+        if staleness.was_current(root, scene)
     }
     if member is not None:
         before = {root: bodies for root, bodies in before.items() if member in bodies}
@@ -100,9 +123,14 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
         depsgraph = context.evaluated_depsgraph_get()
     for root, bodies in before.items():
         handlers.count_change(root)
-        tree, stamp = members_of(root, depsgraph), stamps.of_results(root)
+        tree = members_of(root, depsgraph)
+        stamp = stamps.of_results(root)
         now = _member_bodies(tree)
-        if stamp is None or bodies.keys() != now.keys() or any(staleness.stale_reason(obj, scene) for obj in now):
+        if (
+            stamp is None
+            or bodies.keys() != now.keys()
+            or any(staleness.stale_reason(obj, scene) for obj in now)
+        ):
             continue
         key = members_key(tree, {obj: properties.fingerprint(obj) for obj in now})
         text = stamp._replace(geometry=digest(key.encode())).text
@@ -110,26 +138,37 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
             root["body_fingerprint"] = text
             _follow_defaults(root, now)
         elif _is_sum(root, bodies) and (total := add_bodies([*now.values()])) is not None:
-            matrix, unit = getattr(root, "matrix_world", Matrix()), shortest_decimal(scene.unit_settings.scale_length)
+            matrix = getattr(root, "matrix_world", Matrix())
+            unit = shortest_decimal(scene.unit_settings.scale_length)
             properties.store_body(root, total.in_object(matrix, unit), text)
-            _scale_rows(root, {obj.name: now[obj].mass - bodies[obj].mass for obj in now}, total.mass)
+            _scale_rows(
+                root, {obj.name: now[obj].mass - bodies[obj].mass for obj in now}, total.mass
+            )
             _follow_defaults(root, now)
 
 
 def _follow_defaults(root: Root, members: Collection[Object]) -> None:
     """Let the warning about members of the default density follow the findings of these members."""
-    findings, known = properties.findings(root), {obj.name for obj in members}
-    unset = [obj.name for obj in members if DENSITY_DEFAULTED in [found.code for found in properties.findings(obj)]]
+    findings = properties.findings(root)
+    known = {obj.name for obj in members}
+    unset = [
+        obj.name
+        for obj in members
+        if DENSITY_DEFAULTED in [found.code for found in properties.findings(obj)]
+    ]
     for found in findings:
         if found.code == MEMBERS_DENSITY_UNSET:
             unset = [*(name for name in found.values["names"] if name not in known), *unset]
     warning = [finding(MEMBERS_DENSITY_UNSET, count=len(unset), names=unset)] if unset else []
-    properties.store_findings(root, [*(found for found in findings if found.code != MEMBERS_DENSITY_UNSET), *warning])
+    properties.store_findings(
+        root, [*(found for found in findings if found.code != MEMBERS_DENSITY_UNSET), *warning]
+    )
 
 
 def _is_sum(root: Root, bodies: dict[Object, PlainBody]) -> bool:
     """Return whether the stored total of an assembly is the sum of these bodies, in the world."""
-    total, own = add_bodies([*bodies.values()]), properties.stored(root)
+    total = add_bodies([*bodies.values()])
+    own = properties.stored(root)
     if total is None or own is None:
         return False
     unit = shortest_decimal(bpy.context.scene.unit_settings.scale_length)
@@ -151,13 +190,18 @@ def _scale_rows(root: Root, gains: dict[str, float], mass: float) -> None:
 def _member_bodies(root: Member) -> dict[Object, PlainBody]:
     """Return each member's stored results in the world."""
     unit = shortest_decimal(bpy.context.scene.unit_settings.scale_length)
-    objects = [member.data for member in root.walk() if member.kind == MemberKind.OBJECT and member.is_measured]
+    objects = [
+        member.data
+        for member in root.walk()
+        if member.kind == MemberKind.OBJECT and member.is_measured
+    ]
     stored = [(obj, properties.stored(obj)) for obj in objects]
     return {obj: body.in_world(obj.matrix_world, unit) for obj, body in stored if body is not None}
 
 
 def _is_same(before: PlainBody, now: PlainBody) -> bool:
-    size, size_now = hypot(*before.gyration), hypot(*now.gyration)
+    size = hypot(*before.gyration)
+    size_now = hypot(*now.gyration)
     return (
         abs(now.mass - before.mass) <= SAME_RTOL * before.mass
         and dist(now.center, before.center) <= SAME_RTOL * max(size, *map(abs, now.center))
@@ -172,14 +216,19 @@ def _write_rows(assembly: Assembly) -> None:
     mass = assembly.measurement.mass_properties.mass
     for depth, part, factor, counted in _tree(assembly.root, 0, 1.0, True):
         row = rows.add()
-        row.name, row.depth, row.member = part.member.name, depth, part.member.kind.value
+        row.name = part.member.name
+        row.depth = depth
+        row.member = part.member.kind.value
         own = _own_mass(part) * factor
         row.is_counted = counted and own > 0.0
-        row.mass, row.share = own, own / mass if counted else 0.0
+        row.mass = own
+        row.share = own / mass if counted else 0.0
         row.findings = properties.findings_text(_row_findings(part))
 
 
-def _tree(part: MemberBody, depth: int, factor: float, counted: bool) -> Iterator[tuple[int, MemberBody, float, bool]]:
+def _tree(
+    part: MemberBody, depth: int, factor: float, counted: bool
+) -> Iterator[tuple[int, MemberBody, float, bool]]:
     """Yield for each member its depth, itself, the factor of its mass by instances, and whether its mass counts."""
     yield depth, part, factor, counted
     below = sum([_own_mass(member) for member in part.parts], 0.0)
@@ -212,7 +261,11 @@ def bill_csv(root: MemberBody, mass: float) -> list[str]:
     SI units; the inertia of a member is about its own center of mass, along the world axes.
     """
     members = _tree(root, 0, 1.0, True)
-    return list(table(COLUMNS, (_bill_row(part, mass, level, counted) for level, part, _, counted in members)))
+    return list(
+        table(
+            COLUMNS, (_bill_row(part, mass, level, counted) for level, part, _, counted in members)
+        )
+    )
 
 
 def _bill_row(part: MemberBody, mass: float, level: int, counted: bool) -> dict[str, object]:
@@ -226,17 +279,23 @@ def _bill_row(part: MemberBody, mass: float, level: int, counted: bool) -> dict[
         "counted": counted and moments is not None,
         "method": "" if measurement is None else str(measurement.method),
         "notes": [sentence(found) for found in of_severity(findings, Severity.NOTE)],
-        "warnings": [sentence(found) for found in of_severity(findings, Severity.WARNING, Severity.ERROR)],
+        "warnings": [
+            sentence(found) for found in of_severity(findings, Severity.WARNING, Severity.ERROR)
+        ],
     }
     reason = part.member.left_out or part.refusal
     if reason is not None:
         row["left_out"] = sentence(reason)
     if moments is not None:
-        whole, volume = find_properties(moments, np.eye(3)), part.volume[0]
+        whole = find_properties(moments, np.eye(3))
+        volume = part.volume[0]
         row |= {"mass": whole.mass, "volume": volume, "area": part.area[0]}
         row |= {"share": moments.total / mass} if counted else {}
         row |= {"density": moments.total / volume} if volume else {}
         row |= {f"center_of_mass_{axis}": float(value) for axis, value in zip("xyz", whole.center)}
         row |= {f"inertia_{name}": float(whole.inertia[i, j]) for name, i, j in TENSOR}
-        row |= {f"principal_moment_{k}": float(value) for k, value in enumerate(whole.principal.moments, start=1)}
+        row |= {
+            f"principal_moment_{k}": float(value)
+            for k, value in enumerate(whole.principal.moments, start=1)
+        }
     return row

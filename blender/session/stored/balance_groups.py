@@ -21,7 +21,9 @@ from ...write.properties import BALANCE_GROUP, BALANCE_SPANS
 from ..tracking import handlers
 from ..tracking.cache import SessionCache
 
-INSIDE, CONTACT, UNEXPLAINED = "body_balance_inside", "body_balance_contact", "body_balance_unexplained"
+INSIDE = "body_balance_inside"
+CONTACT = "body_balance_contact"
+UNEXPLAINED = "body_balance_unexplained"
 DESCRIPTIONS = {  # of custom properties with F-curves
     INSIDE: "Whether the center is over the support polygon",
     CONTACT: "Whether anything touches the ground",
@@ -92,7 +94,8 @@ def store(
     for axis in range(3):
         fcurves.write_keys(curves, ("location", axis), frames, centers[:, axis])
     for name, description in DESCRIPTIONS.items():
-        path, values = '["{:s}"]'.format(name), signals.get(name)
+        path = '["{:s}"]'.format(name)
+        values = signals.get(name)
         for axis in range(3):
             fcurves.write_keys(curves, (path, axis), frames[:0], frames[:0])
         if values is None:
@@ -107,7 +110,11 @@ def store(
             known = ~np.isnan(column)
             kind = fcurves.CONSTANT if is_truth else fcurves.LINEAR
             fcurves.write_keys(curves, (path, axis), frames[known], column[known], kind)
-    _supports[empty] = {round(float(frame)): support for frame, support in zip(frames, supports) if support is not None}
+    _supports[empty] = {
+        round(float(frame)): support
+        for frame, support in zip(frames, supports)
+        if support is not None
+    }
     handlers.count_change(empty)
 
 
@@ -119,8 +126,12 @@ def path(empty: Object) -> Path | None:
     if len(keys) < 3 or len({len(axis_keys) for axis_keys in keys}) != 1:
         return None
     centers = np.stack([axis_keys[:, 1] for axis_keys in keys], axis=1)
-    signals = [_keys(curves, ('["{:s}"]'.format(name), 0)) for name in (INSIDE, CONTACT, UNEXPLAINED)]
-    known = (None if one is None or len(one) != len(centers) else one[:, 1] > 0.5 for one in signals)
+    signals = [
+        _keys(curves, ('["{:s}"]'.format(name), 0)) for name in (INSIDE, CONTACT, UNEXPLAINED)
+    ]
+    known = (
+        None if one is None or len(one) != len(centers) else one[:, 1] > 0.5 for one in signals
+    )
     return Path(keys[0][:, 0], centers, *known)
 
 
@@ -129,6 +140,8 @@ def support(empty: Object, frame: int) -> Support | None:
     return (_supports.get(empty) or {}).get(frame)
 
 
-def _keys(curves: Iterable[bpy.types.FCurve], channel: fcurves.Channel) -> NDArray[np.float64] | None:
+def _keys(
+    curves: Iterable[bpy.types.FCurve], channel: fcurves.Channel
+) -> NDArray[np.float64] | None:
     curve = fcurves.find(curves, channel)
     return None if curve is None else fcurves.keys(curve)

@@ -70,7 +70,8 @@ def follow_density(obj: Object, scene: Scene) -> None:
     weights = {"density": mass / extent, "mass": None}, {"density": None, "mass": mass}
     if stamp.settings not in [replace(present, **weight).digest for weight in weights]:
         return
-    now, findings = present.digest, _findings(obj, scene)
+    now = present.digest
+    findings = _findings(obj, scene)
     if now == stamp.settings:  # a measured density may have more digits than the setting holds
         if findings != list(properties.findings(obj)):
             properties.store_findings(obj, findings)

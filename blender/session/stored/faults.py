@@ -52,10 +52,14 @@ def remember(obj: Object, measured: Measured) -> None:
     remember_surface(obj, part.surface, measured.measurement.health.defective_elements, place)
 
 
-def remember_surface(obj: Object, surface: Surface, elements: DefectiveElements, place: NDArray = OWN_PLACE) -> None:
+def remember_surface(
+    obj: Object, surface: Surface, elements: DefectiveElements, place: NDArray = OWN_PLACE
+) -> None:
     """Cache the faults of an object's surface; `place` maps it into the object's coordinates."""
     forget(obj)
-    pairs, faces = (np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES))
+    pairs, faces = (
+        np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES)
+    )
     if not len(pairs) and not len(faces):
         return
     points = surface.points.astype(np.float64) @ place[:3, :3].T + place[:3, 3]
@@ -63,7 +67,9 @@ def remember_surface(obj: Object, surface: Surface, elements: DefectiveElements,
     if len(faces):
         triangles, face = surface.all_triangles()
         triangles = triangles[np.isin(face, faces)][:MAX_DRAWN]
-    _faults[obj] = Faults(points[pairs[:MAX_DRAWN]], points[triangles], updates.last_change_of_geometry(obj))
+    _faults[obj] = Faults(
+        points[pairs[:MAX_DRAWN]], points[triangles], updates.last_change_of_geometry(obj)
+    )
 
 
 def of_object(obj: Object) -> Faults | None:

@@ -101,22 +101,30 @@ class Degree:
     rows: tuple[tuple[str, str, str], ...]
 
 
-Display = tuple[tuple[Degree, ...], Finding | None]  # a panel's degrees, and the reason if there are none
+Display = tuple[
+    tuple[Degree, ...], Finding | None
+]  # a panel's degrees, and the reason if there are none
 
 _computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
 
 
-def compute_moments(context: Context, obj: Object, order: int) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
+def compute_moments(
+    context: Context, obj: Object, order: int
+) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
     """Return the moments of a body, a flat shape or both (None for a wire), and findings."""
     depsgraph = context.evaluated_depsgraph_get()
-    region, flat, not_flat = None, None, None
+    region = None
+    flat = None
+    not_flat = None
     try:
         region = flat_region(obj, depsgraph)
         flat = FlatMoments(region.moments(order), region.plane)
     except MeasureError as error:
         not_flat = error
     try:
-        measurement = measure_object(obj, depsgraph, MeasureOptions(order=order, surface=True, threads=THREADS))
+        measurement = measure_object(
+            obj, depsgraph, MeasureOptions(order=order, surface=True, threads=THREADS)
+        )
     except MeasureError as refusal:
         if not_flat is not None:
             raise clearer_refusal(refusal, not_flat) from None
@@ -124,13 +132,19 @@ def compute_moments(context: Context, obj: Object, order: int) -> tuple[Computed
     if measurement is None or measurement.length is not None:
         if region is None or flat is None:
             return None, ()
-        computed = ComputedMoments(obj.name, None, None, None, region.rotation, region.location, flat)
+        computed = ComputedMoments(
+            obj.name, None, None, None, region.rotation, region.location, flat
+        )
         return computed, (*region.findings, *area_findings(region, flat.moments.total))
     area = measurement.area_moments.truncate(order)
-    volume = measurement.volume_moments or replace(area * measurement.thickness, measure=Measure.VOLUME)
+    volume = measurement.volume_moments or replace(
+        area * measurement.thickness, measure=Measure.VOLUME
+    )
     known = volume.truncate(order), area, measurement.moments_of_mass(order)
     place = measurement.rotation, measurement.location
-    return ComputedMoments(obj.name, *known, *place, flat, not_flat and not_flat.finding), measurement.findings
+    return ComputedMoments(
+        obj.name, *known, *place, flat, not_flat and not_flat.finding
+    ), measurement.findings
 
 
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
@@ -153,16 +167,21 @@ def stamp_of(obj: Object) -> Stamp | None:
 
 def current_numbers(obj: Object, scene: Scene) -> Display:
     """Return the moments displayed by the scene's settings, and the reason if there are none."""
-    settings, computed = scene.body_moments, computed_moments(obj)
+    settings = scene.body_moments
+    computed = computed_moments(obj)
     if computed is None:
         return (), None
-    of, about, order = settings.moments_of, settings.moments_about, min(computed.order, MAX_SHOWN_ORDER)
+    of = settings.moments_of
+    about = settings.moments_about
+    order = min(computed.order, MAX_SHOWN_ORDER)
     try:
         if about == "INVARIANT":
             return tuple(_displayed_invariants(invariants(computed, of, order), order)), None
         reference = reference_of(obj, computed, scene) if about == "REFERENCE" else None
         return tuple(
-            _displayed_degrees(in_frame(computed, of, about, settings.frame, order, reference), of, about)
+            _displayed_degrees(
+                in_frame(computed, of, about, settings.frame, order, reference), of, about
+            )
         ), None
     except MeasureError as error:
         return (), error.finding
@@ -170,7 +189,9 @@ def current_numbers(obj: Object, scene: Scene) -> Display:
 
 def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
     """Return the scene's chosen reference, or raise MeasureError if there is none."""
-    return ReferenceChoice.from_settings(scene.body_moments_reference).resolve(obj, scene, computed.center.tolist())
+    return ReferenceChoice.from_settings(scene.body_moments_reference).resolve(
+        obj, scene, computed.center.tolist()
+    )
 
 
 def _displayed_degrees(moments: Moments, of: str, about: str) -> Iterator[Degree]:
@@ -180,8 +201,15 @@ def _displayed_degrees(moments: Moments, of: str, about: str) -> Iterator[Degree
             part = part[monomials(degree)[part, 2] == 0]
         values = moments.raw[part]
         noise = np.maximum(moments.rounding_error[part], ZERO_DISPLAY_RTOL * np.abs(values).max())
-        texts = [number(0.0 if abs(value) <= least else float(value)) for value, least in zip(values, noise)]
-        cells = zip(map(label, monomials(degree)[part].tolist()), texts, (repr(float(value)) for value in values))
+        texts = [
+            number(0.0 if abs(value) <= least else float(value))
+            for value, least in zip(values, noise)
+        ]
+        cells = zip(
+            map(label, monomials(degree)[part].tolist()),
+            texts,
+            (repr(float(value)) for value in values),
+        )
         yield Degree(degree, unit(of, about, degree), tuple(cells))
 
 
@@ -207,14 +235,24 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
         raise ReadError(INVARIANTS_ORDER, order=HU_ORDER)
     moments = normalize(_select_moments(computed, of).truncate(order))
     with np.errstate(over="ignore", invalid="ignore"):
-        found = [*hu_invariants(moments), *(one for one in flusser_invariants(moments) if one.degree > HU_ORDER)]
-    if not np.isfinite([(abs(one.value), one.rounding_error, one.input_error) for one in found]).all():
+        found = [
+            *hu_invariants(moments),
+            *(one for one in flusser_invariants(moments) if one.degree > HU_ORDER),
+        ]
+    if not np.isfinite(
+        [(abs(one.value), one.rounding_error, one.input_error) for one in found]
+    ).all():
         raise ReadError(MOMENTS_OVERFLOW, order=order)
     return found
 
 
 def in_frame(
-    computed: ComputedMoments, of: str, about: str, frame: str, order: int, reference: Reference | None = None
+    computed: ComputedMoments,
+    of: str,
+    about: str,
+    frame: str,
+    order: int,
+    reference: Reference | None = None,
 ) -> Moments:
     """Return the moments in a frame or about a reference.
 
@@ -237,7 +275,12 @@ def in_frame(
 
 def _select_moments(computed: ComputedMoments, of: str) -> Moments:
     flat = None if computed.flat is None else computed.flat.moments
-    moments = {"VOLUME": computed.volume, "SURFACE": computed.area, "MASS": computed.mass, "FLAT": flat}[of]
+    moments = {
+        "VOLUME": computed.volume,
+        "SURFACE": computed.area,
+        "MASS": computed.mass,
+        "FLAT": flat,
+    }[of]
     if moments is None:
         if of == "FLAT":
             assert computed.not_flat is not None
@@ -248,9 +291,12 @@ def _select_moments(computed: ComputedMoments, of: str) -> Moments:
     return moments
 
 
-def _in_plane(computed: ComputedMoments, about: str, frame: str, order: int, reference: Reference | None) -> Moments:
+def _in_plane(
+    computed: ComputedMoments, about: str, frame: str, order: int, reference: Reference | None
+) -> Moments:
     """Return moments along the axes of the plane: normalized, about the center, or about the foot of an origin."""
-    moments, flat = _select_moments(computed, "FLAT").truncate(order), computed.flat
+    moments = _select_moments(computed, "FLAT").truncate(order)
+    flat = computed.flat
     if about == "NORMALIZED":
         return normalize(moments)
     if about == "CENTER":
@@ -262,7 +308,13 @@ def _in_plane(computed: ComputedMoments, about: str, frame: str, order: int, ref
 
 def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
     moments = _select_moments(computed, of).truncate(order)
-    origin = moments.center if about != "ORIGIN" else np.zeros(3) if frame == "WORLD" else computed.location
+    origin = (
+        moments.center
+        if about != "ORIGIN"
+        else np.zeros(3)
+        if frame == "WORLD"
+        else computed.location
+    )
     if frame == "OBJECT":
         moments = moments.in_frame(computed.rotation, origin)
     if about == "NORMALIZED":
@@ -272,7 +324,11 @@ def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order:
 
 def label(powers: list[int]) -> str:
     """Return the label of a moment: x²z, or 1."""
-    factors = [axis + str(power).translate(SUPERSCRIPTS) * (power > 1) for axis, power in zip("xyz", powers) if power]
+    factors = [
+        axis + str(power).translate(SUPERSCRIPTS) * (power > 1)
+        for axis, power in zip("xyz", powers)
+        if power
+    ]
     return "".join(factors) or "1"
 
 
@@ -285,23 +341,31 @@ def unit(of: str, about: str, degree: int) -> str:
     return "m" + str(degree + (3 if of == "VOLUME" else 2)).translate(SUPERSCRIPTS)
 
 
-def as_csv(computed: ComputedMoments, of: str, about: str, frame: str, reference: Reference | None = None) -> str:
+def as_csv(
+    computed: ComputedMoments, of: str, about: str, frame: str, reference: Reference | None = None
+) -> str:
     """Return all moments as CSV: a comment that describes them, and a row for each with its bounds."""
     bounds = ["rounding", "float32"]
     if of == "FLAT" and about == "INVARIANT":
         heading = "invariants of the flat shape, from central moments, scaled to an area of 1"
         columns = ["invariant", "real", "imaginary", *bounds]
         found = invariants(computed, of, computed.order)
-        rows = [[one.name, one.value.real, one.value.imag, one.rounding_error, one.input_error] for one in found]
+        rows = [
+            [one.name, one.value.real, one.value.imag, one.rounding_error, one.input_error]
+            for one in found
+        ]
     else:
         moments = in_frame(computed, of, about, frame, computed.order, reference)
         values = np.stack([moments.raw, moments.rounding_error, moments.input_error], axis=1)
         if of == "FLAT":
-            heading, columns = _flat_heading(computed, about, frame), ["p", "q"]
+            heading = _flat_heading(computed, about, frame)
+            columns = ["p", "q"]
             powers = multi_indices(2, moments.order)
             values = values[plane_positions(moments.order)]
         else:
-            heading, columns, powers = _heading(of, about, frame), ["p", "q", "r"], monomials(computed.order)
+            heading = _heading(of, about, frame)
+            columns = ["p", "q", "r"]
+            powers = monomials(computed.order)
         columns = [*columns, "moment", *bounds]
         rows = [[*which, *row] for which, row in zip(powers.tolist(), values.tolist())]
     text = io.StringIO()
@@ -334,7 +398,9 @@ def _flat_heading(computed: ComputedMoments, about: str, frame: str) -> str:
         y,
         normal,
         {
-            "ORIGIN": "about the foot of the {:s} frame's origin, in SI units".format(frame.lower()),
+            "ORIGIN": "about the foot of the {:s} frame's origin, in SI units".format(
+                frame.lower()
+            ),
             "CENTER": "about the centroid, in SI units",
             "REFERENCE": "about the foot of the reference's origin, in SI units",
             "NORMALIZED": "central, of the shape scaled to an area of 1",

@@ -22,16 +22,21 @@ class ActionOutcome(NamedTuple):
 
 
 _last: ActionOutcome | None = None
-_shown_in: tuple[object, ...] = ()  # the selection and the last action when the outcome was first shown
+_shown_in: tuple[
+    object, ...
+] = ()  # the selection and the last action when the outcome was first shown
 
 
 def remember(action: str, findings: Iterable[Finding]) -> None:
     """Keep the refusals of an action, in place of the previous action's. action: the operator's label."""
     global _last, _shown_in
     groups = grouped(
-        _refused(found) for found in findings if found.code == FAILURE or severity(found) == Severity.ERROR
+        _refused(found)
+        for found in findings
+        if found.code == FAILURE or severity(found) == Severity.ERROR
     )
-    _last, _shown_in = ActionOutcome(action, tuple(groups)) if groups else None, ()
+    _last = ActionOutcome(action, tuple(groups)) if groups else None
+    _shown_in = ()
 
 
 def _refused(found: Finding) -> tuple[str, Finding]:
@@ -45,9 +50,14 @@ def last() -> ActionOutcome | None:
     """Return the refusals of the last action, None if there were none, or after another selection or action."""
     global _shown_in
     if _last is not None:
-        layer, actions = bpy.context.view_layer, bpy.context.window_manager.operators
+        layer = bpy.context.view_layer
+        actions = bpy.context.window_manager.operators
         selected = tuple(obj.session_uid for obj in layer.objects.selected)
-        state = getattr(layer.objects.active, "session_uid", 0), selected, actions[-1].as_pointer() if actions else 0
+        state = (
+            getattr(layer.objects.active, "session_uid", 0),
+            selected,
+            actions[-1].as_pointer() if actions else 0,
+        )
         if _shown_in not in ((), state):
             forget()
         _shown_in = state

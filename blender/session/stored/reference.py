@@ -52,10 +52,14 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
     values = {
         "body_reference": choice.text,
         "body_reference_origin": result.reference.origin,
-        "body_reference_axes": core.numerics.quaternion(tuple(zip(*result.reference.axes))).tolist(),
+        "body_reference_axes": core.numerics.quaternion(
+            tuple(zip(*result.reference.axes))
+        ).tolist(),
         "body_reference_center": result.center,
         "body_reference_inertia": result.inertia,
-        "body_reference_error_bound": [bound[name] for bound in bounds for name in ("center", "inertia")],
+        "body_reference_error_bound": [
+            bound[name] for bound in bounds for name in ("center", "inertia")
+        ],
     }
     if choice.about == "AXIS":
         values["body_axis_inertia"] = result.about_z
@@ -82,7 +86,9 @@ def _stored_body(owner: Object | Collection, scene: Scene) -> PlainBody | None:
     if stored is None:
         return None
     if isinstance(owner, bpy.types.Object):
-        stored = stored.in_world(owner.matrix_world, shortest_decimal(scene.unit_settings.scale_length))
+        stored = stored.in_world(
+            owner.matrix_world, shortest_decimal(scene.unit_settings.scale_length)
+        )
     return stored
 
 
@@ -104,7 +110,12 @@ class ReferenceChoice:
         if settings.about == "OBJECT":
             return cls("OBJECT", settings.object.name if settings.object is not None else "")
         if settings.about == "AXIS":
-            return cls("AXIS", points=tuple(tuple(map(shortest_decimal, p)) for p in (settings.first, settings.second)))
+            return cls(
+                "AXIS",
+                points=tuple(
+                    tuple(map(shortest_decimal, p)) for p in (settings.first, settings.second)
+                ),
+            )
         return cls(settings.about)
 
     @property
@@ -142,7 +153,9 @@ class ReferenceChoice:
                 raise QueryError(REFERENCE_OBJECT_MISSING)
             return _frame(other.matrix_world, unit)
         if self.about == "AXIS" and len(self.points) == 2:
-            return Reference.through_points(*[[unit * along for along in point] for point in self.points])
+            return Reference.through_points(
+                *[[unit * along for along in point] for point in self.points]
+            )
         return Reference((0.0, 0.0, 0.0))
 
 

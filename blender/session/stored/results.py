@@ -63,16 +63,22 @@ def store_many(
             yield from _store_stack(stack, [each.index for _, each in items], scene)
 
 
-def store_measured(context: Context, measured: Iterable[tuple[Object, Measured | Stacked]]) -> dict[Object, Exception]:
+def store_measured(
+    context: Context, measured: Iterable[tuple[Object, Measured | Stacked]]
+) -> dict[Object, Exception]:
     """Store measurements of the present scene; return the errors of objects that cannot hold their results."""
     measured = list(measured)
     outcomes = list(store_many(measured, context.scene))
     shapes = {obj: found.shape_digest for obj, found in measured if isinstance(found, Stacked)}
-    staleness.mark_up_to_date(context, [obj for obj, refusal in outcomes if refusal is None], shapes)
+    staleness.mark_up_to_date(
+        context, [obj for obj, refusal in outcomes if refusal is None], shapes
+    )
     return {obj: refusal for obj, refusal in outcomes if refusal is not None}
 
 
-def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterator[tuple[Object, Exception | None]]:
+def _store_stack(
+    stack: MeasuredStack, which: list[int], scene: Scene
+) -> Iterator[tuple[Object, Exception | None]]:
     part = stack.some(which)
     objects = [member.obj for member in part.members]
     about = {}
@@ -109,9 +115,13 @@ def store_symmetry(
 ) -> None:
     """Store the symmetry that the surface confirms, and the group that the moments allow, on an object."""
     stored = obj.body_moments_symmetry
-    stored.group, stored.compatible, stored.tolerance = confirmed.group, allowed.group, tolerance
+    stored.group = confirmed.group
+    stored.compatible = allowed.group
+    stored.tolerance = tolerance
     stored.of_display_mesh = shape.is_display_mesh
-    stored.fingerprint = stamps.Stamp.parse(shape.fingerprint)._replace(transform=scale_hash(obj)).text
+    stored.fingerprint = (
+        stamps.Stamp.parse(shape.fingerprint)._replace(transform=scale_hash(obj)).text
+    )
     stored.elements.clear()
     turn = shape.rotation.T
     for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:
@@ -136,7 +146,9 @@ def store_sections(context: Context, sections: Sequence[tuple[Object, MeasuredSe
         numbers = np.concatenate([*parts, [found.area, found.perimeter]])
         mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
         section.store(obj, found, description, findings, mark, unit)
-    staleness.mark_stamps(context, [(obj, stamp) for obj, _ in sections if (stamp := stamps.of_section(obj))])
+    staleness.mark_stamps(
+        context, [(obj, stamp) for obj, _ in sections if (stamp := stamps.of_section(obj))]
+    )
 
 
 def store_rig(rig: Rig) -> list[tuple[str, Finding]]:

@@ -33,7 +33,9 @@ from ..tracking import staleness, stamps
 from ..tracking.cache import SessionCache
 from . import density
 
-MAX_WALLS, MAX_GRIDS = 64, 2  # objects: a grid may have gigabytes
+# objects: a grid may have gigabytes
+MAX_WALLS = 64
+MAX_GRIDS = 2
 DELAY = 0.3  # s after the last change of a threshold
 COARSE = "coarse"  # equals no key of settings, so that results with it are out of date
 
@@ -61,7 +63,9 @@ _pending: list[tuple[Object, Scene]] = []  # objects whose exact numbers are due
 
 def remember(obj: Object, measured: Measured, scene: Scene) -> None:
     """Remember the wall or the grid of an object's measurement, if it has one."""
-    stamp, reading, body = stamps.Stamp.parse(measured.measurement.fingerprint), measured.reading, measured.body
+    stamp = stamps.Stamp.parse(measured.measurement.fingerprint)
+    reading = measured.reading
+    body = measured.body
     of_stamp = {stamp.geometry}, stamp.transform, shortest_decimal(scene.unit_settings.scale_length)
     if isinstance(body, WallBody) and body.walls is not None:
         _walls[obj] = _Kept(replace(reading, parts=[]), body.walls.drop_arrays(), *of_stamp)
@@ -84,7 +88,8 @@ def max_thickness(obj: Object) -> float | None:
 
 def is_too_thick(obj: Object) -> bool:
     """Return whether the current thickness is known to be too large."""
-    limit, kept = max_thickness(obj), _walls.get(obj)
+    limit = max_thickness(obj)
+    kept = _walls.get(obj)
     if limit is None or kept is None:
         return False
     return not shortest_decimal(obj.body_moments.thickness) * kept.unit < limit
@@ -125,13 +130,20 @@ def on_threshold(settings: PropertyGroup, context: Context) -> None:
     bpy.app.timers.register(_finish, first_interval=DELAY)
 
 
-def _current(cache: SessionCache[_Kept[Source]], obj: Object, scene: Scene | None = None) -> _Kept[Source] | None:
+def _current(
+    cache: SessionCache[_Kept[Source]], obj: Object, scene: Scene | None = None
+) -> _Kept[Source] | None:
     """Return an object's kept walls or grid, if its stored numbers belong to the same geometry and transform.
 
     scene: if given, it must also have the same unit scale, and the object no edits since.
     """
     kept, stamp = cache.get(obj), stamps.of_results(obj)
-    if kept is None or stamp is None or stamp.geometry not in kept.geometries or stamp.transform != kept.transform:
+    if (
+        kept is None
+        or stamp is None
+        or stamp.geometry not in kept.geometries
+        or stamp.transform != kept.transform
+    ):
         return None
     if scene is not None and shortest_decimal(scene.unit_settings.scale_length) != kept.unit:
         return None
@@ -159,7 +171,9 @@ def _store(obj: Object, scene: Scene, kept: _Kept, body: Callable[[Request], Bod
     return True
 
 
-def _store_threshold(obj: Object, scene: Scene, kept: _Kept[ThresholdGrid], grid: ThresholdGrid, preview: bool) -> bool:
+def _store_threshold(
+    obj: Object, scene: Scene, kept: _Kept[ThresholdGrid], grid: ThresholdGrid, preview: bool
+) -> bool:
     """Write the numbers of the current threshold to the object; return False if there are none."""
     options = GridOptions.from_settings(obj.body_moments)
 

@@ -19,7 +19,13 @@ from ....core.inertia.plain_body import frame_about
 from ....core.mesh.hulls import ConvexHull
 from ....core.numerics.rotations import rotation_matrix
 from ....core.statics.findings import NO_STABLE_POSE
-from ....core.statics.support import CONTACT_RTOL, RestingPoses, Support, find_support, resting_poses
+from ....core.statics.support import (
+    CONTACT_RTOL,
+    RestingPoses,
+    Support,
+    find_support,
+    resting_poses,
+)
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError
 from ....core.verdict.method import Procedure
 from ...bodies.measure_object import measure_body
@@ -35,7 +41,9 @@ from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp
 from . import results
 
-SAME_SHAPE_RTOL = 1e-5  # relative to scales and centers: a turned object's float32 matrices change as much
+SAME_SHAPE_RTOL = (
+    1e-5  # relative to scales and centers: a turned object's float32 matrices change as much
+)
 
 
 @dataclass(eq=False)
@@ -83,7 +91,8 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
         return None
     key = (handlers.generation(), scene.session_uid)
     if remembered.support_key != key:
-        remembered.support_key, remembered.support = key, None
+        remembered.support_key = key
+        remembered.support = None
         body = drawn(obj, scene)
         if body is not None:
             matrix = np.array(obj.matrix_world, np.float64)
@@ -142,7 +151,9 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
             "“{object}” is finely divided: its convex hull is taken with {corners} corners, to {share:percent} of its "
             "size"
         )
-        return [reports.phrase(text, object=obj.name, corners=len(hull.points), share=hull.gap / extent)]
+        return [
+            reports.phrase(text, object=obj.name, corners=len(hull.points), share=hull.gap / extent)
+        ]
     return []
 
 
@@ -152,7 +163,8 @@ def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: 
     measured: list[Object] = []
     notes += check_stability(context, obj, measured)
     staleness.mark_up_to_date(context, measured)
-    resting, body = poses(obj, context.scene), drawn(obj, context.scene)
+    resting = poses(obj, context.scene)
+    body = drawn(obj, context.scene)
     if resting is None:  # its stored numbers are damaged
         raise EditRefusedError(NO_STABLE_POSE)
     if isinstance(resting, Finding):
@@ -163,11 +175,14 @@ def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: 
     normals = resting.normals @ rotation.T
     place = (pose - 1) % len(normals) if pose else int((normals @ gravity).argmax())
     turn = _shortest_turn(normals[place], gravity)
-    center, size = np.array(body.world.center) / body.unit, max(body.world.gyration) / body.unit
+    center = np.array(body.world.center) / body.unit
+    size = max(body.world.gyration) / body.unit
     target = world(obj)
     target[:3, :3] = turn @ target[:3, :3]
     target[:3, 3] = center + turn @ (target[:3, 3] - center)
-    target[:3, 3] += (_ground(context, obj, ground, center, gravity) - resting.heights[place]) * gravity
+    target[:3, 3] += (
+        _ground(context, obj, ground, center, gravity) - resting.heights[place]
+    ) * gravity
     off = np.abs(target - world(obj))
     is_turned = off[:, :3].max() > 1e-6 * np.abs(target[:, :3]).max()
     is_moved = is_turned or off[:, 3].max() > reframe.location_tolerance(obj, size)
@@ -182,7 +197,9 @@ def _ground(context: Context, obj: Object, ground: str, center: NDArray, gravity
         found = support(obj, context.scene)
         assert found is not None  # it is known as its poses are
         return found.height
-    point = np.array(context.scene.cursor.location, np.float64) if ground == "CURSOR" else np.zeros(3)
+    point = (
+        np.array(context.scene.cursor.location, np.float64) if ground == "CURSOR" else np.zeros(3)
+    )
     return float((point - center) @ gravity)
 
 

@@ -22,7 +22,9 @@ from .cache import SessionCache, current_value
 
 # by armature: the generation, and its meshes then
 _meshes: SessionCache[tuple[int, tuple[Object, ...]]] = SessionCache()
-_watched: dict[int, Object] = {}  # by the session uids of skinned meshes, the armatures that deform them
+_watched: dict[
+    int, Object
+] = {}  # by the session uids of skinned meshes, the armatures that deform them
 
 
 def stands_for_meshes(obj: Object) -> bool:
@@ -37,7 +39,9 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
         _meshes,
         armature,
         handlers.generation(),
-        lambda: tuple(obj for obj in objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)),
+        lambda: tuple(
+            obj for obj in objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)
+        ),
     )
 
 

@@ -63,7 +63,9 @@ class SessionCache(Generic[Value]):
         self._values.clear()
 
 
-def current_value(cache: SessionCache[tuple[Any, Value]], data: ID, key: object, compute: Callable[[], Value]) -> Value:
+def current_value(
+    cache: SessionCache[tuple[Any, Value]], data: ID, key: object, compute: Callable[[], Value]
+) -> Value:
     """Return the cached value of a data-block if it has this key; otherwise compute and cache it."""
     known = cache.get(data)
     if known is None or known[0] != key:

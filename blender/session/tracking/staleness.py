@@ -26,7 +26,13 @@ from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from ....core import measurement
 from ....core.numerics.float32 import shortest_decimal
 from ... import read
-from ...read.fingerprint import colliders_digest, has_transform, matrix_hash, scale_hash, settings_hash
+from ...read.fingerprint import (
+    colliders_digest,
+    has_transform,
+    matrix_hash,
+    scale_hash,
+    settings_hash,
+)
 from ...read.tracking import tracking_paused
 from ...settings.given import COLLIDERS
 from ...write import properties
@@ -35,8 +41,12 @@ from .cache import SessionCache, current_value
 from .stamps import EDITED, Kind, Stale, Stamp
 
 NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
-_edited: SessionCache[frozenset[str]] = SessionCache()  # the stamps that an object carried when its geometry changed
-_shapes: dict[str, bytes] = {}  # stamp → digest of the surface when it was stored: copies of an object share both
+_edited: SessionCache[frozenset[str]] = (
+    SessionCache()
+)  # the stamps that an object carried when its geometry changed
+_shapes: dict[
+    str, bytes
+] = {}  # stamp → digest of the surface when it was stored: copies of an object share both
 _resolved: dict[int, int] = {}  # session uid → number of the last update whose effects are noted
 # By assembly or armature: the generation, and the present digests of its parts. Panels ask at every redraw.
 _parts: SessionCache[tuple[int, tuple[str, str] | None]] = SessionCache()
@@ -46,7 +56,9 @@ _parts: SessionCache[tuple[int, tuple[str, str] | None]] = SessionCache()
 
 
 def stale_reason(
-    owner: Object | Collection, scene: Scene, stamp_of: Callable[[Any], Stamp | None] = stamps.of_results
+    owner: Object | Collection,
+    scene: Scene,
+    stamp_of: Callable[[Any], Stamp | None] = stamps.of_results,
 ) -> Stale | None:
     """Return the reason why stored data (of results, or `stamp_of`) are out of date, or None."""
     stamp = stamp_of(owner)
@@ -111,8 +123,13 @@ def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str
 
 def was_current(root: Object | Collection, scene: Scene) -> bool:
     """Return whether a total was up to date before the settings of members changed, which Blender reports later."""
-    stamp, parts = stamps.of_results(root), _digest_parts(root, scene, (None, Stale.SETTINGS))
-    if stamp is None or stamp.version != measurement.settings.VERSION or not _has_matrix(root, stamp, scene):
+    stamp = stamps.of_results(root)
+    parts = _digest_parts(root, scene, (None, Stale.SETTINGS))
+    if (
+        stamp is None
+        or stamp.version != measurement.settings.VERSION
+        or not _has_matrix(root, stamp, scene)
+    ):
         return False
     return parts is None or parts == (stamp.settings, stamp.geometry)
 
@@ -128,11 +145,17 @@ def _digest_parts(
         return None
     assembly = read.assembly
     member = assembly.members_of(root, depsgraph)
-    measured = [part.data for part in member.walk() if part.kind == assembly.MemberKind.OBJECT and part.is_measured]
+    measured = [
+        part.data
+        for part in member.walk()
+        if part.kind == assembly.MemberKind.OBJECT and part.is_measured
+    ]
     texts = {obj: properties.fingerprint(obj) for obj in measured}
     is_stale = any(stale_reason(obj, scene) not in current for obj in measured)
     key = assembly.members_key(member, texts)
-    return assembly.structure_hash(member), "" if is_stale else measurement.settings.digest(key.encode())
+    return assembly.structure_hash(member), "" if is_stale else measurement.settings.digest(
+        key.encode()
+    )
 
 
 CHECKS = {
@@ -141,14 +164,26 @@ CHECKS = {
         (Stale.GEOMETRY, _has_geometry),
         (Stale.TRANSFORM, _has_transform),
     ),
-    Kind.SECTION: ((Stale.UNIT_SCALE, _has_unit), (Stale.GEOMETRY, _has_geometry), (Stale.TRANSFORM, _has_matrix)),
+    Kind.SECTION: (
+        (Stale.UNIT_SCALE, _has_unit),
+        (Stale.GEOMETRY, _has_geometry),
+        (Stale.TRANSFORM, _has_matrix),
+    ),
     Kind.SYMMETRY: (
         (Stale.GEOMETRY, _has_geometry),
         (Stale.SCALE, _has_scale),
     ),
-    Kind.ASSEMBLY: ((Stale.MEMBERS, _has_structure), (Stale.MEMBER, _has_members), (Stale.TRANSFORM, _has_matrix)),
+    Kind.ASSEMBLY: (
+        (Stale.MEMBERS, _has_structure),
+        (Stale.MEMBER, _has_members),
+        (Stale.TRANSFORM, _has_matrix),
+    ),
     Kind.BONES: ((Stale.GEOMETRY, _is_unedited), (Stale.BONES, _has_structure)),
-    Kind.MOMENTS: ((Stale.SETTINGS, _has_settings), (Stale.GEOMETRY, _has_geometry), (Stale.TRANSFORM, _has_matrix)),
+    Kind.MOMENTS: (
+        (Stale.SETTINGS, _has_settings),
+        (Stale.GEOMETRY, _has_geometry),
+        (Stale.TRANSFORM, _has_matrix),
+    ),
     Kind.HULL: ((Stale.GEOMETRY, _has_geometry),),
     Kind.SETTINGS: ((Stale.SETTINGS, _has_settings),),
     Kind.COLLIDERS: (
@@ -181,7 +216,9 @@ def mark_up_to_date(
         note_edits(obj)  # for its other stamps
         mark_object(obj)
         if (stamp := stamps.of_results(obj)) is not None:
-            _remember_shape(obj, stamp, depsgraph, shapes.get(obj) if obj.mode == "OBJECT" else None)
+            _remember_shape(
+                obj, stamp, depsgraph, shapes.get(obj) if obj.mode == "OBJECT" else None
+            )
 
 
 def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None:
@@ -250,7 +287,8 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
     Call it before its stamps are replaced: later nobody could say whether the geometry has changed since.
     shape: the `surface_digest` of an object that was read just now.
     """
-    uid, newest = obj.session_uid, updates.count()
+    uid = obj.session_uid
+    newest = updates.count()
     seen = _resolved.get(uid, 0)
     if seen >= newest:
         return
@@ -259,7 +297,11 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
     if last.number <= seen:
         return
     carried = stamps.with_geometry(obj)
-    if shape is None and any([text in _shapes for text in carried]) and (depsgraph := updates.depsgraph_of(last)):
+    if (
+        shape is None
+        and any([text in _shapes for text in carried])
+        and (depsgraph := updates.depsgraph_of(last))
+    ):
         shape = read.mesh.shape_digest(obj, depsgraph)
     for text, kind in carried.items():
         if shape is not None and text in _shapes:
@@ -269,7 +311,9 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
             set_edited(obj, text, True)
 
 
-def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: bytes | None = None) -> None:
+def _remember_shape(
+    obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: bytes | None = None
+) -> None:
     """Keep the digest of the surface behind a stamp, if the data only depend on it, the settings and the transform."""
     varies = obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
@@ -281,7 +325,9 @@ def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: byte
 
 def note_all_edits() -> None:
     """Note the effects of all updates on all objects."""
-    for obj in bpy.data.objects if updates.count() else ():  # while Blender enables the add-on, it gives no data
+    for obj in (
+        bpy.data.objects if updates.count() else ()
+    ):  # while Blender enables the add-on, it gives no data
         note_edits(obj)
 
 

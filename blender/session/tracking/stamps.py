@@ -84,7 +84,13 @@ _carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
 
 def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
     """Attach a stamp to an original object's data in memory, and return it. number: `updates.count` at their making."""
-    stamp = Stamp(kind, measurement.settings.VERSION, "{:s} {:d}".format(kind.value, number), transform, settings)
+    stamp = Stamp(
+        kind,
+        measurement.settings.VERSION,
+        "{:s} {:d}".format(kind.value, number),
+        transform,
+        settings,
+    )
     _carried[obj] = {**(_carried.get(obj) or {}), kind: stamp}
     return stamp
 
@@ -116,7 +122,11 @@ def of_section(obj: Object) -> Stamp | None:
 def of_symmetry(obj: Object) -> Stamp | None:
     """Return the stamp of the stored symmetry, None if there is none."""
     # Checked first, because reading a missing property group creates it.
-    text = obj.body_moments_symmetry.fingerprint if obj.is_property_set("body_moments_symmetry") else ""
+    text = (
+        obj.body_moments_symmetry.fingerprint
+        if obj.is_property_set("body_moments_symmetry")
+        else ""
+    )
     return Stamp.parse(text, Kind.SYMMETRY) if text else None
 
 
@@ -131,7 +141,9 @@ def with_geometry(obj: Object) -> dict[str, Kind]:
     """Return the texts and kinds of an original object's stamps, except those of assemblies and bones."""
     found = [*_stored(obj), *(_carried.get(obj) or {}).values()]
     return {
-        stamp.text: stamp.kind for stamp in found if stamp is not None and stamp.kind not in (Kind.ASSEMBLY, Kind.BONES)
+        stamp.text: stamp.kind
+        for stamp in found
+        if stamp is not None and stamp.kind not in (Kind.ASSEMBLY, Kind.BONES)
     }
 
 

@@ -97,7 +97,8 @@ def note_updates(updates: handlers.Updates) -> None:
     if tracking_paused.depth:
         return
     undone, _undo_pending = _undo_pending, False
-    changed_settings, _set_since = _set_since, set()
+    changed_settings = _set_since
+    _set_since = set()
     _count += 1
     stamp = Update(_count, updates.scene.session_uid, updates.depsgraph.view_layer.name)
     if undone:
@@ -118,7 +119,11 @@ def _edited_by_undo(updates: handlers.Updates) -> set[int]:
     """Return the session uids of updated objects in Edit or Sculpt Mode, where undo only restores the shape."""
     evaluated = [update.id for update in updates.depsgraph.updates]
     objects = [data.original for data in evaluated if isinstance(data, Object)]
-    edited = {obj.session_uid for obj in objects if obj.mode == "SCULPT" or getattr(obj.data, "is_editmode", False)}
+    edited = {
+        obj.session_uid
+        for obj in objects
+        if obj.mode == "SCULPT" or getattr(obj.data, "is_editmode", False)
+    }
     return edited.intersection(updates.reshaped)
 
 

@@ -39,7 +39,12 @@ from ..formats import AUDITED
 from ..stated import Description, Place
 from .xml import MAX_ELEMENTS, Node, check_size, parse
 
-_WIDE = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16", b"<\0": "utf-16-le", b"\0<": "utf-16-be"}
+_WIDE = {
+    codecs.BOM_UTF16_LE: "utf-16",
+    codecs.BOM_UTF16_BE: "utf-16",
+    b"<\0": "utf-16-le",
+    b"\0<": "utf-16-be",
+}
 _ENCODING = re.compile(r"""^(<\?xml\b[^>]*?)\s+encoding\s*=\s*["'][\w.-]*["']""")
 _USD = "#usda"
 _LAYERED = re.compile(rb"\b(?:references|payload|subLayers)\s*=\s*(?:\[[^\]@]*)?@")
@@ -48,7 +53,9 @@ _QUEUE = ThreadPoolExecutor(1)  # One file at a time: xacro keeps what it reads 
 MAX_DESCRIPTION = 64 << 20  # bytes
 MAX_LINKS = 100_000
 MAX_INCLUDES = 1000
-_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)  # Schemes of one letter are drives.
+_SCHEME = re.compile(
+    r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL
+)  # Schemes of one letter are drives.
 PATHS = "ROS_PACKAGE_PATH"
 MAX_DEPTH = 3  # Levels of folders below a root that are searched for a package.
 
@@ -65,8 +72,12 @@ class Roots:
     def for_file(cls, file: Path, more: Sequence[Path] = (), anywhere: bool = False) -> Roots:
         """Return the roots of a description: its package's folder or else that above its own, `more`, and ROS's."""
         folder = Path(os.path.realpath(file)).parent
-        packages = (above for above in (folder, *folder.parents) if os.path.isfile(above / "package.xml"))
-        paths = [path for path in os.environ.get(PATHS, "").split(os.pathsep) if os.path.isabs(path)]
+        packages = (
+            above for above in (folder, *folder.parents) if os.path.isfile(above / "package.xml")
+        )
+        paths = [
+            path for path in os.environ.get(PATHS, "").split(os.pathsep) if os.path.isabs(path)
+        ]
         added = [Path(os.path.realpath(path)) for path in (*more, *paths)]
         return cls((next(packages, folder.parent), *added), anywhere, folder)
 
@@ -87,7 +98,9 @@ class Roots:
                 real = Path(os.path.realpath(path))
             except (OSError, ValueError):  # no name that the system knows
                 continue
-            if not os.path.isfile(real):  # False if the system refuses the name, as one that is too long
+            if not os.path.isfile(
+                real
+            ):  # False if the system refuses the name, as one that is too long
                 continue
             if self.anywhere or any(real.is_relative_to(folder) for folder in self.folders):
                 return real
@@ -138,17 +151,22 @@ def _folders_named(root: Path, name: str) -> Iterator[Path]:
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
     """Return a file's robot description. roots: folders of files that an MJCF model includes. FileError if refused."""
-    data, roots = _bytes(path), roots or Roots.for_file(path)
+    data = _bytes(path)
+    roots = roots or Roots.for_file(path)
     is_text = data.startswith(_USD.encode())
     is_binary = data.startswith((b"PXR-USDC", b"PK"))
     is_composed = is_binary or is_text and _LAYERED.search(data) is not None
     if is_text or is_binary:
-        description = AUDITED[_USD].reader_module.read(_compose_usd(path, roots) if is_composed else data)
+        description = AUDITED[_USD].reader_module.read(
+            _compose_usd(path, roots) if is_composed else data
+        )
     else:
         description = _xml(data, roots, path)
     if is_composed:  # The file itself does not hold the inertials.
         nowhere = {"span": None, "place": Place(), "inertial_place": Place()}
-        description = replace(description, links=tuple(replace(link, **nowhere) for link in description.links))
+        description = replace(
+            description, links=tuple(replace(link, **nowhere) for link in description.links)
+        )
     if len(description.links) > MAX_LINKS:
         raise FileError(FILE_TOO_LARGE, limit=MAX_LINKS, content="links")
     if not description.links:
@@ -202,13 +220,18 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
     Models that MJCF attaches become children of their elements.
     """
     is_mjcf = root.tag == "mujoco"
-    waiting: list[tuple[Node, int, Roots, tuple[Path, ...], list[Path]]] = [(root, 1, roots, (own,), [own])]
-    total, count, files = 0, 0, 0
+    waiting: list[tuple[Node, int, Roots, tuple[Path, ...], list[Path]]] = [
+        (root, 1, roots, (own,), [own])
+    ]
+    total = 0
+    count = 0
+    files = 0
     while waiting:
         node, depth, beside, within, model = waiting.pop()
         count += 1
         check_size(depth, count)
-        children, pending = [], [(child, beside, within) for child in reversed(node.children)]
+        children = []
+        pending = [(child, beside, within) for child in reversed(node.children)]
         while pending:
             child, here, above = pending.pop()
             is_attached = is_mjcf and node.tag == "asset" and child.tag == "model"
@@ -218,30 +241,42 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
                 continue
             uri = child.find("uri")
             name = child.get("file") if is_mjcf else uri.text.strip() if uri is not None else ""
-            place = {"line": child.place.line, "column": child.place.column, "source": child.place.file}
+            place = {
+                "line": child.place.line,
+                "column": child.place.column,
+                "source": child.place.file,
+            }
             try:
                 path = here.find(name) if is_mjcf else _model_file(name, here)
                 data = _bytes(path)
-                total, files = total + len(data), files + 1
+                total = total + len(data)
+                files = files + 1
                 _check_bytes(total)
                 found = parse(_narrow(data), str(path))
                 if is_attached and found.tag != root.tag:
                     raise FileError(DESCRIPTION_UNKNOWN, tag=found.tag)
             except FileError as error:
-                raise FileError(INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **place) from error
+                raise FileError(
+                    INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **place
+                ) from error
             # A model of MuJoCo includes a file once; all models may repeat, but not include themselves.
             if path in (model if is_mjcf and not is_attached else above) or files > MAX_INCLUDES:
                 raise FileError(INCLUDE_TWICE, name=name, **place)
-            there, inside = here if is_mjcf and not is_attached else here.at(path.parent), (*above, path)
+            there = here if is_mjcf and not is_attached else here.at(path.parent)
+            inside = (*above, path)
             if is_attached:
                 child.children = [found]
                 children.append(child)
                 waiting.append((found, depth + 1, there, inside, [path]))
             else:
                 model.append(path)
-                for inner in found.all("model"):  # The including file of SDF may place and name it anew.
+                for inner in found.all(
+                    "model"
+                ):  # The including file of SDF may place and name it anew.
                     stated = {one.tag: one.text.strip() for one in child.children}
-                    inner.attributes |= {name: stated[name] for name in ("name", "placement_frame") if name in stated}
+                    inner.attributes |= {
+                        name: stated[name] for name in ("name", "placement_frame") if name in stated
+                    }
                     inner.children = [*child.all("pose"), *inner.children]
                 pending += [(below, there, inside) for below in reversed(found.children)]
         node.children = children
@@ -263,7 +298,8 @@ def _model_file(name: str, roots: Roots) -> Path:
 def _compose_usd(path: Path, roots: Roots) -> bytes:
     """Return one layer of text with the content of a stage and of all files that it refers to."""
     try:
-        sdf, usd = import_module("pxr.Sdf"), import_module("pxr.Usd")
+        sdf = import_module("pxr.Sdf")
+        usd = import_module("pxr.Usd")
     except ImportError as error:
         raise FileError(USD_NOT_TEXT, name=path.name) from error
     try:
@@ -280,13 +316,16 @@ def _compose_usd(path: Path, roots: Roots) -> bytes:
                 prim.SetInstanceable(False)
         return stage.Flatten().ExportToString().encode()
     except RuntimeError as error:  # pxr.Tf.ErrorException is one.
-        place, _, reason = str(error).strip().partition("\n")[0].rpartition(" : ")  # a place in pxr's source
+        place, _, reason = (
+            str(error).strip().partition("\n")[0].rpartition(" : ")
+        )  # a place in pxr's source
         raise FileError(FILE_UNREADABLE, error=(reason or place).strip(" '")) from error
 
 
 def _check_layers(sdf: Any, path: Path, roots: Roots) -> None:
     """Raise FileError if a stage refers to a file that is missing, or outside of the roots."""
-    waiting, seen = [sdf.Layer.FindOrOpen(str(path))], {str(path)}
+    waiting = [sdf.Layer.FindOrOpen(str(path))]
+    seen = {str(path)}
     while waiting:
         layer = waiting.pop()
         if layer is None:
@@ -301,17 +340,24 @@ def _check_layers(sdf: Any, path: Path, roots: Roots) -> None:
                 roots.find(target.partition("[")[0])  # Packages have their files in brackets.
             except FileError as error:
                 before, is_text, _ = Path(layer.realPath).read_bytes().partition(name.encode())
-                place = {"source": layer.realPath, "line": before.count(b"\n") + 1 if is_text else 1}
-                raise FileError(INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **place) from error
+                place = {
+                    "source": layer.realPath,
+                    "line": before.count(b"\n") + 1 if is_text else 1,
+                }
+                raise FileError(
+                    INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **place
+                ) from error
             waiting.append(sdf.Layer.FindOrOpen(target))
 
 
 def _marked(data: bytes, file: str, places: dict[str, Place]) -> bytes:
     """Return XML whose elements have the key of their place as an attribute, which macros of xacro pass on."""
-    parts, end = [], 0
+    parts = []
+    end = 0
     for node in parse(data).walk():
         if ":" not in node.tag:  # Elements of xacro itself take no other attributes.
-            start, end = end, node.start + 1 + len(node.tag.encode())
+            start = end
+            end = node.start + 1 + len(node.tag.encode())
             parts += [data[start:end], b' %s="%d"' % (_MARK.encode(), len(places))]
             places[str(len(places))] = node.place._replace(file=file)
     return b"".join([*parts, data[end:]])
@@ -329,10 +375,13 @@ def _expand_xacro(path: Path, data: bytes, roots: Roots) -> Node:
     def expand() -> bytes:
         # xacro appends the name of each file that it reads to a list. This one refuses files outside of the roots.
         xacro.all_includes = SimpleNamespace(append=lambda name: roots.find(os.path.abspath(name)))
-        parse_file, files = xacro.parse, iter([marked])
+        parse_file = xacro.parse
+        files = iter([marked])
 
         def parse_marked(_: None, name: str) -> Any:
-            source = next(files, None) or _marked(_narrow(_bytes(Path(name))), os.path.abspath(name), places)
+            source = next(files, None) or _marked(
+                _narrow(_bytes(Path(name))), os.path.abspath(name), places
+            )
             return parse_file(BytesIO(source))
 
         xacro.parse = parse_marked
@@ -344,7 +393,9 @@ def _expand_xacro(path: Path, data: bytes, roots: Roots) -> Node:
     try:
         root = parse(_QUEUE.submit(expand).result(), str(path))
     except FileError as error:
-        raise FileError(INCLUDE_UNREADABLE, name=path.name, cause=error.finding.as_record()) from error
+        raise FileError(
+            INCLUDE_UNREADABLE, name=path.name, cause=error.finding.as_record()
+        ) from error
     except (Exception, SystemExit) as error:  # whatever an expression of the file raises
         reason = " ".join(str(error).split())[:200]
         raise FileError(XACRO_NOT_EXPANDED, name=path.name, error=reason) from error

@@ -92,7 +92,8 @@ def read_glb(path: Path) -> Arrays:
     """Return points and triangles of a binary glTF, placed by its scene, with y up as other robot readers keep it."""
     data = path.read_bytes()
     parts = dict(chunks(data)) if data[:4] == b"glTF" else {}
-    document, binary = json.loads(parts.get(JSON, b"")), parts.get(BINARY, b"")
+    document = json.loads(parts.get(JSON, b""))
+    binary = parts.get(BINARY, b"")
     scene = document["scenes"][document.get("scene", 0)]
     gathered = Gathered()
     waiting = [(index, np.eye(4)) for index in scene.get("nodes", [])]
@@ -108,7 +109,9 @@ def read_glb(path: Path) -> Arrays:
         for primitive in document["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
             if primitive.get("mode", 4) != 4:
                 continue
-            corners = _accessor(document, binary, primitive["attributes"]["POSITION"]).astype(np.float64)
+            corners = _accessor(document, binary, primitive["attributes"]["POSITION"]).astype(
+                np.float64
+            )
             order = np.arange(len(corners))
             if "indices" in primitive:
                 order = _accessor(document, binary, primitive["indices"]).ravel().astype(np.int64)
@@ -138,10 +141,18 @@ def _accessor(document: dict, binary: bytes, index: int) -> NDArray:
     stride = view.get("byteStride", item.itemsize)
     offset = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
     count = accessor["count"]
-    if count < 0 or stride < item.itemsize or offset + stride * (count - 1) + item.itemsize > len(binary):
+    if (
+        count < 0
+        or stride < item.itemsize
+        or offset + stride * (count - 1) + item.itemsize > len(binary)
+    ):
         raise ValueError("accessor")
     rows = np.ndarray(
-        (count, width), _COMPONENTS[accessor["componentType"]], binary, offset, (stride, item.base.itemsize)
+        (count, width),
+        _COMPONENTS[accessor["componentType"]],
+        binary,
+        offset,
+        (stride, item.base.itemsize),
     )
     return rows.copy()
 
@@ -190,7 +201,8 @@ def _matrix(node: Node) -> NDArray[np.float64]:
     for child in node.children:
         if child.tag not in ("matrix", "translate", "rotate", "scale"):
             continue
-        values, step = np.array(parse_numbers(child.text)), np.eye(4)
+        values = np.array(parse_numbers(child.text))
+        step = np.eye(4)
         if child.tag == "matrix":
             step = values.reshape(4, 4)
         elif child.tag == "translate":
@@ -234,7 +246,8 @@ def _positions(vertices: Node, by_id: dict[str, Node]) -> NDArray[np.float64]:
     for element in vertices.all("input"):
         if element.get("semantic") == "POSITION":
             source = by_id[element.get("source").removeprefix("#")]
-    array, accessor = source.find("float_array"), source.find("technique_common", "accessor")
+    array = source.find("float_array")
+    accessor = source.find("technique_common", "accessor")
     stride = parse_whole(accessor.get("stride", "3")) if accessor else 3
     values = np.array(parse_numbers(array.text if array else ""))
     return values[: len(values) // stride * stride].reshape(-1, stride)[:, :3]
@@ -256,7 +269,9 @@ class Gathered:
     def arrays(self) -> Arrays:
         """Return all points and triangles."""
         none = np.zeros((0, 3))
-        return np.concatenate([none, *self._points]), np.concatenate([none.astype(np.int64), *self._triangles])
+        return np.concatenate([none, *self._points]), np.concatenate(
+            [none.astype(np.int64), *self._triangles]
+        )
 
 
 def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -269,17 +284,28 @@ def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int6
     return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)
 
 
-def checked_surface(texts: Sequence[str], points: NDArray, sizes: NDArray, corners: NDArray) -> Surface:
+def checked_surface(
+    texts: Sequence[str], points: NDArray, sizes: NDArray, corners: NDArray
+) -> Surface:
     """Return faces of given sizes over points, three numbers each. ValueError, with its text, if an array is wrong."""
     is_right = (
         len(points) % 3 == 0 and (np.abs(points) <= MOST).all(),
         (sizes >= 0).all() and (sizes == np.rint(sizes)).all() and sizes.sum() == len(corners),
-        len(corners) and (corners == np.rint(corners)).all() and 0 <= corners.min() <= corners.max() < len(points) // 3,
+        len(corners)
+        and (corners == np.rint(corners)).all()
+        and 0 <= corners.min() <= corners.max() < len(points) // 3,
     )
     for text, is_fine in zip(texts, is_right):
         if not is_fine:
             raise ValueError(text[:80])
-    return Surface.from_triangles(points.reshape(-1, 3), fan(sizes.astype(np.int64), corners.astype(np.int64)))
+    return Surface.from_triangles(
+        points.reshape(-1, 3), fan(sizes.astype(np.int64), corners.astype(np.int64))
+    )
 
 
-READERS: dict[str, Callable[[Path], tuple]] = {".stl": read_stl, ".obj": read_obj, ".glb": read_glb, ".dae": read_dae}
+READERS: dict[str, Callable[[Path], tuple]] = {
+    ".stl": read_stl,
+    ".obj": read_obj,
+    ".glb": read_glb,
+    ".dae": read_dae,
+}

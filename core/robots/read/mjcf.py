@@ -46,7 +46,9 @@ class _Model:
 
     def __init__(self, root: Node, count: Iterator[int]) -> None:
         self.root, self.count = root, count
-        self.degrees, self.euler, self.mesh_folder = True, "xyz", ""
+        self.degrees = True
+        self.euler = "xyz"
+        self.mesh_folder = ""
         self.meshes: dict[str, Node] = {}
         self.models: dict[str, _Model] = {}
         self._shapes: dict[Node, Shape] = {}  # those of the meshes that were read
@@ -75,7 +77,9 @@ class _Model:
 
     def attributes(self, node: Node, current: str = "main") -> dict[str, str]:
         """Return the attributes of an element and its defaults. current: the class of those that name none."""
-        return self._classes.get(node.get("class") or current, {}).get(node.tag, {}) | node.attributes
+        return (
+            self._classes.get(node.get("class") or current, {}).get(node.tag, {}) | node.attributes
+        )
 
     def mesh(self, node: Node) -> Shape:
         """Return the mesh of an asset, which MuJoCo moves and turns before it scales it."""
@@ -85,8 +89,13 @@ class _Model:
             turn = _rotation({"quat": values["refquat"]} if "refquat" in values else {}, self)[0].T
             size = scaled.scale_along(turn, values.get("refquat", ""))
             pose = scaled.place(-turn @ numbers(values.get("refpos", ""), 3, (0.0, 0.0, 0.0)), turn)
-            file, surface = values.get("file", ""), _surface(values) if "vertex" in values else None
-            path = file if file.startswith("/") or not self.mesh_folder else self.mesh_folder + "/" + file
+            file = values.get("file", "")
+            surface = _surface(values) if "vertex" in values else None
+            path = (
+                file
+                if file.startswith("/") or not self.mesh_folder
+                else self.mesh_folder + "/" + file
+            )
             self._shapes[node] = Shape("mesh", tuple(size.tolist()), pose, path, surface=surface)
         return self._shapes[node]
 
@@ -113,22 +122,27 @@ class _Frame(NamedTuple):
 
     def enter(self, node: Node) -> _Frame:
         """Return the frame of an element `frame` in this one, or that of a `body`, scaled as this one."""
-        turn, values = _rotation(node.attributes, self.model)[0], node.attributes if node.tag == "frame" else {}
-        position, text = numbers(values.get("pos", ""), 3, (0.0, 0.0, 0.0)), values.get("scale", "")
+        turn = _rotation(node.attributes, self.model)[0]
+        values = node.attributes if node.tag == "frame" else {}
+        position = numbers(values.get("pos", ""), 3, (0.0, 0.0, 0.0))
+        text = values.get("scale", "")
         own = numbers(text, 3) if len(text.split()) > 1 else np.full(3, number(text, 1.0))
         if not ((own >= LEAST) & (own <= MOST)).all():
             raise ValueError(text)
         scale = self.scale_along(turn, text or node.get("name")) * own
         mass = self.mass * number(values.get("massscale", ""), float(own.prod()))
         pose = Pose() if node.tag == "body" else self.place(position, turn)
-        return self._replace(pose=pose, scale=scale, mass=mass, defaults=node.get("childclass") or self.defaults)
+        return self._replace(
+            pose=pose, scale=scale, mass=mass, defaults=node.get("childclass") or self.defaults
+        )
 
     def attach(self, node: Node) -> tuple[list[Node], _Frame]:
         """Return the elements of another model that an element `attach` names, and their frame."""
         model = self.model.models.get(node.get("model"))
         if model is None:
             raise ValueError(node.get("model"))
-        worlds, names = model.root.all("worldbody"), {tag: node.get(tag) for tag in ("body", "frame") if node.get(tag)}
+        worlds = model.root.all("worldbody")
+        names = {tag: node.get(tag) for tag in ("body", "frame") if node.get(tag)}
         inner = self._replace(model=model, defaults="main", prefix=self.prefix + node.get("prefix"))
         if not names:
             return [child for world in worlds for child in world.children], inner
@@ -160,7 +174,11 @@ def read(root: Node, data: bytes) -> Description:
     links: list[StatedLink] = []
     for world in root.all("worldbody"):
         refused: list[Finding] = []  # of frames of the world, which the bodies in them report
-        waiting = [*reversed([part for part in _parts(world.children, outside, refused) if part[0].tag == "body"])]
+        waiting = [
+            *reversed(
+                [part for part in _parts(world.children, outside, refused) if part[0].tag == "body"]
+            )
+        ]
         while waiting:
             body, above = waiting.pop()
             outer = attempt(refused, body, above.enter) or above._replace(pose=Pose())
@@ -171,7 +189,9 @@ def read(root: Node, data: bytes) -> Description:
     return Description(root.get("model"), "mjcf", tuple(links), data)
 
 
-def _parts(nodes: Sequence[Node], frame: _Frame, refused: list[Finding]) -> Iterator[tuple[Node, _Frame]]:
+def _parts(
+    nodes: Sequence[Node], frame: _Frame, refused: list[Finding]
+) -> Iterator[tuple[Node, _Frame]]:
     """Yield elements and their frames; also those in frames and attached models. refused: findings about wrong ones."""
     for node in nodes:
         check_size(1, next(frame.model.count))
@@ -188,16 +208,26 @@ def _parts(nodes: Sequence[Node], frame: _Frame, refused: list[Finding]) -> Iter
 
 
 def _link(
-    body: Node, outer: _Frame, parts: Sequence[tuple[Node, _Frame]], count: int, refused: Sequence[Finding]
+    body: Node,
+    outer: _Frame,
+    parts: Sequence[tuple[Node, _Frame]],
+    count: int,
+    refused: Sequence[Finding],
 ) -> StatedLink:
     findings = [*refused]
     node, frame = next((part for part in parts if part[0].tag == "inertial"), (None, outer))
     inertial = attempt(findings, node, _inertial, frame)
-    read = (attempt(findings, geom, _shape, inner, findings) for geom, inner in parts if geom.tag == "geom")
+    read = (
+        attempt(findings, geom, _shape, inner, findings)
+        for geom, inner in parts
+        if geom.tag == "geom"
+    )
     shapes = tuple(shape for shape in read if shape is not None)
     name = outer.prefix + body.get("name") if body.get("name") else "body {}".format(count + 1)
     # Without an inertial MuJoCo takes it from geoms. Numbers in a frame are not those of the body; no repair fits them.
-    link = stated_link(body, node, findings, name=name, inertial=inertial, shapes=shapes, moves=False)
+    link = stated_link(
+        body, node, findings, name=name, inertial=inertial, shapes=shapes, moves=False
+    )
     return link if frame.is_plain else replace(link, span=None)
 
 
@@ -209,13 +239,16 @@ def _inertial(node: Node, frame: _Frame) -> StatedInertial:
     else:
         tensor = np.diag(numbers(node.get("diaginertia"), 3, (0.0, 0.0, 0.0)))
     center = numbers(node.get("pos"), 3, (0.0, 0.0, 0.0))
-    stated = StatedInertial(number(node.get("mass"), 0.0), center, tensor, rotation, angles, quaternion)
+    stated = StatedInertial(
+        number(node.get("mass"), 0.0), center, tensor, rotation, angles, quaternion
+    )
     if frame.is_plain:
         return stated
     # The second moments of the mass about the center scale with its place.
     second = np.trace(tensor) / 2.0 * np.eye(3) - stated.inertia
     second = frame.mass * second * np.outer(frame.scale, frame.scale)
-    pose, turn = frame.place(center, np.eye(3)), frame.pose.rotation
+    pose = frame.place(center, np.eye(3))
+    turn = frame.pose.rotation
     inertia = turn @ (np.trace(second) * np.eye(3) - second) @ turn.T
     return StatedInertial(stated.mass * frame.mass, pose.position, inertia)
 
@@ -242,15 +275,20 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
         return turn, (first, second, third) if model.euler == "XYZ" else None, None
     turn = np.eye(3)
     if "axisangle" in attributes:
-        values, text = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0)), attributes["axisangle"]
+        values = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0))
+        text = attributes["axisangle"]
         turn = rotation_about(_direction(values[:3], text), values[3] * unit)
     elif "xyaxes" in attributes:
-        values, text = numbers(attributes["xyaxes"], 6, ()), attributes["xyaxes"]
-        x, y = _direction(values[:3], text), _direction(values[3:], text)
+        values = numbers(attributes["xyaxes"], 6, ())
+        text = attributes["xyaxes"]
+        x = _direction(values[:3], text)
+        y = _direction(values[3:], text)
         y = _direction(y - (y @ x) * x, text)
         turn = np.column_stack([x, y, np.cross(x, y)])
     elif "zaxis" in attributes:
-        turn = _upright(_direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"]))
+        turn = _upright(
+            _direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"])
+        )
     return turn, None, None
 
 
@@ -270,7 +308,8 @@ def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
 def _shape(geom: Node, frame: _Frame, findings: list[Finding]) -> StatedShape | None:
     """Return the shape of a geom in its body. findings: gets those about its mesh."""
     model = frame.model
-    attributes, text = model.attributes(geom, frame.defaults), geom.get("name")
+    attributes = model.attributes(geom, frame.defaults)
+    text = geom.get("name")
     rotation, angles, _ = _rotation(attributes, model)
     pose = Pose(numbers(attributes.get("pos", ""), 3, (0.0, 0.0, 0.0)), rotation)
     kind = attributes.get("type", "mesh" if "mesh" in attributes else "sphere")
@@ -282,7 +321,8 @@ def _shape(geom: Node, frame: _Frame, findings: list[Finding]) -> StatedShape | 
         shape = _primitive(kind, attributes, pose)
     if shape is None:
         return None
-    turn, is_turned = shape.pose.rotation, bool((shape.pose.rotation != rotation).any())
+    turn = shape.pose.rotation
+    is_turned = bool((shape.pose.rotation != rotation).any())
     scale = frame.scale_along(turn, text)
     round_axes = {"sphere": 3, "capsule": 2, "cylinder": 2}.get(shape.kind, 0)
     if round_axes and np.ptp(scale[:round_axes]):
@@ -292,7 +332,9 @@ def _shape(geom: Node, frame: _Frame, findings: list[Finding]) -> StatedShape | 
     shape = replace(shape, size=size, pose=frame.place(shape.pose.position, turn))
     collides = attributes.get("contype", "1") != "0" or attributes.get("conaffinity", "1") != "0"
     angles = angles if frame.is_plain and not is_turned else None
-    return StatedShape(shape, "collision" if collides else "visual", angles, geom.place, model.root.place.file)
+    return StatedShape(
+        shape, "collision" if collides else "visual", angles, geom.place, model.root.place.file
+    )
 
 
 def _primitive(kind: str, attributes: dict[str, str], pose: Pose) -> Shape | None:
@@ -310,21 +352,35 @@ def _primitive(kind: str, attributes: dict[str, str], pose: Pose) -> Shape | Non
         along = ends[:3] - ends[3:]
         length = float(np.linalg.norm(along))
         turn = _upright(_direction(along, attributes["fromto"]))
-        sizes = {"box": (2.0 * size[0], 2.0 * size[0], length), "ellipsoid": (size[0], size[0], length / 2.0)}
-        return Shape(kind, sizes.get(kind, (size[0], length)), Pose((ends[:3] + ends[3:]) / 2.0, turn))
-    halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(kind, 3)  # index of the first half of a length
-    values = tuple(2.0 * value if place >= halves else value for place, value in enumerate(size[: SIZES[kind]]))
+        sizes = {
+            "box": (2.0 * size[0], 2.0 * size[0], length),
+            "ellipsoid": (size[0], size[0], length / 2.0),
+        }
+        return Shape(
+            kind, sizes.get(kind, (size[0], length)), Pose((ends[:3] + ends[3:]) / 2.0, turn)
+        )
+    halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(
+        kind, 3
+    )  # index of the first half of a length
+    values = tuple(
+        2.0 * value if place >= halves else value for place, value in enumerate(size[: SIZES[kind]])
+    )
     return Shape(kind, values, pose)
 
 
 def _surface(values: dict[str, str]) -> Surface:
     """Return the mesh of an asset's vertices and faces; without faces, the convex hull of the vertices."""
-    vertices, faces = values["vertex"], values.get("face", "")
-    points, corners = np.array(parse_numbers(vertices)), np.array(parse_numbers(faces))
+    vertices = values["vertex"]
+    faces = values.get("face", "")
+    points = np.array(parse_numbers(vertices))
+    corners = np.array(parse_numbers(faces))
     if not faces:
         try:
             hull = convex_hull(points.reshape(-1, 3))
         except (MeasureError, ValueError) as error:
             raise ValueError(vertices[:80]) from error
-        points, corners = hull.points.ravel(), hull.triangles.ravel()
-    return checked_surface((vertices, faces, faces), points, np.full(-(-len(corners) // 3), 3), corners)
+        points = hull.points.ravel()
+        corners = hull.triangles.ravel()
+    return checked_surface(
+        (vertices, faces, faces), points, np.full(-(-len(corners) // 3), 3), corners
+    )

@@ -23,7 +23,11 @@ def read(root: Node, data: bytes) -> Description:
     models = [node for node in root.walk() if node.tag == "model"]
     scopes: dict[Node, _Scope] = {}
     scopes.update((model, _Scope(model, scopes)) for model in models)
-    links = tuple(_link(node, model, scopes[model], len(models) > 1) for model in models for node in model.all("link"))
+    links = tuple(
+        _link(node, model, scopes[model], len(models) > 1)
+        for model in models
+        for node in model.all("link")
+    )
     return Description(models[0].get("name") if models else "", "sdf", links, data)
 
 
@@ -31,7 +35,9 @@ class _Scope:
     """The frames of a model by their names, each in another one of them. scopes: those of all models."""
 
     def __init__(self, model: Node, scopes: dict[Node, _Scope]) -> None:
-        frames = [child for child in model.children if child.tag in ("link", "joint", "frame", "model")]
+        frames = [
+            child for child in model.children if child.tag in ("link", "joint", "frame", "model")
+        ]
         self._frames = {frame.get("name"): frame for frame in frames}
         self._scopes = scopes
         self._poses = {OWN: Pose()}
@@ -43,12 +49,19 @@ class _Scope:
             node = self._frames.get(first)
             if node is None or rest and node.tag != "model" or depth > MAX_DEPTH:
                 raise ValueError(name)
-            default = {"joint": _text(node, "child"), "frame": node.get("attached_to")}.get(node.tag)
+            default = {"joint": _text(node, "child"), "frame": node.get("attached_to")}.get(
+                node.tag
+            )
             own, _, _, outer = _pose(node)
             pose = self.pose(outer or default or OWN, depth + 1) @ own
             if node.tag == "model":
-                inner, place = self._scopes[node], node.get("placement_frame") or OWN
-                pose = pose @ inner.pose(place, depth + 1).inverse() @ inner.pose(rest or OWN, depth + 1)
+                inner = self._scopes[node]
+                place = node.get("placement_frame") or OWN
+                pose = (
+                    pose
+                    @ inner.pose(place, depth + 1).inverse()
+                    @ inner.pose(rest or OWN, depth + 1)
+                )
             self._poses[name] = pose
         return self._poses[name]
 
@@ -72,7 +85,9 @@ def _link(node: Node, model: Node, scope: _Scope, several: bool) -> StatedLink:
     static = _text(model, "static") in ("true", "1")
     name = "{}::{}".format(model.get("name"), node.get("name")) if several else node.get("name")
     moves = bool(shapes) and not static and element is None
-    return stated_link(node, element, findings, name=name, inertial=inertial, shapes=shapes, moves=moves)
+    return stated_link(
+        node, element, findings, name=name, inertial=inertial, shapes=shapes, moves=moves
+    )
 
 
 def _text(node: Node, *path: str) -> str:
@@ -93,14 +108,22 @@ def _inertial(node: Node) -> StatedInertial:
 def _pose(node: Node) -> tuple[Pose, Angles | None, tuple[float, ...] | None, str]:
     """Return a pose, its angles or its quaternion as stated, and the name of the frame that it is in, "" by default."""
     element = node.find("pose") or Node("pose", {}, NOWHERE)
-    text, frame = element.text, element.get("relative_to")
+    text = element.text
+    frame = element.get("relative_to")
     if element.get("rotation_format") == "quat_xyzw":
         x, y, z, qx, qy, qz, qw = numbers(text, 7, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)).tolist()
         if not any((qx, qy, qz, qw)):
             raise ValueError(text)
-        return Pose(np.array([x, y, z]), rotation_matrix([qw, qx, qy, qz])), None, (qw, qx, qy, qz), frame
+        return (
+            Pose(np.array([x, y, z]), rotation_matrix([qw, qx, qy, qz])),
+            None,
+            (qw, qx, qy, qz),
+            frame,
+        )
     values = numbers(text, 6, (0.0,) * 6)
     roll, pitch, yaw = values[3:].tolist()
     if element.get("degrees") in ("true", "1"):
-        roll, pitch, yaw = radians(roll), radians(pitch), radians(yaw)
+        roll = radians(roll)
+        pitch = radians(pitch)
+        yaw = radians(yaw)
     return Pose(values[:3], rotation_of_angles(roll, pitch, yaw)), (roll, pitch, yaw), None, frame

@@ -21,7 +21,9 @@ def _link(node: Node) -> StatedLink:
     findings: list[Finding] = []
     element = node.find("inertial")
     inertial = attempt(findings, element, _inertial)
-    shapes = read_shapes(findings, node, _origin, ("box", "sphere", "cylinder", "capsule"), Node.get)
+    shapes = read_shapes(
+        findings, node, _origin, ("box", "sphere", "cylinder", "capsule"), Node.get
+    )
     more = {"name": node.get("name"), "moves": bool(shapes)}
     return stated_link(node, element, findings, inertial=inertial, shapes=shapes, **more)
 
@@ -32,7 +34,9 @@ def _inertial(node: Node) -> StatedInertial:
     tensor = np.zeros((3, 3))
     for name, i, j in ENTRIES:
         tensor[i, j] = tensor[j, i] = number(inertia.get(name) if inertia else "", 0.0)
-    return StatedInertial(number(mass.get("value") if mass else "", 0.0), pose.position, tensor, pose.rotation, angles)
+    return StatedInertial(
+        number(mass.get("value") if mass else "", 0.0), pose.position, tensor, pose.rotation, angles
+    )
 
 
 def _origin(node: Node) -> tuple[Pose, Angles]:

@@ -22,7 +22,16 @@ from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_number
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
-from ..stated import LEAST, MOST, Description, Place, StatedInertial, StatedLink, StatedShape, rotation_about
+from ..stated import (
+    LEAST,
+    MOST,
+    Description,
+    Place,
+    StatedInertial,
+    StatedLink,
+    StatedShape,
+    rotation_about,
+)
 from .meshes import checked_surface
 from .xml import check_size
 
@@ -56,11 +65,14 @@ class Prim:
         """Return the numbers of an attribute, None if it has no value. ValueError if a text is no number."""
         if self.values.get(name, "None") == "None":
             return None
-        return np.array([parse_number(word) for word in _FIELD.findall(self.values[name])], np.float64)
+        return np.array(
+            [parse_number(word) for word in _FIELD.findall(self.values[name])], np.float64
+        )
 
     def vector(self, name: str, default: tuple[float, ...]) -> NDArray[np.float64]:
         """Return the numbers of an attribute, else its default. ValueError if the counts differ."""
-        values, count = self.numbers(name), len(default)
+        values = self.numbers(name)
+        count = len(default)
         if values is None:
             return np.array(default, np.float64)
         if len(values) != count:
@@ -75,7 +87,11 @@ class Prim:
 class _Parser:
     def __init__(self, text: str) -> None:
         self.text = text
-        self.tokens = [(match[0], match.start()) for match in _TOKEN.finditer(text) if match[0].strip()[:1] not in "#"]
+        self.tokens = [
+            (match[0], match.start())
+            for match in _TOKEN.finditer(text)
+            if match[0].strip()[:1] not in "#"
+        ]
         wrong = next((place for token, place in self.tokens if token in ('"', "'", "@", "<")), None)
         if wrong is not None:
             raise _invalid(text, wrong)
@@ -93,7 +109,8 @@ class _Parser:
 
     def balanced(self) -> tuple[int, int]:
         """Skip a word, or a pair of brackets with its content; return its range in the text."""
-        depth, start = 0, self.tokens[self.index][1]
+        depth = 0
+        start = self.tokens[self.index][1]
         while True:
             token, position = self.take()
             if token in "([{":
@@ -116,7 +133,8 @@ class _Parser:
             metadata = self.text[start:end]
         kind, name = (words[0], words[-1].strip("\"'")) if words else ("", "")
         _, opening = self.take()
-        self.line, self.counted = self.line + self.text.count("\n", self.counted, opening), opening
+        self.line = self.line + self.text.count("\n", self.counted, opening)
+        self.counted = opening
         prim = Prim(kind, name, metadata, opening + 1, self.line)
         while self.peek() != "}":
             if self.peek() in _SPECIFIERS:
@@ -159,7 +177,9 @@ def read(data: bytes) -> Description:
 def _invalid(text: str, place: int) -> FileError:
     """Return the error about a text at a place, with the beginning of its line."""
     line = "“{:.40}”".format(text[text.rfind("\n", 0, place) + 1 :].partition("\n")[0].strip())
-    return FileError(DESCRIPTION_INVALID, format="text of USD", line=text.count("\n", 0, place) + 1, error=line)
+    return FileError(
+        DESCRIPTION_INVALID, format="text of USD", line=text.count("\n", 0, place) + 1, error=line
+    )
 
 
 def _description(text: str, data: bytes) -> Description:
@@ -174,7 +194,10 @@ def _description(text: str, data: bytes) -> Description:
             raise _invalid(text, parser.tokens[parser.index][1])
         roots.append(parser.prim(0))
     _resolve(roots)
-    scales = {"length": _scale(metadata, "metersPerUnit", 0.01), "mass": _scale(metadata, "kilogramsPerUnit", 1.0)}
+    scales = {
+        "length": _scale(metadata, "metersPerUnit", 0.01),
+        "mass": _scale(metadata, "kilogramsPerUnit", 1.0),
+    }
     links: list[StatedLink] = []
     for root in roots:
         _visit(root, np.eye(4), root.name, scales, links, text)
@@ -205,7 +228,12 @@ def _scale(metadata: str, name: str, default: float) -> float:
 
 
 def _visit(
-    prim: Prim, above: NDArray, path: str, scales: Mapping[str, float], links: list[StatedLink], text: str
+    prim: Prim,
+    above: NDArray,
+    path: str,
+    scales: Mapping[str, float],
+    links: list[StatedLink],
+    text: str,
 ) -> None:
     matrix = _placed(prim, above)
     if "PhysicsRigidBodyAPI" in prim.metadata or "PhysicsMassAPI" in prim.metadata:
@@ -223,7 +251,8 @@ def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
         values = prim.numbers(name)
         if values is None:
             continue
-        step, kind = np.eye(4), name.split(":")[1]
+        step = np.eye(4)
+        kind = name.split(":")[1]
         if not (np.abs(values) <= MOST).all():
             raise ValueError(prim.values[name])
         if kind == "translate" and len(values) == 3:
@@ -243,27 +272,40 @@ def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
     return np.asarray(matrix, np.float64)
 
 
-def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], text: str) -> StatedLink:
+def _link(
+    prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], text: str
+) -> StatedLink:
     """Return a body in the axes of its prim, in meters; the prim's scale is applied to its shapes and its center."""
     findings: list[Finding] = []
     turn = _turn(matrix)
     to_link = np.eye(4)
-    to_link[:3, :3], to_link[:3, 3] = turn.T, -turn.T @ matrix[:3, 3]
+    to_link[:3, :3] = turn.T
+    to_link[:3, 3] = -turn.T @ matrix[:3, 3]
 
     def attempt(part: Prim, read_part: Callable, *more: Any) -> Any:
         try:
             return read_part(part, *more)
         except ValueError as error:
-            line = text.count("\n", 0, max(text.find(str(error), part.start, part.end), part.start)) + 1
-            findings.append(finding(DESCRIPTION_NUMBER, text=str(error), element=part.name, line=line))
+            line = (
+                text.count("\n", 0, max(text.find(str(error), part.start, part.end), part.start))
+                + 1
+            )
+            findings.append(
+                finding(DESCRIPTION_NUMBER, text=str(error), element=part.name, line=line)
+            )
             return None
 
     inertial = attempt(prim, _inertial, to_link @ matrix, scales)
-    read_shapes = [attempt(part, _shape, to_link @ place, scales["length"]) for part, place in _parts(prim, matrix)]
+    read_shapes = [
+        attempt(part, _shape, to_link @ place, scales["length"])
+        for part, place in _parts(prim, matrix)
+    ]
     shapes = [shape for shape in read_shapes if shape is not None]
     span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
     place = Place(prim.line)
-    return StatedLink(path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix, place, place)
+    return StatedLink(
+        path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix, place, place
+    )
 
 
 def _turn(matrix: NDArray) -> NDArray[np.float64]:
@@ -283,7 +325,14 @@ def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Stated
     unit, kilograms = scales["length"], scales["mass"]
     placed = local[:3, :3] @ center * unit
     tensor = np.diag(diagonal) * unit**2 * kilograms
-    return StatedInertial(float(mass[0]) * kilograms, placed, tensor, rotation_matrix(axes), None, tuple(axes.tolist()))
+    return StatedInertial(
+        float(mass[0]) * kilograms,
+        placed,
+        tensor,
+        rotation_matrix(axes),
+        None,
+        tuple(axes.tolist()),
+    )
 
 
 def _parts(prim: Prim, matrix: NDArray) -> Iterator[tuple[Prim, NDArray]]:
@@ -309,14 +358,18 @@ def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
         size = prim.number("size", 2.0) * scales
         return StatedShape(Shape("box", tuple(size.tolist()), pose), role)
     if prim.kind == "Sphere":
-        return StatedShape(Shape("ellipsoid", tuple((prim.number("radius", 1.0) * scales).tolist()), pose), role)
+        return StatedShape(
+            Shape("ellipsoid", tuple((prim.number("radius", 1.0) * scales).tolist()), pose), role
+        )
     axis = prim.values.get("axis", '"Z"').strip("\"'")
     order = {"X": [1, 2, 0], "Y": [2, 0, 1], "Z": [0, 1, 2]}[axis if axis in "XYZ" else "Z"]
     across, _, along = scales[order]
     capsule = prim.kind == "Capsule"
     radius = prim.number("radius", 0.5 if capsule else 1.0)
     size = radius * across, prim.number("height", 1.0 if capsule else 2.0) * along
-    return StatedShape(Shape(kinds[prim.kind], size, Pose(pose.position, pose.rotation[:, order])), role)
+    return StatedShape(
+        Shape(kinds[prim.kind], size, Pose(pose.position, pose.rotation[:, order])), role
+    )
 
 
 def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | None:
@@ -328,7 +381,8 @@ def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | 
     placed = (surface.points @ matrix[:3, :3].T + matrix[:3, 3]) * unit
     if not (np.abs(placed) <= MOST).all():
         raise ValueError(prim.values["points"][:80])
-    triangles, is_left_handed = surface.triangles, prim.values.get("orientation", "").strip("\"'") == "leftHanded"
+    triangles = surface.triangles
+    is_left_handed = prim.values.get("orientation", "").strip("\"'") == "leftHanded"
     if is_left_handed != (np.linalg.det(matrix[:3, :3]) < 0.0):
         triangles = triangles[:, ::-1]
     return StatedShape(Shape("mesh", surface=Surface.from_triangles(placed, triangles)), role)

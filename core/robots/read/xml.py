@@ -48,7 +48,9 @@ class Node:
         """Return the first element along a path of tags, None if there is none."""
         node: Node | None = self
         for tag in path:
-            node = next((child for child in node.children if child.tag == tag), None) if node else None
+            node = (
+                next((child for child in node.children if child.tag == tag), None) if node else None
+            )
         return node
 
     def all(self, tag: str) -> list[Node]:
@@ -87,10 +89,14 @@ def parse(data: bytes, file: str = "") -> Node:
     file: the name of an included file, whose elements have no bytes in the description's own.
     """
     document = Node("", {}, 0)
-    parser, waiting, counts = expat.ParserCreate(), [document], itertools.count(1)
+    parser = expat.ParserCreate()
+    waiting = [document]
+    counts = itertools.count(1)
 
     def refuse(*_: object) -> None:
-        raise FileError(XML_ENTITIES, line=parser.CurrentLineNumber, column=parser.CurrentColumnNumber + 1)
+        raise FileError(
+            XML_ENTITIES, line=parser.CurrentLineNumber, column=parser.CurrentColumnNumber + 1
+        )
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         check_size(len(waiting), next(counts))
@@ -100,7 +106,8 @@ def parse(data: bytes, file: str = "") -> Node:
         waiting.append(node)
 
     def end(_tag: str) -> None:
-        node, place = waiting.pop(), parser.CurrentByteIndex
+        node = waiting.pop()
+        place = parser.CurrentByteIndex
         # The index is behind <a/>, but at </a> of other elements.
         is_empty = data[place - 2 : place] == b"/>" and place == _end_of_tag(data, node.start)
         node.end = place if is_empty else _end_of_tag(data, place)
@@ -109,14 +116,19 @@ def parse(data: bytes, file: str = "") -> Node:
         waiting[-1].text += text
 
     parser.buffer_text = True
-    parser.StartElementHandler, parser.EndElementHandler = start, end
-    parser.CharacterDataHandler, parser.StartDoctypeDeclHandler = add_text, refuse
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
+    parser.CharacterDataHandler = add_text
+    parser.StartDoctypeDeclHandler = refuse
     try:
         parser.Parse(data, True)
     except (expat.ExpatError, ValueError, LookupError) as error:
         reason = " ".join(str(error).partition(": line")[0].split())
-        line, column = parser.ErrorLineNumber, parser.ErrorColumnNumber + 1
-        raise FileError(DESCRIPTION_INVALID, format="XML", line=line, column=column, error=reason) from error
+        line = parser.ErrorLineNumber
+        column = parser.ErrorColumnNumber + 1
+        raise FileError(
+            DESCRIPTION_INVALID, format="XML", line=line, column=column, error=reason
+        ) from error
     if file:
         for node in document.walk():
             node.start = node.end = NOWHERE
@@ -136,7 +148,9 @@ def number(text: str, default: float | None = None) -> float:
     return float(numbers(text, 1, () if default is None else (default,))[0])
 
 
-def attempt(findings: list[Finding], node: Node | None, read: Callable[..., Value], *more: object) -> Value | None:
+def attempt(
+    findings: list[Finding], node: Node | None, read: Callable[..., Value], *more: object
+) -> Value | None:
     """Return the result of `read` for an element; None without an element, or, with a finding, if a number is wrong."""
     if node is None:
         return None
@@ -167,7 +181,8 @@ def read_shapes(
         pose, angles, *_ = pose_of(node)
         geometry = node.find("geometry")
         for element in geometry.children if geometry else ():
-            kind, file = element.tag, ""
+            kind = element.tag
+            file = ""
             if kind in FLAT_KINDS:
                 continue
             if kind == "mesh":
@@ -176,11 +191,15 @@ def read_shapes(
             elif kind not in kinds:
                 raise ValueError(kind)
             elif kind in ("box", "ellipsoid"):
-                size = numbers(get(element, "size" if kind == "box" else "radii"), 3, (1.0, 1.0, 1.0)).tolist()
+                size = numbers(
+                    get(element, "size" if kind == "box" else "radii"), 3, (1.0, 1.0, 1.0)
+                ).tolist()
             else:
                 names = ("radius",) if kind == "sphere" else ("radius", "length")
                 size = [number(get(element, name), length) for name in names]
-            return StatedShape(Shape(kind, tuple(size), pose, file), role, angles, node.place, beside)
+            return StatedShape(
+                Shape(kind, tuple(size), pose, file), role, angles, node.place, beside
+            )
         return None
 
     elements = [(element, role) for role in ("visual", "collision") for element in link.all(role)]
@@ -188,7 +207,9 @@ def read_shapes(
     return tuple(shape for shape in shapes if shape is not None)
 
 
-def stated_link(node: Node, element: Node | None, findings: Sequence[Finding], **values: Any) -> StatedLink:
+def stated_link(
+    node: Node, element: Node | None, findings: Sequence[Finding], **values: Any
+) -> StatedLink:
     """Return a link with the places of its values in the file. element: the inertial's, which a repair replaces."""
     is_fixed = element is None or values["inertial"] is None or element.start == NOWHERE
     span = None if element is None or is_fixed else (element.start, element.end)
@@ -207,4 +228,6 @@ def _unreadable(node: Node, error: Exception) -> Finding:
     holder = holders[0] if len(holders) == 1 else node
     line, column, file = holder.place
     source: dict[str, Any] = {"source": file} if file else {}
-    return finding(DESCRIPTION_NUMBER, text=text, element=holder.tag, line=line, column=column, **source)
+    return finding(
+        DESCRIPTION_NUMBER, text=text, element=holder.tag, line=line, column=column, **source
+    )

@@ -34,7 +34,11 @@ def _text(link: str, found: dict[str, Any]) -> str:
 
 def _relative(file: str) -> str:
     """Return a file's path with slashes, relative to the working folder if it is in it."""
-    path = os.path.relpath(file) if os.path.isabs(file) and Path(file).is_relative_to(os.getcwd()) else file
+    path = (
+        os.path.relpath(file)
+        if os.path.isabs(file) and Path(file).is_relative_to(os.getcwd())
+        else file
+    )
     return path.replace(os.sep, "/")
 
 
@@ -58,7 +62,9 @@ def to_sarif(documents: Sequence[dict[str, Any]]) -> str:
             "region": {"startLine": found["line"], "startColumn": found["column"]},
         }
         logical = [{"name": link, "kind": "object"}] if link else []
-        key = "\0".join((_relative(found["file"]), link, found["code"])).encode("utf-8", "surrogatepass")
+        key = "\0".join((_relative(found["file"]), link, found["code"])).encode(
+            "utf-8", "surrogatepass"
+        )
         results.append(
             {
                 "ruleId": found["code"],
@@ -68,7 +74,9 @@ def to_sarif(documents: Sequence[dict[str, Any]]) -> str:
                 "locations": [{"physicalLocation": place, "logicalLocations": logical}],
                 "partialFingerprints": {"fileLinkCode/v1": hashlib.sha256(key).hexdigest()},
                 "baselineState": "unchanged" if found.get("known") else "new",
-                "properties": {key: found.get(key) for key in ("stated", "geometry", "change", "certainty")},
+                "properties": {
+                    key: found.get(key) for key in ("stated", "geometry", "change", "certainty")
+                },
             }
         )
     driver = {"name": "Body Moments", "rules": rules}
@@ -84,9 +92,20 @@ def to_github(documents: Sequence[dict[str, Any]]) -> str:
         if found.get("known"):
             continue
         title = "{} ({})".format(found["code"], link) if link else found["code"]
-        values = {"file": _relative(found["file"]), "line": found["line"], "col": found["column"], "title": title}
-        properties = ",".join("{}={}".format(key, _escape(str(value), True)) for key, value in values.items())
-        lines.append("::{} {}::{}\n".format(_COMMANDS[found["severity"]], properties, _escape(_text(link, found))))
+        values = {
+            "file": _relative(found["file"]),
+            "line": found["line"],
+            "col": found["column"],
+            "title": title,
+        }
+        properties = ",".join(
+            "{}={}".format(key, _escape(str(value), True)) for key, value in values.items()
+        )
+        lines.append(
+            "::{} {}::{}\n".format(
+                _COMMANDS[found["severity"]], properties, _escape(_text(link, found))
+            )
+        )
     return "".join(lines)
 
 

@@ -50,7 +50,8 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
         }
         for one in audit.links
     ]
-    form, robot = audit.description.format, audit.description.name
+    form = audit.description.format
+    robot = audit.description.name
     head = {"schema": SCHEMA, "file": file, "status": "ok", "format": form, "robot": robot}
     return with_status(plain({**head, "repaired": repaired, "links": links, "errors": []}))
 
@@ -63,14 +64,27 @@ def with_status(document: dict[str, Any]) -> dict[str, Any]:
 
 def count_findings(document: dict[str, Any]) -> dict[str, int]:
     """Return the counts of "links", and of findings that are not known, by severity: "notes" and so on."""
-    found = [*document["errors"], *(found for link in document["links"] for found in link["findings"])]
+    found = [
+        *document["errors"],
+        *(found for link in document["links"] for found in link["findings"]),
+    ]
     levels = [one["severity"] for one in found if not one.get("known")]
-    return {"links": len(document["links"]), **{str(level) + "s": levels.count(level) for level in Severity}}
+    return {
+        "links": len(document["links"]),
+        **{str(level) + "s": levels.count(level) for level in Severity},
+    }
 
 
 def failed_document(file: str, reason: Finding) -> dict[str, Any]:
     """Return the document of a file that could not be read."""
-    head = {"schema": SCHEMA, "file": file, "status": "error", "format": None, "robot": None, "repaired": None}
+    head = {
+        "schema": SCHEMA,
+        "file": file,
+        "status": "error",
+        "format": None,
+        "robot": None,
+        "repaired": None,
+    }
     place = {
         "file": reason.values.get("source") or file,
         "line": reason.values.get("line", 1),
@@ -80,7 +94,12 @@ def failed_document(file: str, reason: Finding) -> dict[str, Any]:
 
 
 def _finding(one: Finding) -> dict[str, Any]:
-    return {"code": one.code, "severity": str(severity(one)), "message": sentence(one), "values": dict(one.values)}
+    return {
+        "code": one.code,
+        "severity": str(severity(one)),
+        "message": sentence(one),
+        "values": dict(one.values),
+    }
 
 
 def _entry(one: Entry, link: LinkAudit, file: str) -> dict[str, Any]:
@@ -91,7 +110,9 @@ def _entry(one: Entry, link: LinkAudit, file: str) -> dict[str, Any]:
         **head,
         "reasons": [_finding(reason) for reason in one.reasons],
         "stated": _inertial(link.link.inertial) if one.compares else None,
-        "geometry": _inertial(link.geometry) if one.compares and link.geometry is not None else None,
+        "geometry": _inertial(link.geometry)
+        if one.compares and link.geometry is not None
+        else None,
         "change": None if one.change is None else sentence(one.change),
         "certainty": one.certainty or None,
     }
@@ -113,10 +134,21 @@ def to_json(documents: Sequence[dict[str, Any]]) -> str:
 def _table_rows(documents: Iterable[dict[str, Any]]) -> Iterable[list[Any]]:
     for one in documents:
         for reason in one["errors"]:
-            yield [one["file"], "", *(reason[key] for key in ("severity", "code", "message")), "", "", ""]
+            yield [
+                one["file"],
+                "",
+                *(reason[key] for key in ("severity", "code", "message")),
+                "",
+                "",
+                "",
+            ]
         for link in one["links"]:
             can = link["repaired"] is not None
-            shared = [link["mass"], link["density"], ("true" if one["repaired"] else "possible") if can else "false"]
+            shared = [
+                link["mass"],
+                link["density"],
+                ("true" if one["repaired"] else "possible") if can else "false",
+            ]
             for found in link["findings"] or [{"severity": "", "code": "ok", "message": ""}]:
                 yield [
                     one["file"], link["name"], *(found[key] for key in ("severity", "code", "message")),
@@ -136,16 +168,24 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
     for one in documents:
         lines.append("<h2>{}</h2>".format(html.escape(str(one["file"]))))
         lines.append("<p>{}: {}.</p>".format(*_summary(one)))
-        lines += ["<table>", "<tr><th>Link<th>Severity<th>Finding<th>Mass, kg<th>Density, kg/m³<th>Repair</tr>"]
+        lines += [
+            "<table>",
+            "<tr><th>Link<th>Severity<th>Finding<th>Mass, kg<th>Density, kg/m³<th>Repair</tr>",
+        ]
         for _, link, level, code, message, mass, density, repaired in _table_rows([one]):
             fine = "nothing to compare" if "" in (mass, density) else "agrees with its geometry"
-            numbers = ["{:.6g}".format(value) if isinstance(value, float) else "" for value in (mass, density)]
+            numbers = [
+                "{:.6g}".format(value) if isinstance(value, float) else ""
+                for value in (mass, density)
+            ]
             cells = [
                 "<td>{}".format(html.escape(str(link))),
                 '<td class="{0}">{0}'.format(html.escape(level) or "ok"),
                 '<td title="{}">{}'.format(html.escape(code), html.escape(message) or fine),
                 *('<td class="number">{}'.format(text) for text in numbers),
-                "<td>{}".format({"true": "repaired", "possible": "can be repaired"}.get(repaired, "")),
+                "<td>{}".format(
+                    {"true": "repaired", "possible": "can be repaired"}.get(repaired, "")
+                ),
             ]
             lines.append("<tr>{}</tr>".format("".join(cells)))
         lines.append("</table>")
@@ -157,22 +197,32 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
 def _summary(document: dict[str, Any]) -> tuple[str, str]:
     """Return the counts of links and of findings as text."""
     counts = count_findings(document)
-    return counted(counts["links"], "link"), ", ".join(counted(counts[str(one) + "s"], str(one)) for one in Severity)
+    return counted(counts["links"], "link"), ", ".join(
+        counted(counts[str(one) + "s"], str(one)) for one in Severity
+    )
 
 
 def _rests_on_geometry(documents: Iterable[dict[str, Any]]) -> bool:
     codes = {INERTIAL_CENTER_OUTSIDE, INERTIAL_SPREAD_OUTSIDE}
     entries = (found for one in documents for link in one["links"] for found in link["findings"])
-    return any(codes & {found["code"], *(reason["code"] for reason in found["reasons"])} for found in entries)
+    return any(
+        codes & {found["code"], *(reason["code"] for reason in found["reasons"])}
+        for found in entries
+    )
 
 
 def _numbers(inertial: dict[str, Any] | None) -> str:
     """Return an inertial in one line."""
     if inertial is None or inertial["mass"] is None or inertial["inertia"] is None:
         return "unknown"
-    center = " ".join("-" if value is None else "{:.4g}".format(value) for value in inertial["center_of_mass"])
-    rows, entries = inertial["inertia"], ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-    tensor = " ".join("-" if rows[i][j] is None else "{:.4g}".format(rows[i][j]) for i, j in entries)
+    center = " ".join(
+        "-" if value is None else "{:.4g}".format(value) for value in inertial["center_of_mass"]
+    )
+    rows = inertial["inertia"]
+    entries = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+    tensor = " ".join(
+        "-" if rows[i][j] is None else "{:.4g}".format(rows[i][j]) for i, j in entries
+    )
     return "mass {:.6g} kg, center {} m, inertia {} kg·m²".format(inertial["mass"], center, tensor)
 
 
@@ -186,7 +236,11 @@ def to_text(documents: Sequence[dict[str, Any]]) -> str:
             for found in link["findings"]:
                 head = "{file}:{line}:{column}: {severity}: ".format(**found)
                 known = " (known)" if found.get("known") else ""
-                lines.append("{}{}: {} [{}]{}".format(head, link["name"], found["message"], found["code"], known))
+                lines.append(
+                    "{}{}: {} [{}]{}".format(
+                        head, link["name"], found["message"], found["code"], known
+                    )
+                )
                 if found["severity"] != Severity.NOTE and found["stated"] is not None:
                     lines.append("    stated: {}".format(_numbers(found["stated"])))
                     lines.append("    shapes: {}".format(_numbers(found["geometry"])))
@@ -205,7 +259,9 @@ def to_text(documents: Sequence[dict[str, Any]]) -> str:
 
 def to_table(documents: Sequence[dict[str, Any]]) -> str:
     """Return one line for each file, in columns, and their totals."""
-    rows: list[tuple[str, ...]] = [("errors", "warnings", "notes", "links", "can be repaired", "status", "file")]
+    rows: list[tuple[str, ...]] = [
+        ("errors", "warnings", "notes", "links", "can be repaired", "status", "file")
+    ]
     totals = [0] * 5
     for one in documents:
         counts = count_findings(one)
@@ -215,8 +271,13 @@ def to_table(documents: Sequence[dict[str, Any]]) -> str:
         rows.append((*map(str, numbers), one["status"], visible(str(one["file"]))))
     rows.append((*map(str, totals), "", counted(len(documents), "file")))
     widths = [max(map(len, column)) for column in zip(*rows)]
-    lines = ["  ".join(map(str.rjust, row[:5], widths)) + "  {}  {}".format(row[5].ljust(8), row[6]) for row in rows]
-    return "\n".join([AUDIT_TEXT, *lines, *([RESTS_ON] if _rests_on_geometry(documents) else []), ""])
+    lines = [
+        "  ".join(map(str.rjust, row[:5], widths)) + "  {}  {}".format(row[5].ljust(8), row[6])
+        for row in rows
+    ]
+    return "\n".join(
+        [AUDIT_TEXT, *lines, *([RESTS_ON] if _rests_on_geometry(documents) else []), ""]
+    )
 
 
 FORMATS = {

@@ -25,10 +25,15 @@ from ..model import Inertial, Robot
 KHR, OMI = "KHR_physics_rigid_bodies", "OMI_physics_body"
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 UNIFORM_RTOL = 1e-6  # Relative; for scales that differ by float32 rounding alone.
-_GLB, JSON, BINARY = 0x46546C67, 0x4E4F534A, 0x004E4942  # a binary file, and kinds of its chunks
+# a binary file, and kinds of its chunks
+_GLB = 0x46546C67
+JSON = 0x4E4F534A
+BINARY = 0x004E4942
 
 
-def body_extensions(inertial: Inertial, scale: ArrayLike = 1.0, is_fixed: bool = False) -> dict[str, Any]:
+def body_extensions(
+    inertial: Inertial, scale: ArrayLike = 1.0, is_fixed: bool = False
+) -> dict[str, Any]:
     """Return both extensions of a node that is a rigid body, for an inertial along Blender's axes.
 
     scale: meters per unit of the node's own space along Blender's axes, for the center.
@@ -46,19 +51,25 @@ def body_extensions(inertial: Inertial, scale: ArrayLike = 1.0, is_fixed: bool =
     return {KHR: {"motion": {**kinematic, **values}}, OMI: {"motion": {**kind, **values}}}
 
 
-def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: float) -> list[Finding]:
+def add_rigid_bodies(
+    document: dict[str, Any], robot: Robot, meters_per_unit: float
+) -> list[Finding]:
     """Add the motions of bodies to the nodes of a glTF document, and a node for its unit, in place; return findings.
 
     robot: its links have the names of nodes. meters_per_unit: unit scale of the Blender scene.
     """
-    nodes, bones = document.get("nodes", []), {joint for skin in document.get("skins", []) for joint in skin["joints"]}
+    nodes = document.get("nodes", [])
+    bones = {joint for skin in document.get("skins", []) for joint in skin["joints"]}
     by_name: dict[str, list[dict]] = {}
     for index, node in enumerate(nodes):
         if index not in bones and "name" in node:
             by_name.setdefault(node["name"], []).append(node)
-    missing, scaled, written = [], [], 0
+    missing = []
+    scaled = []
+    written = 0
     for link in robot.roots:
-        inertial, found = robot.rigid_inertial(link), by_name.get(link.name, [])
+        inertial = robot.rigid_inertial(link)
+        found = by_name.get(link.name, [])
         if inertial is None:
             continue
         if len(found) != 1:
@@ -78,7 +89,9 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
     if meters_per_unit != 1.0:
         findings.append(finding(GLTF_UNIT_SCALE, scale=meters_per_unit))
         for scene in [scene for scene in document.get("scenes", []) if scene.get("nodes")]:
-            nodes.append({"name": "Meters", "scale": [meters_per_unit] * 3, "children": scene["nodes"]})
+            nodes.append(
+                {"name": "Meters", "scale": [meters_per_unit] * 3, "children": scene["nodes"]}
+            )
             scene["nodes"] = [len(nodes) - 1]
     return findings
 
@@ -94,8 +107,13 @@ def replace_json(data: bytes, document: dict[str, Any]) -> bytes:
     """Return the bytes of a file with another JSON document; other chunks of a .glb keep their bytes."""
     text = json.dumps(document, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
     if data[:4] != b"glTF":
-        return json.dumps(document, ensure_ascii=False, indent="\t", allow_nan=False).encode() + b"\n"
-    parts = [(kind, text + b" " * (-len(text) % 4) if kind == JSON else chunk) for kind, chunk in chunks(data)]
+        return (
+            json.dumps(document, ensure_ascii=False, indent="\t", allow_nan=False).encode() + b"\n"
+        )
+    parts = [
+        (kind, text + b" " * (-len(text) % 4) if kind == JSON else chunk)
+        for kind, chunk in chunks(data)
+    ]
     body = b"".join(struct.pack("<II", len(chunk), kind) + chunk for kind, chunk in parts)
     return struct.pack("<III", _GLB, 2, 12 + len(body)) + body
 

@@ -68,7 +68,9 @@ class _Document:
         for shape in () if inertial_only else link.shapes:
             self._add_shape(index, link, shape)
 
-    def _node(self, name: str, pose: Pose, parent: int | None = None, turn: NDArray | None = None) -> int:
+    def _node(
+        self, name: str, pose: Pose, parent: int | None = None, turn: NDArray | None = None
+    ) -> int:
         """Add a node and return its index. turn: a further rotation, about axes of the node."""
         rotation = Y_UP @ pose.rotation @ Y_UP.T
         node: dict[str, Any] = {"name": name}
@@ -87,7 +89,9 @@ class _Document:
         if shape.kind == "mesh":
             if shape.surface is None:
                 return
-            index = holder = self._node(link.name + (" mesh" if shape.seen else " collider"), shape.pose, parent)
+            index = holder = self._node(
+                link.name + (" mesh" if shape.seen else " collider"), shape.pose, parent
+            )
             if not shape.seen:
                 holder = self._node(link.name + " hull", Pose())
                 self.unseen.add(holder)
@@ -106,21 +110,37 @@ class _Document:
         points = (surface.points[used] @ Y_UP.T + 0.0).astype("<f4")
         ends = {"min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}
         position = self._accessor(points.tobytes(), 5126, "VEC3", len(points), 34962, ends)
-        indices = self._accessor(corners.astype("<u4").tobytes(), 5125, "SCALAR", corners.size, 34963, {})
-        self.of_file["meshes"].append({"primitives": [{"attributes": {"POSITION": position}, "indices": indices}]})
+        indices = self._accessor(
+            corners.astype("<u4").tobytes(), 5125, "SCALAR", corners.size, 34963, {}
+        )
+        self.of_file["meshes"].append(
+            {"primitives": [{"attributes": {"POSITION": position}, "indices": indices}]}
+        )
         return len(self.of_file["meshes"]) - 1
 
-    def _accessor(self, data: bytes, component: int, kind: str, count: int, target: int, more: dict) -> int:
-        views, accessors = self.of_file["bufferViews"], self.of_file["accessors"]
-        views.append({"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data), "target": target})
+    def _accessor(
+        self, data: bytes, component: int, kind: str, count: int, target: int, more: dict
+    ) -> int:
+        views = self.of_file["bufferViews"]
+        accessors = self.of_file["accessors"]
+        views.append(
+            {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data), "target": target}
+        )
         self.buffer += data
         accessors.append(
-            {"bufferView": len(views) - 1, "componentType": component, "type": kind, "count": count, **more}
+            {
+                "bufferView": len(views) - 1,
+                "componentType": component,
+                "type": kind,
+                "count": count,
+                **more,
+            }
         )
         return len(accessors) - 1
 
     def add_joint(self, joint: Joint) -> None:
-        child, parent = self.robot.link(joint.child), self.robot.link(joint.parent)
+        child = self.robot.link(joint.child)
+        parent = self.robot.link(joint.parent)
         turn = along_x(Y_UP @ joint.free[0].axis) if len(joint.free) == 1 else np.eye(3)
         place = parent.pose.inverse() @ child.pose @ joint.pose
         own = self._node(joint.name, place, self.of_link[parent.name], turn)
@@ -137,7 +157,8 @@ class _Document:
         asset: dict[str, Any] = {"generator": MARKER.format("gltf"), "version": "2.0"}
         if remarks:
             asset["extras"] = {"remarks": list(remarks)}
-        used, of_root = {KHR, OMI}, {}
+        used = {KHR, OMI}
+        of_root = {}
         if self.joints:
             of_root[KHR] = {"physicsJoints": self.joints}
         if self.shapes:
@@ -166,7 +187,10 @@ def _implicit(shape: Shape) -> dict[str, Any]:
     if shape.kind == "sphere":
         return {"type": "sphere", "sphere": {"radius": shape.size[0]}}
     radius, height = shape.size
-    return {"type": shape.kind, shape.kind: {"height": height, "radiusTop": radius, "radiusBottom": radius}}
+    return {
+        "type": shape.kind,
+        shape.kind: {"height": height, "radiusTop": radius, "radiusBottom": radius},
+    }
 
 
 def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
@@ -177,21 +201,30 @@ def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
         direction, axis = _direction(free, turn)
         kind = "linearAxes" if free.kind == "translate" else "angularAxes"
         held[kind].discard(axis)
-        low, high = (free.lower, free.upper) if direction[axis] > 0.0 else (-free.upper, -free.lower)
+        low, high = (
+            (free.lower, free.upper) if direction[axis] > 0.0 else (-free.upper, -free.lower)
+        )
         ends = {name: value for name, value in (("min", low), ("max", high)) if abs(value) < inf}
         if ends:
             limits.append({kind: [axis], **ends})
-    return [*({kind: sorted(axes), "min": 0.0, "max": 0.0} for kind, axes in held.items() if axes), *limits]
+    return [
+        *({kind: sorted(axes), "min": 0.0, "max": 0.0} for kind, axes in held.items() if axes),
+        *limits,
+    ]
 
 
 def _drives(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
     """Return the drives of a joint's axes with known values, at rest."""
     drives: list[dict[str, Any]] = []
     for free in joint.free:
-        values = {name: free.values[key] for key, name in NAMES["glTF"].items() if key in free.values}
+        values = {
+            name: free.values[key] for key, name in NAMES["glTF"].items() if key in free.values
+        }
         if values:
             kind = "angular" if free.kind == "rotate" else "linear"
-            drives.append({"type": kind, "mode": "force", "axis": _direction(free, turn)[1], **values})
+            drives.append(
+                {"type": kind, "mode": "force", "axis": _direction(free, turn)[1], **values}
+            )
     return drives
 
 

@@ -16,8 +16,17 @@ from .text import unique_names
 _DRIVE = {"damping": "damping", "stiffness": "stiffness", "effort": "maxForce"}
 NAMES = {
     "URDF": {name: name for name in ("damping", "friction", "effort", "velocity", "mimic")},
-    "SDF": {"stiffness": "spring_stiffness", **{name: name for name in ("damping", "friction", "effort", "velocity")}},
-    "MJCF": {"damping": "damping", "friction": "frictionloss", "stiffness": "stiffness", "effort": "", "mimic": ""},
+    "SDF": {
+        "stiffness": "spring_stiffness",
+        **{name: name for name in ("damping", "friction", "effort", "velocity")},
+    },
+    "MJCF": {
+        "damping": "damping",
+        "friction": "frictionloss",
+        "stiffness": "stiffness",
+        "effort": "",
+        "mimic": "",
+    },
     "USD": _DRIVE,
     "glTF": _DRIVE,
     "OpenSim": {},
@@ -25,7 +34,9 @@ NAMES = {
 
 
 def lost_values(
-    robot: Robot, form: str, more: Callable[[Joint, set[str]], set[str]] = lambda _joint, _stated: set()
+    robot: Robot,
+    form: str,
+    more: Callable[[Joint, set[str]], set[str]] = lambda _joint, _stated: set(),
 ) -> list[Finding]:
     """Return the finding about joints for which a format loses values, empty if it loses none.
 
@@ -33,9 +44,12 @@ def lost_values(
     """
     lost = {}
     for joint in robot.joints:
-        stated = {name for free in joint.free for name in free.values} | ({"mimic"} if joint.mimic else set())
+        stated = {name for free in joint.free for name in free.values} | (
+            {"mimic"} if joint.mimic else set()
+        )
         lost[joint.name] = (stated - NAMES[form].keys()) | more(joint, stated)
-    joints, values = [name for name, names in lost.items() if names], sorted(set().union(*lost.values()))
+    joints = [name for name, names in lost.items() if names]
+    values = sorted(set().union(*lost.values()))
     return [finding(JOINT_VALUES_LOST, format=form, values=values, joints=joints)] if joints else []
 
 
@@ -51,13 +65,21 @@ def with_axis_frames(
     frames: list[Link] = []
     joints: list[Joint] = []
     for joint in robot.joints:
-        parent, child, place = joint.parent, robot.link(joint.child), joint.pose.position
+        parent = joint.parent
+        child = robot.link(joint.child)
+        place = joint.pose.position
         between = () if is_whole(joint) else joint.free[:-1]
         pose = child.pose @ Pose(place) if place.any() else child.pose
-        inertial = child.inertial.share(part).place(Pose(-place)) if part and child.inertial is not None else None
+        inertial = (
+            child.inertial.share(part).place(Pose(-place))
+            if part and child.inertial is not None
+            else None
+        )
         for count, free in enumerate(between, start=1):
             (name,) = unique_names(["{}_axis_{}".format(child.name, count)], str, names).values()
-            (label,) = unique_names(["{}_axis_{}".format(joint.name, count)], str, joint_names).values()
+            (label,) = unique_names(
+                ["{}_axis_{}".format(joint.name, count)], str, joint_names
+            ).values()
             frames.append(Link(name, inertial, pose))
             joints.append(Joint(label, parent, name, (free,), Pose(rotation=joint.pose.rotation)))
             names.add(name)

@@ -27,7 +27,9 @@ _HEAD = re.compile(
 def is_audit(head: bytes) -> bool:
     """Return whether a file that begins with `head` is an audit report in a form other than JSON."""
     first = head.split(b"\n", 1)[0].rstrip(b"\r").decode("utf-8", "replace")
-    return first in (",".join(AUDIT_COLUMNS), AUDIT_PAGE, AUDIT_TEXT, AUDIT_COMMANDS) or bool(_SARIF.match(head))
+    return first in (",".join(AUDIT_COLUMNS), AUDIT_PAGE, AUDIT_TEXT, AUDIT_COMMANDS) or bool(
+        _SARIF.match(head)
+    )
 
 
 def is_ours(head: bytes) -> bool:

@@ -17,7 +17,16 @@ from ..findings import MJCF_INERTIA_TOO_SMALL
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import StatedInertial
 from .joints import NAMES, lost_values
-from .text import document, inertial_element, is_identity, number, numbers, unique_names, xml_name, xml_text
+from .text import (
+    document,
+    inertial_element,
+    is_identity,
+    number,
+    numbers,
+    unique_names,
+    xml_name,
+    xml_text,
+)
 
 LEAST = 1e-15  # mjMINVAL: MuJoCo refuses moving bodies of less mass or inertia, kg and kg·m².
 
@@ -69,7 +78,11 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
             _add_inertial(body, link.inertial)
         for shape in () if inertial_only else link.shapes:
             _add_geoms(body, shape, meshes)
-    mimics = [] if inertial_only else [(joint.name, joint.mimic) for joint in robot.joints if joint.mimic is not None]
+    mimics = (
+        []
+        if inertial_only
+        else [(joint.name, joint.mimic) for joint in robot.joints if joint.mimic is not None]
+    )
     equality = SubElement(root, "equality") if mimics else root
     for name, (leader, multiplier, offset) in mimics:
         both = {"joint1": joint_names[name], "joint2": joint_names[leader]}
@@ -79,16 +92,24 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
 
 def _name(text: str) -> str:
     text = xml_name(text)
-    return text + "_" if text == "world" else text  # The root that contains all bodies has this name.
+    return (
+        text + "_" if text == "world" else text
+    )  # The root that contains all bodies has this name.
 
 
 def _add_meshes(root: Element, robot: Robot) -> dict[tuple, str]:
     """Add an asset for each mesh, once even if several links show it; return the names by `_mesh_key`."""
-    files = {_mesh_key(shape): shape for link in robot.links for shape in link.shapes if shape.kind == "mesh"}
+    files = {
+        _mesh_key(shape): shape
+        for link in robot.links
+        for shape in link.shapes
+        if shape.kind == "mesh"
+    }
     if not files:
         return {}
     names = unique_names(list(map(str, range(len(files)))), lambda number_: "mesh_" + number_)
-    assets, result = SubElement(root, "asset"), {}
+    assets = SubElement(root, "asset")
+    result = {}
     for index, (key, shape) in enumerate(files.items()):
         result[key] = names[str(index)]
         mesh = SubElement(assets, "mesh", name=result[key], file=shape.file)
@@ -108,7 +129,9 @@ def _add_place(element: Element, pose: Pose) -> None:
     element.set("quat", numbers(quaternion(pose.rotation)))
 
 
-def _add_joints(body: Element, robot: Robot, link: Link, joint: Joint | None, names: dict[str, str]) -> None:
+def _add_joints(
+    body: Element, robot: Robot, link: Link, joint: Joint | None, names: dict[str, str]
+) -> None:
     """Add a joint for each degree of freedom of a link. A root with mass moves freely if it is not fixed."""
     if joint is None:
         if not link.is_fixed and any(part.inertial is not None for part in robot.rigid_parts(link)):
@@ -124,7 +147,9 @@ def _add_joints(body: Element, robot: Robot, link: Link, joint: Joint | None, na
         if not joint.is_ball:
             element.set("axis", numbers(joint.pose.rotation @ free.axis))
             if "effort" in free.values:
-                element.set("actuatorfrcrange", numbers((-free.values["effort"], free.values["effort"])))
+                element.set(
+                    "actuatorfrcrange", numbers((-free.values["effort"], free.values["effort"]))
+                )
         if free.is_limited:
             element.set("range", numbers((max(free.lower, -1e10), min(free.upper, 1e10))))
         for key, value in free.values.items():
@@ -146,9 +171,13 @@ def inertial_text(inertial: StatedInertial, *_: object) -> str:
 def _add_geoms(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:
     """Add a geometry that is seen, and one that collides. A flat mesh has no convex hull to collide with."""
     if shape.seen:
-        _add_geom(body, shape, meshes, {"group": "2", "contype": "0", "conaffinity": "0", "mass": "0"})
+        _add_geom(
+            body, shape, meshes, {"group": "2", "contype": "0", "conaffinity": "0", "mass": "0"}
+        )
     if shape.collides and not shape.sheet:
-        _add_geom(body, shape, meshes, {"group": "3", "mass": number(shape.mass) if shape.mass else "0"})
+        _add_geom(
+            body, shape, meshes, {"group": "3", "mass": number(shape.mass) if shape.mass else "0"}
+        )
 
 
 def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str], role: dict[str, str]) -> None:

@@ -32,13 +32,17 @@ _FORMS = {
 
 def check(robot: Robot) -> list[Finding]:
     """Return findings about content that the format cannot express."""
-    return lost_values(robot, "OpenSim", lambda joint, _: {"order of axes"} if _order(joint) is None else set())
+    return lost_values(
+        robot, "OpenSim", lambda joint, _: {"order of axes"} if _order(joint) is None else set()
+    )
 
 
 def _order(joint: Joint) -> bool | None:
     """Return True if a joint moves before it turns, False if it turns first, None if it does neither."""
     kinds = [free.kind for free in joint.free]
-    return True if kinds == sorted(kinds, reverse=True) else False if kinds == sorted(kinds) else None
+    return (
+        True if kinds == sorted(kinds, reverse=True) else False if kinds == sorted(kinds) else None
+    )
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -49,7 +53,11 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     model = SubElement(root, "Model", name=identifier(robot.name))
     add_text(model, "gravity", numbers(GRAVITY))
     bodies = SubElement(SubElement(model, "BodySet", name="bodyset"), "objects")
-    joints = model if inertial_only else SubElement(SubElement(model, "JointSet", name="jointset"), "objects")
+    joints = (
+        model
+        if inertial_only
+        else SubElement(SubElement(model, "JointSet", name="jointset"), "objects")
+    )
     for link in robot.ordered():
         _add_body(bodies, link, names[link.name], () if inertial_only else link.shapes)
         if not inertial_only:
@@ -67,11 +75,17 @@ def _add_body(bodies: Element, link: Link, name: str, shapes: Sequence[Shape]) -
     components = SubElement(body, "components") if seen else body
     for count, shape in enumerate(seen, start=1):
         turn = shape.pose.rotation @ ALONG_Y if shape.kind == "cylinder" else shape.pose.rotation
-        frame = _add_frame(components, "shape_{}".format(count), name, Pose(shape.pose.position, turn))
+        frame = _add_frame(
+            components, "shape_{}".format(count), name, Pose(shape.pose.position, turn)
+        )
         _add_geometry(SubElement(frame, "attached_geometry"), shape)
-    mass, center, tensor = 0.0, np.zeros(3), np.zeros((3, 3))
+    mass = 0.0
+    center = np.zeros(3)
+    tensor = np.zeros((3, 3))
     if link.inertial is not None:
-        mass, center, tensor = link.inertial.mass, link.inertial.center, link.inertial.inertia
+        mass = link.inertial.mass
+        center = link.inertial.center
+        tensor = link.inertial.inertia
     add_text(body, "mass", numbers([mass]))
     add_text(body, "mass_center", numbers(center))
     add_text(body, "inertia", numbers(tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]))
@@ -105,12 +119,16 @@ def _add_ends(joint: Element, ends: Sequence[tuple[str, Pose]]) -> None:
 
 
 def _add_root(joints: Element, robot: Robot, link: Link, name: str) -> None:
-    is_free = not link.is_fixed and any(part.inertial is not None for part in robot.rigid_parts(link))
+    is_free = not link.is_fixed and any(
+        part.inertial is not None for part in robot.rigid_parts(link)
+    )
     element = SubElement(joints, "FreeJoint" if is_free else "WeldJoint", name=name + "_ground")
     _add_ends(element, (("", link.pose), (name, Pose())))
 
 
-def _add_joint(joints: Element, robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> None:
+def _add_joint(
+    joints: Element, robot: Robot, joint: Joint, name: str, names: dict[str, str]
+) -> None:
     """Add a joint. A CustomJoint moves before it turns; one that turns first is stated from its other side."""
     place = robot.pose_in_parent(robot.link(joint.child)) @ joint.pose
     ends = ((names[joint.parent], place), (names[joint.child], joint.pose))
@@ -121,20 +139,26 @@ def _add_joint(joints: Element, robot: Robot, joint: Joint, name: str, names: di
     if kind != "CustomJoint":
         return
     axes = [free.reverse() for free in reversed(joint.free)] if is_turned else joint.free
-    coordinates, transform = SubElement(element, "coordinates"), SubElement(element, "SpatialTransform")
+    coordinates = SubElement(element, "coordinates")
+    transform = SubElement(element, "SpatialTransform")
     for title, freedom in (("rotation", "rotate"), ("translation", "translate")):
         own = [free for free in axes if free.kind == freedom]
-        rest = np.linalg.qr(np.column_stack([*(free.axis for free in own), np.eye(3)]))[0].T[len(own) :]
+        rest = np.linalg.qr(np.column_stack([*(free.axis for free in own), np.eye(3)]))[0].T[
+            len(own) :
+        ]
         for count, direction in enumerate([*(free.axis for free in own), *rest], start=1):
             axis = SubElement(transform, "TransformAxis", name="{}{}".format(title, count))
             if count > len(own):
                 add_text(axis, "axis", numbers(direction))
                 add_text(SubElement(axis, "Constant", name="function"), "value", "0")
                 continue
-            free, label = own[count - 1], name if len(axes) == 1 else "{}_{}{}".format(name, title, count)
+            free = own[count - 1]
+            label = name if len(axes) == 1 else "{}_{}{}".format(name, title, count)
             coordinate = SubElement(coordinates, "Coordinate", name=label)
             if free.is_limited:
-                add_text(coordinate, "range", numbers((max(free.lower, -FAR), min(free.upper, FAR))))
+                add_text(
+                    coordinate, "range", numbers((max(free.lower, -FAR), min(free.upper, FAR)))
+                )
                 add_text(coordinate, "clamped", "true")
             add_text(axis, "coordinates", label)
             add_text(axis, "axis", numbers(direction))

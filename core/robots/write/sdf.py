@@ -21,18 +21,37 @@ from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
 from .joints import NAMES, lost_values, with_axis_frames
 from .shapes import shape_values
-from .text import add_text, document, inertial_element, is_identity, number, numbers, unique_names, xml_name
+from .text import (
+    add_text,
+    document,
+    inertial_element,
+    is_identity,
+    number,
+    numbers,
+    unique_names,
+    xml_name,
+)
 
-VERSION = "1.9"  # The first with quaternions; newer parsers convert it, older ones refuse newer files.
-FRAME_PART = 2.0**-20  # of the child's inertial, for frames between axes: readers take no link without mass
+VERSION = (
+    "1.9"  # The first with quaternions; newer parsers convert it, older ones refuse newer files.
+)
+FRAME_PART = (
+    2.0**-20
+)  # of the child's inertial, for frames between axes: readers take no link without mass
 _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
 
 
 def check(robot: Robot) -> list[Finding]:
     """Return findings about content that the format cannot express."""
     split = [joint.name for joint in robot.joints if not _is_whole(joint)]
-    findings = [finding(SDF_FRAMES_ADDED, count=len(split), joints=split, part=FRAME_PART)] if split else []
-    return findings + lost_values(robot, "SDF", lambda joint, stated: stated if joint.is_ball else set())
+    findings = (
+        [finding(SDF_FRAMES_ADDED, count=len(split), joints=split, part=FRAME_PART)]
+        if split
+        else []
+    )
+    return findings + lost_values(
+        robot, "SDF", lambda joint, stated: stated if joint.is_ball else set()
+    )
 
 
 def _is_whole(joint: Joint) -> bool:
@@ -114,7 +133,9 @@ def _add_shapes(parent: Element, link: Link) -> None:
         for count, shape in enumerate(link.shapes, start=1):
             if not (shape.seen if tag == "visual" else shape.collides):
                 continue
-            element = SubElement(parent, tag, name=tag if len(link.shapes) == 1 else "{}_{}".format(tag, count))
+            element = SubElement(
+                parent, tag, name=tag if len(link.shapes) == 1 else "{}_{}".format(tag, count)
+            )
             _add_pose(element, shape.pose)
             _add_geometry(SubElement(element, "geometry"), shape)
 
@@ -143,4 +164,8 @@ def _add_axes(element: Element, joint: Joint) -> None:
         groups = {"effort": limit, "velocity": limit}
         for name, value in free.values.items():
             group = groups.get(name, axis.find("dynamics"))
-            add_text(SubElement(axis, "dynamics") if group is None else group, NAMES["SDF"][name], number(value))
+            add_text(
+                SubElement(axis, "dynamics") if group is None else group,
+                NAMES["SDF"][name],
+                number(value),
+            )

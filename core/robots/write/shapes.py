@@ -33,12 +33,17 @@ def capsule_pieces(shape: Shape) -> list[Shape]:
         return [shape]
     radius, length = shape.size
     ends = [shape.pose @ Pose(np.array([0.0, 0.0, side * length / 2.0])) for side in (-1.0, 1.0)]
-    return [Shape("cylinder", shape.size, shape.pose), *(Shape("sphere", (radius,), end) for end in ends)]
+    return [
+        Shape("cylinder", shape.size, shape.pose),
+        *(Shape("sphere", (radius,), end) for end in ends),
+    ]
 
 
 def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
     """Return the finding about a robot's ellipsoids for a format without them, empty if it has none."""
-    names = [link.name for link in robot.links if any(shape.kind == "ellipsoid" for shape in link.shapes)]
+    names = [
+        link.name for link in robot.links if any(shape.kind == "ellipsoid" for shape in link.shapes)
+    ]
     return [finding(ROBOT_ELLIPSOID_AS_BOX, count=len(names), links=names)] if names else []
 
 
@@ -51,7 +56,9 @@ def shape_values(shape: Shape) -> dict[str, str]:
     return {name: number(value) for name, value in zip(("radius", "length"), shape.size)}
 
 
-def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tuple[Robot, list[Finding]]:
+def with_meshes(
+    robot: Robot, surface_of: Callable[[str], Surface | None]
+) -> tuple[Robot, list[Finding]]:
     """Return a robot with the surface of each link (in m, along its axes), and a finding about links without one.
 
     Colliders have their own surfaces.
@@ -61,7 +68,9 @@ def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tu
         surface = surface_of(link.name) if link.shapes else None
         shown = surface is not None and len(surface.all_triangles()[0])
         shapes = [replace(shape, surface=surface) if shape.seen else shape for shape in link.shapes]
-        links.append(replace(link, shapes=tuple(shape for shape in shapes if shown or not shape.seen)))
+        links.append(
+            replace(link, shapes=tuple(shape for shape in shapes if shown or not shape.seen))
+        )
         bare += [] if shown else [link.name]
     findings = [finding(ROBOT_LINKS_BARE, count=len(bare), links=bare)] if bare else []
     return replace(robot, links=tuple(links)), findings
@@ -69,7 +78,9 @@ def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tu
 
 def without_collision(robot: Robot) -> Robot:
     """Return a robot whose shapes are only seen."""
-    return _with_shapes(robot, lambda link: [replace(shape, collides=False) for shape in link.shapes if shape.seen])
+    return _with_shapes(
+        robot, lambda link: [replace(shape, collides=False) for shape in link.shapes if shape.seen]
+    )
 
 
 def with_colliders(robot: Robot, colliders_of: Callable[[Link], Sequence[Shape]]) -> Robot:
@@ -77,7 +88,11 @@ def with_colliders(robot: Robot, colliders_of: Callable[[Link], Sequence[Shape]]
 
     def shapes_of(link: Link) -> Sequence[Shape]:
         colliders = [replace(shape, seen=False) for shape in colliders_of(link)]
-        return [*(replace(shape, collides=False) for shape in link.shapes), *colliders] if colliders else link.shapes
+        return (
+            [*(replace(shape, collides=False) for shape in link.shapes), *colliders]
+            if colliders
+            else link.shapes
+        )
 
     return _with_shapes(robot, shapes_of)
 
@@ -86,9 +101,15 @@ def with_primitives(robot: Robot, kind: str) -> Robot:
     """Return a robot with a "box", "ellipsoid", "capsule" or no shape ("none") as each link's geometry."""
     return _with_shapes(
         robot,
-        lambda link: () if kind == "none" or link.inertial is None else (equal_inertia_shape(link.inertial, kind),),
+        lambda link: (
+            ()
+            if kind == "none" or link.inertial is None
+            else (equal_inertia_shape(link.inertial, kind),)
+        ),
     )
 
 
 def _with_shapes(robot: Robot, shapes_of: Callable[[Link], Sequence[Shape]]) -> Robot:
-    return replace(robot, links=tuple(replace(link, shapes=tuple(shapes_of(link))) for link in robot.links))
+    return replace(
+        robot, links=tuple(replace(link, shapes=tuple(shapes_of(link))) for link in robot.links)
+    )

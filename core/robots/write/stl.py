@@ -43,18 +43,24 @@ def to_obj(surface: Surface) -> bytes:
     return stream.getvalue()
 
 
-def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bool = False) -> Robot:
+def write_meshes(
+    robot: Robot, output: Path, read: Path | None = None, force: bool = False
+) -> Robot:
     """Write the surfaces of a robot's meshes to files, and return the robot with the names of these files.
 
     output: the robot's own file; the meshes go to the folder `meshes` beside it. read: a file that is never replaced.
     OSError if a file cannot be written, or exists, is no mesh of ours, and `force` is False; then none is written.
     """
-    shapes = {(link.name, index): shape for link in robot.links for index, shape in enumerate(link.shapes)}
+    shapes = {
+        (link.name, index): shape for link in robot.links for index, shape in enumerate(link.shapes)
+    }
     files = mesh_files(shapes, output.stem)
     for key, shape in shapes.items():
         if shape.surface is not None and len(shape.surface.all_triangles()[0]) > MOST_TRIANGLES:
             files[key] = files[key].removesuffix("stl") + "obj"
-    surfaces = {files[key]: shape.surface for key, shape in shapes.items() if shape.surface is not None}
+    surfaces = {
+        files[key]: shape.surface for key, shape in shapes.items() if shape.surface is not None
+    }
     for file in surfaces:
         _check_replaceable(output.parent / file, read, force)
     for file, surface in surfaces.items():
@@ -75,8 +81,13 @@ def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bo
 
 def mesh_files(shapes: Iterable[tuple[str, int]], stem: str) -> dict[tuple[str, int], str]:
     """Return the mesh file of each link's name and shape's index, relative to the robot's; unique even without case."""
-    files = unique_names(shapes, lambda key: _file_name("{}_collider_{}".format(*key) if key[1] else key[0]))
-    return {key: "{}/{}/{}.stl".format(MESH_FOLDER, _file_name(stem), file) for key, file in files.items()}
+    files = unique_names(
+        shapes, lambda key: _file_name("{}_collider_{}".format(*key) if key[1] else key[0])
+    )
+    return {
+        key: "{}/{}/{}.stl".format(MESH_FOLDER, _file_name(stem), file)
+        for key, file in files.items()
+    }
 
 
 def _file_name(name: str) -> str:

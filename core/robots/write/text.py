@@ -45,9 +45,12 @@ def xml_name(text: str) -> str:
     return "_" * start + inner + "_" * (len(text) - start - len(inner)) if text else "_"
 
 
-def unique_names(names: Iterable[Key], rename: Callable[[Key], str], taken: Iterable[str] = ()) -> dict[Key, str]:
+def unique_names(
+    names: Iterable[Key], rename: Callable[[Key], str], taken: Iterable[str] = ()
+) -> dict[Key, str]:
     """Return a dict from each name to its `rename`d name, with a number if that name is used or `taken`."""
-    used, result = set(taken), {}
+    used = set(taken)
+    result = {}
     for name in names:
         base = candidate = rename(name)
         number_ = 1
@@ -64,7 +67,8 @@ def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
     yaw = atan2(rotation[1, 0], rotation[0, 0])
     pitch = atan2(-rotation[2, 0], hypot(rotation[0, 0], rotation[1, 0]))
     roll = atan2(
-        sin(yaw) * rotation[0, 2] - cos(yaw) * rotation[1, 2], cos(yaw) * rotation[1, 1] - sin(yaw) * rotation[0, 1]
+        sin(yaw) * rotation[0, 2] - cos(yaw) * rotation[1, 2],
+        cos(yaw) * rotation[1, 1] - sin(yaw) * rotation[0, 1],
     )
     return roll, pitch, yaw
 

@@ -16,7 +16,10 @@ from ..model import Robot
 from .shapes import with_meshes
 from .stl import write_meshes
 
-OF_INERTIALS = {MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL}  # All other findings are about geometry and joints.
+OF_INERTIALS = {
+    MJCF_INERTIA_TOO_SMALL,
+    USD_INERTIA_TOO_SMALL,
+}  # All other findings are about geometry and joints.
 
 
 def with_geometry(
@@ -29,7 +32,9 @@ def with_geometry(
 ) -> tuple[Robot, list[Finding]]:
     """Return a robot with meshes, written to files unless the format embeds them, and a finding about bare links."""
     robot, findings = with_meshes(robot, surface_of)
-    return robot if FORMATS[format_name].holds_meshes else write_meshes(robot, output, read, force), findings
+    return robot if FORMATS[format_name].holds_meshes else write_meshes(
+        robot, output, read, force
+    ), findings
 
 
 def robot_text(

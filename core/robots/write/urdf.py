@@ -22,11 +22,22 @@ from ..stated import ENTRIES, StatedInertial
 from .joints import lost_values, with_axis_frames
 from .mjcf import raised_inertials, smallest_inertials
 from .shapes import box_of_ellipsoid, capsule_pieces, ellipsoids_as_boxes, shape_values
-from .text import document, inertial_element, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_name
+from .text import (
+    document,
+    inertial_element,
+    is_identity,
+    number,
+    numbers,
+    roll_pitch_yaw,
+    unique_names,
+    xml_name,
+)
 
 FLATNESS = 1e-7  # Thickness relative to length, of float32 vertices in a plane.
 BASE, WORLD = "base_link", "world"
-SLACK = 2.0**-48  # The largest moment of a flat body is lowered by this part: MuJoCo tests A + B ≥ C without tolerance.
+SLACK = (
+    2.0**-48
+)  # The largest moment of a flat body is lowered by this part: MuJoCo tests A + B ≥ C without tolerance.
 LEAST = 1e-14  # kg and kg·m² that MuJoCo gives massless frames, as it refuses less than 1e-15.
 BOUNDED = 1e-13  # It takes smaller tensors for singular, unless a bound is set.
 # A limited joint must state these unknown values. N·m or N, and rad/s or m/s, too large to have an effect.
@@ -44,7 +55,10 @@ def check(robot: Robot) -> list[Finding]:
     unknown = [
         joint.name
         for joint in robot.joints
-        if any(_needs_limit(free) and not {"effort", "velocity"} <= free.values.keys() for free in joint.free)
+        if any(
+            _needs_limit(free) and not {"effort", "velocity"} <= free.values.keys()
+            for free in joint.free
+        )
     ]
     if unknown:
         findings.append(finding(URDF_EFFORT_UNKNOWN, count=len(unknown), joints=unknown))
@@ -75,15 +89,23 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     for link in () if inertial_only else robot.ordered():
         joint = robot.joint_of(link.name)
         if joint is not None:
-            parent, name = names[joint.parent], joint_names[joint.name]
+            parent = names[joint.parent]
+            name = joint_names[joint.name]
         elif base is not None:
-            parent, name = base, _free_name(names[link.name] + "_joint", joint_names)
+            parent = base
+            name = _free_name(names[link.name] + "_joint", joint_names)
         else:
             continue
-        element = _add_joint(root, name, parent, names[link.name], robot.pose_in_parent(link), joint)
+        element = _add_joint(
+            root, name, parent, names[link.name], robot.pose_in_parent(link), joint
+        )
         if joint is not None and joint.mimic is not None:
             leader, multiplier, offset = joint.mimic
-            values = {"joint": joint_names[leader], "multiplier": number(multiplier), "offset": number(offset)}
+            values = {
+                "joint": joint_names[leader],
+                "multiplier": number(multiplier),
+                "offset": number(offset),
+            }
             SubElement(element, "mimic", values)
     return document(root, "urdf", remarks)
 
@@ -111,15 +133,20 @@ def _add_origin(parent: Element, pose: Pose) -> None:
     if is_identity(pose):
         SubElement(parent, "origin", xyz="0 0 0", rpy="0 0 0")
         return
-    SubElement(parent, "origin", xyz=numbers(pose.position), rpy=numbers(roll_pitch_yaw(pose.rotation)))
+    SubElement(
+        parent, "origin", xyz=numbers(pose.position), rpy=numbers(roll_pitch_yaw(pose.rotation))
+    )
 
 
 def _add_inertial(parent: Element, inertial: Inertial) -> None:
     element = SubElement(parent, "inertial")
     SubElement(element, "origin", xyz=numbers(inertial.center), rpy="0 0 0")
     SubElement(element, "mass", value=number(inertial.mass))
-    tensor, axis = inertial.inertia, inertial.axes[:, 2]
-    missing = SLACK * inertial.moments[2] - (inertial.moments[0] + inertial.moments[1] - inertial.moments[2])
+    tensor = inertial.inertia
+    axis = inertial.axes[:, 2]
+    missing = SLACK * inertial.moments[2] - (
+        inertial.moments[0] + inertial.moments[1] - inertial.moments[2]
+    )
     if missing > 0.0:
         tensor = tensor - missing * np.outer(axis, axis)
     SubElement(element, "inertia", {name: number(tensor[i, j]) for name, i, j in ENTRIES})
@@ -137,7 +164,9 @@ def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
             for shape in shapes
             if (shape.seen if tag == "visual" else shape.collides and not _is_flat(shape.surface))
         ]
-        for piece in (box_of_ellipsoid(piece) for shape in shown for piece in capsule_pieces(shape)):
+        for piece in (
+            box_of_ellipsoid(piece) for shape in shown for piece in capsule_pieces(shape)
+        ):
             element = SubElement(parent, tag)
             _add_origin(element, piece.pose)
             geometry = SubElement(element, "geometry")
@@ -154,7 +183,9 @@ def _is_flat(surface: Surface | None) -> bool:
     return bool(spread[2] <= FLATNESS**2 * spread[0])
 
 
-def _add_joint(root: Element, name: str, parent: str, child: str, pose: Pose, joint: Joint | None) -> Element:
+def _add_joint(
+    root: Element, name: str, parent: str, child: str, pose: Pose, joint: Joint | None
+) -> Element:
     """Add a joint with one axis or none, and return its element."""
     axis = joint.free[0] if joint is not None and joint.free else None
     element = SubElement(root, "joint", name=name, type=_joint_type(axis))
@@ -165,14 +196,20 @@ def _add_joint(root: Element, name: str, parent: str, child: str, pose: Pose, jo
         SubElement(element, "axis", xyz=numbers(joint.pose.rotation @ axis.axis))
         if _needs_limit(axis):
             _add_limit(element, axis)
-        dynamics = {key: number(axis.values[key]) for key in ("damping", "friction") if key in axis.values}
+        dynamics = {
+            key: number(axis.values[key]) for key in ("damping", "friction") if key in axis.values
+        }
         if dynamics:
             SubElement(element, "dynamics", dynamics)
     return element
 
 
 def _needs_limit(free: FreeAxis) -> bool:
-    return free.is_limited or free.kind == "translate" or bool({"effort", "velocity"} & free.values.keys())
+    return (
+        free.is_limited
+        or free.kind == "translate"
+        or bool({"effort", "velocity"} & free.values.keys())
+    )
 
 
 def _joint_type(free: FreeAxis | None) -> str:

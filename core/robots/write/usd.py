@@ -41,20 +41,28 @@ _INDENT = "    "
 def check(robot: Robot) -> list[Finding]:
     """Return findings about numbers that single precision cannot hold."""
     small = [
-        link.name for link in robot.links if link.inertial is not None and not link.inertial.moments[0] * 0.5 > LEAST
+        link.name
+        for link in robot.links
+        if link.inertial is not None and not link.inertial.moments[0] * 0.5 > LEAST
     ]
     findings = [finding(USD_INERTIA_TOO_SMALL, count=len(small), links=small)] if small else []
     # Spherical joints have no drives.
-    return findings + lost_values(robot, "USD", lambda joint, stated: stated if joint.is_ball else set())
+    return findings + lost_values(
+        robot, "USD", lambda joint, stated: stated if joint.is_ball else set()
+    )
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
     """Return a robot as a USD layer, in meters, with a prim for each link. Parameters are those of `urdf.write`."""
     names = unique_names([link.name for link in robot.links], identifier)
     joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
-    heavy = [link for link in robot.roots if link.is_fixed and link.inertial is not None]  # Prims without mass stand.
+    heavy = [
+        link for link in robot.roots if link.is_fixed and link.inertial is not None
+    ]  # Prims without mass stand.
     bases = {} if inertial_only else {link.name: link for link in heavy}
-    trees = {link.name for link in robot.roots if not inertial_only and robot.children(link.name)} | {*bases}
+    trees = {
+        link.name for link in robot.roots if not inertial_only and robot.children(link.name)
+    } | {*bases}
     is_one = len(robot.roots) == 1 and bool(trees)  # Else each tree is an articulation of its own.
     lines: list[str] = []
     for link in robot.ordered():
@@ -65,9 +73,13 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
             for count, shape in enumerate(link.shapes, start=1):
                 lines_of_shape = _geometry(shape)
                 if lines_of_shape and shape.seen:
-                    inner += _prim("def " + _KINDS[shape.kind], "visual_{}".format(count), lines_of_shape)
+                    inner += _prim(
+                        "def " + _KINDS[shape.kind], "visual_{}".format(count), lines_of_shape
+                    )
                 if lines_of_shape and shape.collides:
-                    inner += _collider(shape, names[link.name], count, () if shape.seen else lines_of_shape)
+                    inner += _collider(
+                        shape, names[link.name], count, () if shape.seen else lines_of_shape
+                    )
         is_tree = not is_one and link.name in trees and link.name not in bases
         apis = ARTICULATION * is_tree + (() if inertial is None else APIS)
         lines += _prim("def Xform", names[link.name], inner, apis)
@@ -109,13 +121,17 @@ def write_over(
         if link.is_fixed and tuple(paths[link.name]) in bodies:
             pose = Pose(link.pose.position / meters_per_unit, link.pose.rotation)
             name = "_".join([*paths[link.name], "base"])
-            joints += _prim("def PhysicsFixedJoint", name, _ends(None, "/".join(paths[link.name]), pose, top=""))
+            joints += _prim(
+                "def PhysicsFixedJoint", name, _ends(None, "/".join(paths[link.name]), pose, top="")
+            )
     lines = header(robot.name, remarks, meters_per_unit, top, [geometry])
     overs = _overs(tree, (), bodies)
     return "\n".join([*lines, *overs[:-1], *(_INDENT + line for line in joints), *overs[-1:], ""])
 
 
-def _overs(tree: Mapping[str, dict], above: tuple[str, ...], bodies: Mapping[tuple, list[str]]) -> list[str]:
+def _overs(
+    tree: Mapping[str, dict], above: tuple[str, ...], bodies: Mapping[tuple, list[str]]
+) -> list[str]:
     lines = []
     for name, branch in tree.items():
         path = (*above, name)
@@ -126,15 +142,28 @@ def _overs(tree: Mapping[str, dict], above: tuple[str, ...], bodies: Mapping[tup
 
 
 def header(
-    name: str, remarks: Sequence[str], meters_per_unit: float, prim: str, sublayers: Sequence[str] = ()
+    name: str,
+    remarks: Sequence[str],
+    meters_per_unit: float,
+    prim: str,
+    sublayers: Sequence[str] = (),
 ) -> list[str]:
     """Return the lines before the first prim."""
     text = [MARKER.format("usd"), name, *remarks]
     doc = "\n".join(text).replace("\\", "\\\\").replace('"', '\\"')
-    lines = ["#usda 1.0", "(", '    """{}"""'.format(doc), "    defaultPrim = {}".format(quoted(prim))]
+    lines = [
+        "#usda 1.0",
+        "(",
+        '    """{}"""'.format(doc),
+        "    defaultPrim = {}".format(quoted(prim)),
+    ]
     lines += ["    kilogramsPerUnit = 1", "    metersPerUnit = {}".format(number(meters_per_unit))]
     if sublayers:
-        lines += ["    subLayers = [", *("        @{}@".format(path) for path in sublayers), "    ]"]
+        lines += [
+            "    subLayers = [",
+            *("        @{}@".format(path) for path in sublayers),
+            "    ]",
+        ]
     return [*lines, '    upAxis = "Z"', ")", ""]
 
 
@@ -149,7 +178,9 @@ def quoted(text: str) -> str:
     return '"{}"'.format(text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n"))
 
 
-def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: ArrayLike = (1.0, 1.0, 1.0)) -> list[str]:
+def mass_attributes(
+    inertial: Inertial, meters_per_unit: float = 1.0, scale: ArrayLike = (1.0, 1.0, 1.0)
+) -> list[str]:
     """Return the lines that give a prim its mass, in units of its stage. scale: (3,) of the prim, for the center."""
     center = inertial.center / (meters_per_unit * np.asarray(scale, np.float64))
     inertia = inertial.inertia / meters_per_unit**2
@@ -157,19 +188,32 @@ def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: Arr
     return [
         "float physics:mass = {}".format(single(inertial.mass)),
         "point3f physics:centerOfMass = {}".format(singles(center)),
-        "float3 physics:diagonalInertia = {}".format(singles(round_down(inertial.moments / meters_per_unit**2))),
+        "float3 physics:diagonalInertia = {}".format(
+            singles(round_down(inertial.moments / meters_per_unit**2))
+        ),
         "quatf physics:principalAxes = {}".format(singles(quaternion(inertial.axes))),
         "double[] newton:inertia = [{}]".format(", ".join(map(number, entries))),
     ]
 
 
-def inertial_text(inertial: StatedInertial, old: str, link: StatedLink, description: Description) -> str:
+def inertial_text(
+    inertial: StatedInertial, old: str, link: StatedLink, description: Description
+) -> str:
     """Return a prim's inner text `old` with the attributes of a repaired inertial instead of its former ones."""
-    unit, mass = description.scales["length"], description.scales["mass"]
+    unit = description.scales["length"]
+    mass = description.scales["mass"]
     local = np.eye(4) if link.local is None else link.local
     principal = inertial.principal()
-    center = np.asarray(np.linalg.solve(local[:3, :3], inertial.center / unit - local[:3, 3]) * unit, np.float64)
-    placed = Inertial(principal.mass / mass, center, principal.inertia / mass, principal.moments / mass, principal.axes)
+    center = np.asarray(
+        np.linalg.solve(local[:3, :3], inertial.center / unit - local[:3, 3]) * unit, np.float64
+    )
+    placed = Inertial(
+        principal.mass / mass,
+        center,
+        principal.inertia / mass,
+        principal.moments / mass,
+        principal.axes,
+    )
     below = re.search(r"\n[ \t]*(?:def|over|class)\b", old)
     split = below.start() if below else len(old)
     match = re.search(r"\n([ \t]+)\S", old)
@@ -202,7 +246,9 @@ def _doubles(values: Iterable[float]) -> str:
     return "({})".format(", ".join(map(number, values)))
 
 
-def _prim(kind: str, name: str, inner: Iterable[str], apis: Sequence[str] = (), reference: str = "") -> list[str]:
+def _prim(
+    kind: str, name: str, inner: Iterable[str], apis: Sequence[str] = (), reference: str = ""
+) -> list[str]:
     """Return the lines of a prim with attributes and prims in it. reference: a prim that has the rest."""
     head = ["{} {}".format(kind, quoted(name))]
     if apis:
@@ -236,20 +282,27 @@ def _geometry(shape: Shape) -> list[str]:
         return [] if shape.surface is None else _mesh(shape.surface, shape.pose)
     scale = None
     if shape.kind == "box":
-        attributes, scale = ["double size = 1"], shape.size
+        attributes = ["double size = 1"]
+        scale = shape.size
     elif shape.kind == "ellipsoid":
-        attributes, scale = ["double radius = 1"], shape.size
+        attributes = ["double radius = 1"]
+        scale = shape.size
     elif shape.kind == "sphere":
         attributes = ["double radius = {}".format(number(shape.size[0]))]
     else:
-        attributes = ["double radius = {}".format(number(shape.size[0])), 'uniform token axis = "Z"']
+        attributes = [
+            "double radius = {}".format(number(shape.size[0])),
+            'uniform token axis = "Z"',
+        ]
         attributes.append("double height = {}".format(number(shape.size[1])))
     return [*attributes, *_transform(shape.pose, scale)]
 
 
 def _collider(shape: Shape, link: str, count: int, geometry: Sequence[str]) -> list[str]:
     """Return the lines of a collider with its own geometry, else the visible prim's; of a mesh its convex hull."""
-    inner, apis = ['uniform token purpose = "guide"', *geometry], ["PhysicsCollisionAPI"]  # Renderers skip guides.
+    # Renderers skip guides.
+    inner = ['uniform token purpose = "guide"', *geometry]
+    apis = ["PhysicsCollisionAPI"]
     if shape.kind == "mesh":
         inner.append('uniform token physics:approximation = "convexHull"')
         apis.append("PhysicsMeshCollisionAPI")
@@ -273,35 +326,51 @@ def _mesh(surface: Surface, pose: Pose) -> list[str]:
 
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:
     """Return the lines of a joint, general with limits if it has several degrees of freedom."""
-    child, parent = robot.link(joint.child), robot.link(joint.parent)
+    child = robot.link(joint.child)
+    parent = robot.link(joint.parent)
     place = parent.pose.inverse() @ child.pose @ joint.pose
     turn = np.eye(3)
     if not joint.free:
-        kind, apis, more = "PhysicsFixedJoint", (), []
+        kind = "PhysicsFixedJoint"
+        apis = ()
+        more = []
     elif len(joint.free) == 1:
         free = joint.free[0]
         kind = "PhysicsRevoluteJoint" if free.kind == "rotate" else "PhysicsPrismaticJoint"
-        turn, (apis, drive) = along_x(free.axis), _drive(free, "angular" if free.kind == "rotate" else "linear")
+        turn = along_x(free.axis)
+        (apis, drive) = _drive(free, "angular" if free.kind == "rotate" else "linear")
         limits = [_in_degrees(free.kind, limit) for limit in (free.lower, free.upper)]
         more = ['uniform token physics:axis = "X"']
-        more += ["float physics:{}Limit = {}".format(end, single(v)) for end, v in zip(("lower", "upper"), limits)]
+        more += [
+            "float physics:{}Limit = {}".format(end, single(v))
+            for end, v in zip(("lower", "upper"), limits)
+        ]
         more += drive
     elif joint.is_ball:
-        kind, apis, more = "PhysicsSphericalJoint", (), []
+        kind = "PhysicsSphericalJoint"
+        apis = ()
+        more = []
     else:
-        kind, (apis, more) = "PhysicsJoint", _limits(joint)
+        kind = "PhysicsJoint"
+        (apis, more) = _limits(joint)
     here = Pose(joint.pose.position, joint.pose.rotation @ turn)
-    lines = _ends(names[parent.name], names[child.name], Pose(place.position, place.rotation @ turn), here)
+    lines = _ends(
+        names[parent.name], names[child.name], Pose(place.position, place.rotation @ turn), here
+    )
     return _prim("def " + kind, name, [*lines, *more], apis)
 
 
-def _ends(parent: str | None, child: str, place: Pose, own: Pose | None = None, top: str = "/" + ROOT) -> list[str]:
+def _ends(
+    parent: str | None, child: str, place: Pose, own: Pose | None = None, top: str = "/" + ROOT
+) -> list[str]:
     """Return the lines of a joint's bodies and its frames in them. parent: None for the world."""
     lines = []
     for index, (body, pose) in enumerate(((parent, place), (child, own or Pose()))):
         lines += [] if body is None else ["rel physics:body{} = <{}/{}>".format(index, top, body)]
         lines.append("point3f physics:localPos{} = {}".format(index, singles(pose.position)))
-        lines.append("quatf physics:localRot{} = {}".format(index, singles(quaternion(pose.rotation))))
+        lines.append(
+            "quatf physics:localRot{} = {}".format(index, singles(quaternion(pose.rotation)))
+        )
     return lines
 
 
@@ -310,7 +379,9 @@ def _drive(free: FreeAxis, name: str) -> tuple[list[str], list[str]]:
     lines = []
     for key, attribute in NAMES["USD"].items():
         if key in free.values:
-            value = free.values[key] * (radians(1.0) if free.kind == "rotate" and key != "effort" else 1.0)
+            value = free.values[key] * (
+                radians(1.0) if free.kind == "rotate" and key != "effort" else 1.0
+            )
             lines.append("float drive:{}:physics:{} = {}".format(name, attribute, single(value)))
     return ["PhysicsDriveAPI:" + name] if lines else [], lines
 

@@ -22,7 +22,11 @@ pytestmark = pytest.mark.usefixtures("registered", "scene")
 
 
 def box_mesh(x, y, z, center=(0.0, 0.0, 0.0)):
-    corners = np.array([(i, j, k) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)]) * (x / 2, y / 2, z / 2) + center
+    corners = (
+        np.array([(i, j, k) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)])
+        * (x / 2, y / 2, z / 2)
+        + center
+    )
     mesh = bpy.data.meshes.new("Box")
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     mesh.from_pydata(corners.tolist(), [], faces)
@@ -68,7 +72,9 @@ def boxes_inertia(boxes):
     ]
     masses = [density * size[0] * size[1] * size[2] for density, size, _ in exact]
     total = sum(masses)
-    center = [sum(mass * at[i] for mass, (_, _, at) in zip(masses, exact)) / total for i in range(3)]
+    center = [
+        sum(mass * at[i] for mass, (_, _, at) in zip(masses, exact)) / total for i in range(3)
+    ]
     second = [[Fraction(0)] * 3 for _ in range(3)]
     for mass, (_, size, at) in zip(masses, exact):
         for i in range(3):
@@ -80,7 +86,11 @@ def boxes_inertia(boxes):
     return float(total), np.array(center, float), np.array(tensor, float)
 
 
-BOXES = [(7850, (1, 2, 4), (8, 0, -2)), (1000, (2, 2, 2), (-4, 6, 1)), (2700, (0.5, 8, 0.25), (0, -16, 32))]
+BOXES = [
+    (7850, (1, 2, 4), (8, 0, -2)),
+    (1000, (2, 2, 2), (-4, 6, 1)),
+    (2700, (0.5, 8, 0.25), (0, -16, 32)),
+]
 
 
 def test_nested_collections_total_by_exact_parallel_axes():
@@ -94,11 +104,17 @@ def test_nested_collections_total_by_exact_parallel_axes():
     assert close(body.mass, mass, 1e-14) and close(body.center, center, 1e-14)
     assert np.abs(body.inertia - tensor).max() <= 1e-14 * np.abs(tensor).max()
     assert np.abs(body.inertia - tensor).max() <= body.rounding_error["inertia"]
-    assert str(assembly.measurement.method) == "assembly" and assembly.measurement.type == "COLLECTION"
+    assert (
+        str(assembly.measurement.method) == "assembly" and assembly.measurement.type == "COLLECTION"
+    )
     assert assembly.measurement.health.closed and assembly.measurement.health.components == 3
     bound, own = (
         assembly.measurement.error_bound,
-        [part.measurement.error_bound for part in assembly.root.walk() if part.measurement is not None],
+        [
+            part.measurement.error_bound
+            for part in assembly.root.walk()
+            if part.measurement is not None
+        ],
     )
     for name in ("volume", "area"):
         members, value = sum(one[name] for one in own), getattr(assembly.measurement, name)
@@ -116,7 +132,9 @@ def test_an_object_in_two_collections_counts_once():
     root.objects.link(obj)
     assembly = measured(root)
     assert close(assembly.measurement.mass_properties.mass, 1000.0, 1e-14)
-    (found,) = [found for found in assembly.measurement.findings if found.code == "members_counted_before"]
+    (found,) = [
+        found for found in assembly.measurement.findings if found.code == "members_counted_before"
+    ]
     assert found.values["count"] == 2
 
 
@@ -185,14 +203,20 @@ def test_an_instance_weighs_as_its_members_do_wherever_it_stands():
     assert close(body.mass, steel + 4.0, 1e-13)
     center = (steel * np.array([12, 20, 28]) + 4.0 * np.array([10, 26, 28])) / (steel + 4.0)
     assert close(body.center, center, 1e-12)
-    assert close(assembly.measurement.volume, 72.0, 1e-12) and close(assembly.measurement.area, 4 * 34, 1e-12)
-    _, _, tensor = boxes_inertia([(7850, (2, 4, 8), (12, 20, 28)), (Fraction(4, 8), (2, 2, 2), (10, 26, 28))])
+    assert close(assembly.measurement.volume, 72.0, 1e-12) and close(
+        assembly.measurement.area, 4 * 34, 1e-12
+    )
+    _, _, tensor = boxes_inertia(
+        [(7850, (2, 4, 8), (12, 20, 28)), (Fraction(4, 8), (2, 2, 2), (10, 26, 28))]
+    )
     assert np.abs(body.inertia - tensor).max() <= 1e-12 * np.abs(tensor).max()
     bound = assembly.measurement.error_bound
     made.scale = (1, 1, 1)
     plain = measured(root).measurement.error_bound
     for found, own in ((bound, plain), (bound["input"], plain["input"])):
-        assert close(found["volume"], 8.0 * own["volume"], 1e-9) and close(found["area"], 4.0 * own["area"], 1e-9)
+        assert close(found["volume"], 8.0 * own["volume"], 1e-9) and close(
+            found["area"], 4.0 * own["area"], 1e-9
+        )
     made.scale = (2, 2, 2)
     made.body_moments.density = 500.0  # its own density: one body
     assert close(measured(root).measurement.mass_properties.mass, 500.0 * 72.0, 1e-12)
@@ -208,7 +232,10 @@ def test_an_instance_that_stretches_has_the_area_that_it_shows():
     assert close(assembly.measurement.area, 2 * (2 + 3 + 6), 1e-12)
     assert close(assembly.measurement.mass_properties.mass, 6.0, 1e-12)
     own, bound = measured_object(made).error_bound, assembly.measurement.error_bound
-    assert own["area"] < bound["area"] < own["area"] + 22 * 2.0**-51 and bound["input"]["area"] == own["input"]["area"]
+    assert (
+        own["area"] < bound["area"] < own["area"] + 22 * 2.0**-51
+        and bound["input"]["area"] == own["input"]["area"]
+    )
     made.scale = (1, 1, 1)
     plain = measured(root).measurement.error_bound
     for found, first in ((bound, plain), (bound["input"], plain["input"])):
@@ -234,11 +261,16 @@ def test_bought_part_has_given_mass_center_and_inertia():
     part.body_moments.mass_from, part.body_moments.mass = "MASS", 2.5
     body = measured(root).measurement.mass_properties
     _, _, tensor = boxes_inertia([(Fraction(5, 16), (1, 2, 4), (3, 0, 0))])
-    assert close(body.mass, 2.5, 1e-14) and np.abs(body.inertia - tensor).max() <= 1e-14 * tensor.max()
+    assert (
+        close(body.mass, 2.5, 1e-14) and np.abs(body.inertia - tensor).max() <= 1e-14 * tensor.max()
+    )
     assert close(body.center[0], 3.0, 1e-14)
     part.body_moments.use_center, part.body_moments.given_center = True, (2.5, 0.25, 0)
     part.body_moments.use_inertia = True
-    part.body_moments.given_inertia_diagonal, part.body_moments.given_inertia_products = (3, 4, 5), (0.5, 0, 0.25)
+    part.body_moments.given_inertia_diagonal, part.body_moments.given_inertia_products = (
+        (3, 4, 5),
+        (0.5, 0, 0.25),
+    )
     assembly = measured(root)
     body = assembly.measurement.mass_properties
     assert close(body.center, [2.5, 0.25, 0], 1e-14)
@@ -276,7 +308,9 @@ def test_an_empty_gives_mass_center_and_inertia_in_its_own_frame(with_children):
     settings = root.body_moments_assembly
     settings.mass_from, settings.mass = "MASS", 2.5
     assembly = measured(root)
-    assert [found.code for found in assembly.root.findings] == ["assembly_mass_given"]  # its origin was chosen
+    assert [found.code for found in assembly.root.findings] == [
+        "assembly_mass_given"
+    ]  # its origin was chosen
     body = assembly.measurement.mass_properties
     assert close(body.mass, 2.5, 1e-15) and np.abs(body.center - (1, 2, 3)).max() < 1e-6
     side = 3.0 if with_children else 0.0  # m
@@ -293,7 +327,11 @@ def test_instance_mass_scales_by_kind_of_member():
     root, of = collection(), bpy.data.collections.new("Of")
     sheet, weighed = box(of, (1, 1, 1), name="sheet"), box(of, (1, 1, 1), name="weighed")
     box(of, (1, 1, 1), density=1.0, name="solid")
-    sheet.body_moments.kind, sheet.body_moments.thickness, sheet.body_moments.density = "SHELL", 0.5, 10.0
+    sheet.body_moments.kind, sheet.body_moments.thickness, sheet.body_moments.density = (
+        "SHELL",
+        0.5,
+        10.0,
+    )
     weighed.body_moments.mass_from, weighed.body_moments.mass = "MASS", 500.0
     bpy.ops.curve.primitive_bezier_circle_add()
     wire = bpy.context.object
@@ -325,7 +363,10 @@ def test_object_has_given_center_and_inertia():
     assert np.abs(local.center - [0.25, 0.5, 0]).max() < 1e-6
     assert np.abs(local.inertia - np.diag([4, 1, 3.5])).max() < 1e-6
     assert close(parts["Box"].volume, 8.0, 1e-6) and close(parts["Box"].density, 3.0 / 8.0, 1e-6)
-    assert not parts["Ballast"].mass_properties.inertia.any() and str(parts["Ballast"].method) == "given"
+    assert (
+        not parts["Ballast"].mass_properties.inertia.any()
+        and str(parts["Ballast"].method) == "given"
+    )
     body = assembly.measurement.mass_properties
     assert close(body.mass, 4.0, 1e-14) and close(body.center[0], (3 * 9.5 - 2) / 4, 1e-6)
     obj.body_moments.given_center = (5, 0, 0)
@@ -352,7 +393,9 @@ def test_empty_without_collection_is_point_or_assembly(kind):
         "Parent": MemberKind.EMPTY,
     }
     assert close(assembly.measurement.mass_properties.mass, 15.0, 1e-14)
-    assert {obj for obj in measurable_objects(bpy.context.view_layer) if obj.type == "EMPTY"} == {point}
+    assert {obj for obj in measurable_objects(bpy.context.view_layer) if obj.type == "EMPTY"} == {
+        point
+    }
 
 
 def test_empty_of_given_mass_stands_for_its_children():
@@ -404,7 +447,9 @@ def test_flattened_or_stretched_instances_add_nothing(tmp_path):
         shown.scale = scale
         assembly = measured(root)
         assert close(assembly.measurement.mass_properties.mass, 8000.0, 1e-12)
-        assert close(assembly.measurement.volume, 8.0, 1e-12) and close(assembly.measurement.area, 28.0, 1e-12)
+        assert close(assembly.measurement.volume, 8.0, 1e-12) and close(
+            assembly.measurement.area, 28.0, 1e-12
+        )
         (refused,) = [part for part in assembly.root.walk() if part.refusal]
         assert (refused.refusal.code, refused.masses, refused.volume[0]) == (code, {}, 0.0)
 
@@ -430,19 +475,29 @@ def test_instance_leaves_out_operands_and_unrendered_members():
     of.children.link(inner)
     box(inner, (1, 1, 2), name="Extra")
     shown = instance(root, of, location=(5, 0, 0))
-    assert close(measured(root).measurement.mass_properties.mass, 8000.0 + 8000.0 + 1000.0 + 2000.0, 1e-12)
+    assert close(
+        measured(root).measurement.mass_properties.mass, 8000.0 + 8000.0 + 1000.0 + 2000.0, 1e-12
+    )
     modifier = body.modifiers.new("Cut", "BOOLEAN")
     modifier.object, modifier.show_viewport, modifier.show_render = cutter, True, True
     for display, left in (("WIRE", True), ("BOUNDS", True), ("TEXTURED", False)):
         cutter.display_type = display
         assembly = measured(root)
-        reasons = {part.member.name: part.member.left_out.code for part in assembly.root.walk() if part.member.left_out}
+        reasons = {
+            part.member.name: part.member.left_out.code
+            for part in assembly.root.walk()
+            if part.member.left_out
+        }
         assert reasons == ({"Cutter": "boolean_operand"} if left else {})
     cutter.display_type = "WIRE"
     for name in ("hide_render", "hide_viewport"):
         setattr(inner, name, True)
         assembly = measured(root)
-        reasons = {part.member.name: part.member.left_out.code for part in assembly.root.walk() if part.member.left_out}
+        reasons = {
+            part.member.name: part.member.left_out.code
+            for part in assembly.root.walk()
+            if part.member.left_out
+        }
         assert reasons == {"Cutter": "boolean_operand", "Inner": "not_rendered"}
         assert close(assembly.measurement.mass_properties.mass, 8000.0 + 7000.0, 1e-6)
         setattr(inner, name, False)

@@ -32,7 +32,11 @@ def body(rng):
     points, triangles = joined(
         box((0, 0, 0), rng.uniform(0.5, 2.0, 3)), box((-1, -1.5, -2), rng.uniform(-0.9, -0.2, 3))
     )
-    stretch = rotation(rng) @ (np.eye(3) + np.triu(rng.uniform(-0.4, 0.4, (3, 3)), 1)) * rng.uniform(0.05, 0.3)
+    stretch = (
+        rotation(rng)
+        @ (np.eye(3) + np.triu(rng.uniform(-0.4, 0.4, (3, 3)), 1))
+        * rng.uniform(0.05, 0.3)
+    )
     return points @ stretch.T + rng.uniform(0.1, 0.4, 3), triangles
 
 
@@ -49,7 +53,9 @@ def robot(folder, seed, links=3, placed=True):
         (folder / file).write_bytes(to_stl(Surface.from_triangles(in_mesh, triangles)))
         density = rng.uniform(500.0, 8000.0)
         shape = Shape("mesh", file=file, pose=pose)
-        result.append(Link("link {}".format(index), inertial(points, triangles, density), shapes=(shape,)))
+        result.append(
+            Link("link {}".format(index), inertial(points, triangles, density), shapes=(shape,))
+        )
     return Robot("robot", tuple(result))
 
 
@@ -103,18 +109,24 @@ def text_of(links, degrees=None):
         angles = "0 0 0" if degrees is None or index else " ".join(map(repr, degrees))
         tensor = true.inertia
         values = " ".join(
-            'i{}{}="{!r}"'.format("xyz"[i], "xyz"[j], rounded(tensor[i, j])) for i in range(3) for j in range(i, 3)
+            'i{}{}="{!r}"'.format("xyz"[i], "xyz"[j], rounded(tensor[i, j]))
+            for i in range(3)
+            for j in range(i, 3)
         )
         lines += [
             '  <link name="{}">'.format(link.name),
             "    <!-- an inertial follows -->",
             "    <inertial>",
-            '      <origin xyz="{}" rpy="{}"/>'.format(" ".join(repr(rounded(x)) for x in true.center), angles),
+            '      <origin xyz="{}" rpy="{}"/>'.format(
+                " ".join(repr(rounded(x)) for x in true.center), angles
+            ),
             '      <mass value="{!r}"/>'.format(rounded(true.mass)),
             "      <inertia {}/>".format(values),
             "    </inertial>",
             "    <visual>",
-            '      <origin xyz="{} {} {}" rpy="{} {} {}"/>'.format(*place.position, *roll_pitch_yaw(place.rotation)),
+            '      <origin xyz="{} {} {}" rpy="{} {} {}"/>'.format(
+                *place.position, *roll_pitch_yaw(place.rotation)
+            ),
             '      <geometry><mesh filename="{}"/></geometry>'.format(link.shapes[0].file),
             "    </visual>",
             "  </link>",
@@ -129,7 +141,10 @@ def audit(path):
 
 def faults(found):
     """Codes of all links but notes."""
-    return [[one.code for one in link.findings if severity(one) != Severity.NOTE] for link in found.links]
+    return [
+        [one.code for one in link.findings if severity(one) != Severity.NOTE]
+        for link in found.links
+    ]
 
 
 def near(found, truth, rel=1e-4):
@@ -146,8 +161,12 @@ def check_repair(path, found, truth):
     assert not [code for codes in faults(again) for code in codes], (path, faults(again))
     stated, true = again.links[index].link.inertial, truth[index]
     assert near(stated.mass, true.mass) and near(stated.center, true.center)
-    assert near(stated.inertia, true.inertia, 1e-3)  # six digits, of which a parallel-axis term takes some
-    assert copy.read_bytes().replace(b" ", b"").startswith(path.read_bytes().replace(b" ", b"")[:60])
+    assert near(
+        stated.inertia, true.inertia, 1e-3
+    )  # six digits, of which a parallel-axis term takes some
+    assert (
+        copy.read_bytes().replace(b" ", b"").startswith(path.read_bytes().replace(b" ", b"")[:60])
+    )
 
 
 @pytest.mark.parametrize("seed", range(100))
@@ -157,7 +176,10 @@ def test_a_planted_mistake_is_found_and_nothing_else(tmp_path, seed):
     right = robot(tmp_path, seed)
     kind, index = KINDS[seed % len(KINDS)], int(rng.integers(3))
     stated, codes = plant(right.links[index].inertial, kind, rng)
-    links = [replace(link, inertial=stated) if link is right.links[index] else link for link in right.links]
+    links = [
+        replace(link, inertial=stated) if link is right.links[index] else link
+        for link in right.links
+    ]
     path = tmp_path / "robot.urdf"
     path.write_text(text_of(links), encoding="utf-8")
     found = audit(path)
@@ -181,13 +203,17 @@ def test_degrees_for_radians_in_the_inertial_and_in_the_mesh(tmp_path, seed):
     path.write_text(text_of(links, angles.tolist()), encoding="utf-8")
     found = audit(path)
     told = faults(found)
-    assert [code for code in told[0] if code.startswith("audit_")] == ["audit_angles"] and not told[1]
+    assert [code for code in told[0] if code.startswith("audit_")] == ["audit_angles"] and not told[
+        1
+    ]
     check_repair(path, found, [link.inertial for link in right.links])
     # and the same angles for the mesh, whose inertial is right
     turned = true.place(Pose(np.zeros(3), frame))
     text = text_of([replace(right.links[0], inertial=turned)])
     path.write_text(
-        text.replace("<visual>", '<visual><origin rpy="{}"/>'.format(" ".join(map(repr, angles.tolist())))),
+        text.replace(
+            "<visual>", '<visual><origin rpy="{}"/>'.format(" ".join(map(repr, angles.tolist())))
+        ),
         encoding="utf-8",
     )
     told = faults(audit(path))
@@ -203,7 +229,8 @@ def read_angles(angles):
 
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be"])
 @pytest.mark.parametrize(
-    "head", ["", '<?xml version="1.0"?>\n', "<?xml version='1.0' encoding='utf-16' standalone='yes'?>\n"]
+    "head",
+    ["", '<?xml version="1.0"?>\n', "<?xml version='1.0' encoding='utf-16' standalone='yes'?>\n"],
 )
 def test_utf16_description_is_repaired_as_utf8(tmp_path, head, encoding):
     """As shells of Windows write them. A byte of the robot's name is that of a quotation mark."""
@@ -229,7 +256,9 @@ def test_other_formats_are_repaired_in_place(tmp_path, name, writer):
     right = robot(tmp_path, 7, placed=False)
     true = right.links[1].inertial
     wrong = Inertial(true.mass, true.center, true.inertia * 1000, true.moments * 1000, true.axes)
-    links = [replace(link, inertial=wrong) if link is right.links[1] else link for link in right.links]
+    links = [
+        replace(link, inertial=wrong) if link is right.links[1] else link for link in right.links
+    ]
     path = tmp_path / ("robot." + name)
     text = writer.write(Robot("robot", tuple(links)))
     if name == "usd":
@@ -253,9 +282,15 @@ def with_meshes(text, folder, right):
             np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]),
         )["corners"].reshape(-1, 3)
         points = ", ".join("({!r}, {!r}, {!r})".format(*map(float, point)) for point in data)
-        mesh = '\n        def Mesh "m"\n        {{\n            point3f[] points = [{}]\n'.format(points)
-        mesh += "            int[] faceVertexCounts = [{}]\n".format(", ".join(["3"] * (len(data) // 3)))
-        mesh += "            int[] faceVertexIndices = [{}]\n        }}".format(", ".join(map(str, range(len(data)))))
+        mesh = '\n        def Mesh "m"\n        {{\n            point3f[] points = [{}]\n'.format(
+            points
+        )
+        mesh += "            int[] faceVertexCounts = [{}]\n".format(
+            ", ".join(["3"] * (len(data) // 3))
+        )
+        mesh += "            int[] faceVertexIndices = [{}]\n        }}".format(
+            ", ".join(map(str, range(len(data))))
+        )
         text = text[:end] + mesh + text[end:]
     return text
 
@@ -276,11 +311,39 @@ def test_mujoco_reads_a_body_as_we_do(tmp_path):
     path.write_text(text, encoding="utf-8")
     # xx, yy, zz, xy, xz, yz as MuJoCo 4.0.0 has them
     truth = {
-        "a": (0.0348017858339, 0.0300335152765, 0.0251646988896, -0.00558114025244, 0.00650414484361, 0.0018242175549),
-        "b": (0.0254230741933, 0.0270393570758, 0.0375375687309, -0.0045773623995, 0.00590520932069, 0.000954964383256),
+        "a": (
+            0.0348017858339,
+            0.0300335152765,
+            0.0251646988896,
+            -0.00558114025244,
+            0.00650414484361,
+            0.0018242175549,
+        ),
+        "b": (
+            0.0254230741933,
+            0.0270393570758,
+            0.0375375687309,
+            -0.0045773623995,
+            0.00590520932069,
+            0.000954964383256,
+        ),
         "c": (0.02, 0.03, 0.04, 0.001, 0.002, -0.003),
-        "d": (0.0283333333333, 0.0283333333333, 0.0333333333333, -0.00833333333333, 0.00333333333333, -0.003333333333),
-        "e": (0.0266228507795, 0.0276628635062, 0.0357142857143, 0.00603856665606, -0.000433338636129, -0.006211902110),
+        "d": (
+            0.0283333333333,
+            0.0283333333333,
+            0.0333333333333,
+            -0.00833333333333,
+            0.00333333333333,
+            -0.003333333333,
+        ),
+        "e": (
+            0.0266228507795,
+            0.0276628635062,
+            0.0357142857143,
+            0.00603856665606,
+            -0.000433338636129,
+            -0.006211902110,
+        ),
     }
     links = read_description(path).links
     for link in links:
@@ -299,7 +362,9 @@ def test_included_mujoco_files_are_read_and_not_repaired(tmp_path):
     model += 'file="arm.xml"/></replicate></worldbody></mujoco>'
     path = tmp_path / "model.xml"
     path.write_text(model.format(body.format("own", -1)), encoding="utf-8")
-    (tmp_path / "arm.xml").write_text("<mujocoinclude>{}</mujocoinclude>".format(body.format("arm", 0.001)))
+    (tmp_path / "arm.xml").write_text(
+        "<mujocoinclude>{}</mujocoinclude>".format(body.format("arm", 0.001))
+    )
     (tmp_path / "sub").mkdir()
     more = '<mujoco><include file="sub/deep.xml"/><compiler angle="radian"/></mujoco>'
     (tmp_path / "sub" / "more.xml").write_text(more, encoding="utf-8")
@@ -307,8 +372,16 @@ def test_included_mujoco_files_are_read_and_not_repaired(tmp_path):
     (tmp_path / "sub" / "deep.xml").write_text(deep, encoding="utf-8")
     found = audit(path)
     codes = {link.link.name: link.findings[0].code for link in found.links}
-    assert codes == {"deep": "audit_not_uniform", "own": "inertial_not_positive", "arm": "inertial_spread_outside"}
-    assert {link.link.name: link.link.span is None for link in found.links} == {"deep": True, "own": False, "arm": True}
+    assert codes == {
+        "deep": "audit_not_uniform",
+        "own": "inertial_not_positive",
+        "arm": "inertial_spread_outside",
+    }
+    assert {link.link.name: link.link.span is None for link in found.links} == {
+        "deep": True,
+        "own": False,
+        "arm": True,
+    }
     repairs = [(link.link, link.repaired) for link in found.links if link.repaired is not None]
     assert repaired_copy(found.description, repairs) == path.read_bytes()
     for text, code in (
@@ -333,8 +406,12 @@ def test_disagreeing_collision_geometry_is_noted_with_its_effect(tmp_path):
     path.write_text(text.format(box.format(0, 0, 2), box.format(0.1, 0.2, 2.5)), encoding="utf-8")
     (link,) = audit(path).links
     effect = link.colliders
-    assert effect.volume_ratio == pytest.approx(1.25) and effect.center_shift == pytest.approx((0, 0, 0.1))
-    assert effect.moment_ratios == pytest.approx((30.5 / 26, 44.5 / 40, 1.0)) and effect.axes_turn == pytest.approx(0.2)
+    assert effect.volume_ratio == pytest.approx(1.25) and effect.center_shift == pytest.approx(
+        (0, 0, 0.1)
+    )
+    assert effect.moment_ratios == pytest.approx(
+        (30.5 / 26, 44.5 / 40, 1.0)
+    ) and effect.axes_turn == pytest.approx(0.2)
     (note,) = link.findings
     assert (note.code, note.values["part"]) == ("audit_not_uniform", "collision geometry")
     assert (note.values["volume"], note.values["distance"]) == pytest.approx((1.25, 0.1))
@@ -361,9 +438,14 @@ def test_impossible_inertial_is_error_and_uneven_one_a_note(tmp_path):
         "nan": ("0 0 0", "nan", 1, 1, 1, ["inertial_not_finite"]),
     }
     path = tmp_path / "r.urdf"
-    path.write_text(text.format("".join(link.format(name, *values[:-1]) for name, values in cases.items())))
+    path.write_text(
+        text.format("".join(link.format(name, *values[:-1]) for name, values in cases.items()))
+    )
     for found, (name, values) in zip(audit(path).links, cases.items()):
-        assert found.link.name == name and [one.code for one in found.findings][: len(values[-1])] == values[-1], name
+        assert (
+            found.link.name == name
+            and [one.code for one in found.findings][: len(values[-1])] == values[-1]
+        ), name
         assert bool(values[-1]) or not found.findings
 
 
@@ -384,7 +466,9 @@ def collada(points, triangles):
     <source id="p"><float_array>{}</float_array></source><vertices id="v"><input semantic="POSITION" source="#p"/>
     </vertices><triangles><input semantic="VERTEX" source="#v" offset="0"/><p>{}</p></triangles></mesh></geometry>
     </library_geometries></COLLADA>"""
-    return text.format(" ".join(map(repr, points.ravel().tolist())), " ".join(map(str, triangles.ravel().tolist())))
+    return text.format(
+        " ".join(map(repr, points.ravel().tolist())), " ".join(map(str, triangles.ravel().tolist()))
+    )
 
 
 def test_missing_inertial_counts_for_links_with_shapes(tmp_path):
@@ -399,7 +483,9 @@ def test_missing_inertial_counts_for_links_with_shapes(tmp_path):
         '<sphere radius="1"/></geometry></visual></link></robot>'
     )
     (arm,) = audit(path).links
-    assert [one.code for one in arm.findings] == ["description_number"]  # it is there, and cannot be read
+    assert [one.code for one in arm.findings] == [
+        "description_number"
+    ]  # it is there, and cannot be read
 
 
 def test_published_descriptions_are_judged_as_by_hand(tmp_path):
@@ -413,28 +499,45 @@ def test_published_descriptions_are_judged_as_by_hand(tmp_path):
     cylinder = "<cylinder><radius>{}</radius><length>{}</length></cylinder>"
     tensor = "<inertia><ixx>{}</ixx><iyy>{}</iyy><izz>{}</izz></inertia>"
     cases = (
-        ("<mass>1.37</mass>" + tensor.format(0.0303, 0.0303, 0.0018), "<box><size>0.508 0.0888 0.0888</size></box>"),
-        ("<mass>0.16</mass>" + tensor.format(*[0.00015] * 3), "<sphere><radius>0.0375</radius></sphere>"),
+        (
+            "<mass>1.37</mass>" + tensor.format(0.0303, 0.0303, 0.0018),
+            "<box><size>0.508 0.0888 0.0888</size></box>",
+        ),
+        (
+            "<mass>0.16</mass>" + tensor.format(*[0.00015] * 3),
+            "<sphere><radius>0.0375</radius></sphere>",
+        ),
         ("<mass>10</mass>" + tensor.format(1.0, 1.0, 1.0), cylinder.format(0.2, 0.6)),
         ("", cylinder.format(0.1, 0.9)),
     )
     link = '<link name="{}"><inertial>{}</inertial><collision name="c"><geometry>{}</geometry></collision></link>'
     text = "".join(link.format(index, *case) for index, case in enumerate(cases))
     path = tmp_path / "m.sdf"
-    path.write_text('<sdf version="1.5"><model name="m">{}</model></sdf>'.format(text), encoding="utf-8")
+    path.write_text(
+        '<sdf version="1.5"><model name="m">{}</model></sdf>'.format(text), encoding="utf-8"
+    )
     beam, ball, base, rod = audit(path).links
     assert [one.code for one in beam.findings] == ["inertial_spread_outside", "audit_order"]
     assert near(np.diag(beam.repaired.inertia), np.array([0.0018, 0.0303, 0.0303]))
     (note,) = ball.findings
-    assert note.code == "audit_not_uniform" and near(note.values["factor"], 5 / 3, 1e-3) and ball.repaired is None
+    assert (
+        note.code == "audit_not_uniform"
+        and near(note.values["factor"], 5 / 3, 1e-3)
+        and ball.repaired is None
+    )
     for found in (base, rod):
-        assert [one.code for one in found.findings][0] == "inertial_spread_outside" and found.repaired is not None
+        assert [one.code for one in found.findings][
+            0
+        ] == "inertial_spread_outside" and found.repaired is not None
 
 
 def test_missing_mesh_is_named_once_and_stops_judgment(tmp_path):
     """A tensor that no box of this size has is no mistake where other shapes are not known."""
     shape = "<collision><geometry>{}</geometry></collision>"
-    shapes = [shape.format('<mesh filename="{}"/>'.format(name)) for name in ("gone.stl", "gone.stl", "bad.stl")]
+    shapes = [
+        shape.format('<mesh filename="{}"/>'.format(name))
+        for name in ("gone.stl", "gone.stl", "bad.stl")
+    ]
     (tmp_path / "bad.stl").write_bytes(b"solid")
     text = """<robot name="r"><link name="a"><inertial><mass value="8000"/><inertia ixx="1e5" iyy="1e5" izz="1e5"
     ixy="0" ixz="0" iyz="0"/></inertial>{}</link></robot>"""
@@ -442,7 +545,9 @@ def test_missing_mesh_is_named_once_and_stops_judgment(tmp_path):
     path = tmp_path / "r.urdf"
     path.write_text(text.format(box))
     (alone,) = audit(path).links
-    assert "inertial_spread_outside" in [one.code for one in alone.findings] and close(alone.density, 1000.0, 1e-12)
+    assert "inertial_spread_outside" in [one.code for one in alone.findings] and close(
+        alone.density, 1000.0, 1e-12
+    )
     path.write_text(text.format(box + "".join(shapes)))
     (found,) = audit(path).links
     values = [(one.code, one.values.get("name")) for one in found.findings]
@@ -485,7 +590,11 @@ SHAPES = {
         'size=".1" type="capsule" fromto="0 0 @ 0 0 @"',
         'type="sdf"',
     ),
-    "r.usda": ('def Cube "c" {{ double size = @ }}', 'def Capsule "c" {{ double height = @ }}', 'def Cone "c" {{ }}'),
+    "r.usda": (
+        'def Cube "c" {{ double size = @ }}',
+        'def Capsule "c" {{ double height = @ }}',
+        'def Cone "c" {{ }}',
+    ),
 }
 
 
@@ -507,14 +616,26 @@ def test_unusable_size_is_finding_and_stops_the_comparison(tmp_path, name, numbe
 
 def test_names_that_no_system_has_are_missing_meshes(tmp_path):
     os.symlink("circle", tmp_path / "circle")
-    names = ["a" * 300 + ".stl", "a/" * 3000 + "b.stl", "circle", "circle/b.stl", "package://" + "a" * 300, ".", ""]
+    names = [
+        "a" * 300 + ".stl",
+        "a/" * 3000 + "b.stl",
+        "circle",
+        "circle/b.stl",
+        "package://" + "a" * 300,
+        ".",
+        "",
+    ]
     link = '<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial><visual><geometry>'
     link += '<mesh filename="{}"/></geometry></visual></link>'
     path = tmp_path / "r.urdf"
-    path.write_text('<robot name="r">{}</robot>'.format("".join(map(link.format, names))), encoding="utf-8")
+    path.write_text(
+        '<robot name="r">{}</robot>'.format("".join(map(link.format, names))), encoding="utf-8"
+    )
     for anywhere in (False, True):
         links = Auditor(Roots.for_file(path, (), anywhere)).audit(read_description(path)).links
-        assert [[one.code for one in found.findings] for found in links] == [["mesh_missing"]] * len(names)
+        assert [[one.code for one in found.findings] for found in links] == [
+            ["mesh_missing"]
+        ] * len(names)
 
 
 def test_internal_error_of_one_link_keeps_the_others(tmp_path, monkeypatch, capfd):

@@ -17,7 +17,10 @@ CASES = {
     "open": (s.without(s.box((0, 0, 0), (1, 2, 3)), 0), 14),
     "turned face": (s.with_flipped(s.box((0, 0, 0), (1, 2, 3)), 1), 12),
     "twice": ((s.box()[0], [*s.box()[1], s.box()[1][0]]), 12),
-    "with a leaf": (s.joined(s.box(), (np.array([(5.0, 0, 0), (6, 0, 0), (5, 1, 0)]), [(0, 1, 2), (0, 2, 1)])), 14),
+    "with a leaf": (
+        s.joined(s.box(), (np.array([(5.0, 0, 0), (6, 0, 0), (5, 1, 0)]), [(0, 1, 2), (0, 2, 1)])),
+        14,
+    ),
     "strip": (tuple(map(np.ndarray.tolist, moebius())), None),
 }
 
@@ -29,7 +32,9 @@ def test_moments_of_any_order_extend_measured_ones(name, scale):
     """Of the volume of what was repaired, and of the area of the faces that are there."""
     (points, faces), count = CASES[name]
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(np.asarray(points, float).tolist(), [], [list(map(int, face)) for face in faces])
+    mesh.from_pydata(
+        np.asarray(points, float).tolist(), [], [list(map(int, face)) for face in faces]
+    )
     obj = add(mesh, scale=scale, location=(3, 4, 5), rotation=(0.3, 0.4, 0.5))
     if name == "strip":
         obj.body_moments.kind = "SHELL"
@@ -42,12 +47,22 @@ def test_moments_of_any_order_extend_measured_ones(name, scale):
     sheet = measure_body(obj, depsgraph, MeasureOptions(kind="shell", thickness=1.0)).body.area
     for order in (2, 3, 4, 6):
         volume, area = found.moments(order, True)
-        assert (volume.order, area.order) == (order, order) and found.moments(order, True) == (volume, area)
+        assert (volume.order, area.order) == (order, order) and found.moments(order, True) == (
+            volume,
+            area,
+        )
         assert found.moments(order, False)[1] is None
         low = min(order, 3)
-        for one, known in ((volume, found.volume), (found.moments(order, False)[0], found.volume), (area, sheet)):
+        for one, known in (
+            (volume, found.volume),
+            (found.moments(order, False)[0], found.volume),
+            (area, sheet),
+        ):
             known = known.about_point(one.about).truncate(low).raw
-            assert np.abs(one.truncate(low).raw - known).max() <= 1e-12 * np.abs(known).max(), (order, one.measure)
+            assert np.abs(one.truncate(low).raw - known).max() <= 1e-12 * np.abs(known).max(), (
+                order,
+                one.measure,
+            )
     sheets, solids = (list(found.surfaces(kind)) for kind in (True, False))
     assert [len(one.all_triangles()[0]) for one in sheets] == [sum(len(face) - 2 for face in faces)]
     assert count is None or [len(one.all_triangles()[0]) for one in solids] == [count]

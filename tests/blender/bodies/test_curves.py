@@ -50,7 +50,9 @@ def test_a_circle_is_a_wire_of_its_length():
     assert str(wire.method) == "wire" and wire.volume == 0.0 and wire.area == 0.0
     assert wire.length == pytest.approx(2.0 * np.pi, rel=1e-8)
     assert wire.mass_properties.mass == pytest.approx(5.0 * np.pi, rel=1e-8)
-    assert np.allclose(wire.mass_properties.principal.moments, np.array([2.5, 2.5, 5.0]) * np.pi, rtol=1e-7)
+    assert np.allclose(
+        wire.mass_properties.principal.moments, np.array([2.5, 2.5, 5.0]) * np.pi, rtol=1e-7
+    )
     obj.scale = (2.0, 2.0, 2.0)
     assert measured(obj).length == pytest.approx(4.0 * np.pi, rel=1e-8)
     obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.0
@@ -191,7 +193,9 @@ def with_nodes(obj, kind, **values):
         if hasattr(node, name):
             setattr(node, name, value)
         else:
-            next(socket for socket in node.inputs if socket.name == name and socket.enabled).default_value = value
+            next(
+                socket for socket in node.inputs if socket.name == name and socket.enabled
+            ).default_value = value
     group.links.new(group.nodes.new("NodeGroupInput").outputs[0], node.inputs[0])
     group.links.new(node.outputs[0], group.nodes.new("NodeGroupOutput").inputs[0])
     obj.modifiers.new("Nodes", "NODES").node_group = group
@@ -227,7 +231,9 @@ def test_catmull_rom_wire_has_length_of_display(kind):
     mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
     points = np.array([vertex.co for vertex in mesh.vertices], np.float64)
     ends = np.array([edge.vertices for edge in mesh.edges])
-    assert wire.length == pytest.approx(np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1).sum(), rel=1e-4)
+    assert wire.length == pytest.approx(
+        np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1).sum(), rel=1e-4
+    )
 
 
 @pytest.mark.parametrize("bevel", [0.0, 0.1])
@@ -266,7 +272,9 @@ def test_flat_region_takes_varying_density():
     settings.density_from, settings.density_polynomial = "POLYNOMIAL", "200 + 100*x"
     found = measured(obj)
     assert found.density_from.code == "density_from_polynomial"
-    assert found.mass_properties.mass == pytest.approx(100.0 * np.pi, rel=5e-3)  # Blender's polygon is smaller
+    assert found.mass_properties.mass == pytest.approx(
+        100.0 * np.pi, rel=5e-3
+    )  # Blender's polygon is smaller
     assert found.mass_properties.center[0] == pytest.approx(0.125, rel=5e-3)
     assert "display_mesh_needed" in said(found)
 
@@ -342,7 +350,11 @@ def test_a_hook_pulls_a_bevelled_wire_as_blender_pulls_it(falloff, radius):
     obj = poly([(0.5, 0, 0), (1, 0, 0), (2, 1, 0), (3, 0, 0)])
     obj.body_moments.kind = "WIRE"
     target, modifier = hooked(obj, falloff_type=falloff, falloff_radius=radius, strength=0.6)
-    modifier.matrix_inverse, target.location, target.scale = Matrix(), (0.5, 1.0, 2.0), (3.0, 1.0, 1.0)
+    modifier.matrix_inverse, target.location, target.scale = (
+        Matrix(),
+        (0.5, 1.0, 2.0),
+        (3.0, 1.0, 1.0),
+    )
     modifier.center = (0.25, 0.0, 0.0)
     shown = measured(obj)
     obj.data.bevel_depth = 0.01
@@ -355,7 +367,11 @@ def test_only_keys_that_have_a_value_move_a_wire():
     obj = poly([(0, 0, 0), (3, 0, 0)])
     obj.body_moments.kind, obj.data.bevel_depth = "WIRE", 0.1
     obj.shape_key_add(name="Basis")
-    for name, x, value, mute in (("Muted", 9, 1.0, True), ("Without", np.nan, 0.0, False), ("Half", 5, 0.5, False)):
+    for name, x, value, mute in (
+        ("Muted", 9, 1.0, True),
+        ("Without", np.nan, 0.0, False),
+        ("Half", 5, 0.5, False),
+    ):
         key = obj.shape_key_add(name=name)
         key.data[1].co, key.value, key.mute = (x, 0, 0), value, mute
     blocks = obj.data.shape_keys.key_blocks

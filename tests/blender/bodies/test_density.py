@@ -60,12 +60,18 @@ def by_attribute(obj, values, name="density", kind="FLOAT", domain="POINT"):
 def dumbbell(**transform):
     """A steel and a cork cube of 1 m, their centres 4 m apart."""
     obj = add(box((0, 0, 0), (1, 1, 1)), box((4, 0, 0), (5, 1, 1)), **transform)
-    return by_material(obj, material("Steel", STEEL), material("Cork", CORK), faces=[0] * 6 + [1] * 6)
+    return by_material(
+        obj, material("Steel", STEEL), material("Cork", CORK), faces=[0] * 6 + [1] * 6
+    )
 
 
 @pytest.mark.parametrize(
     "transform",
-    [{"scale": (-1, 1, 1)}, {"scale": (2, 0.5, 3)}, {"location": (1e4, 0, 0), "rotation_euler": (0.3, 0.5, -1.0)}],
+    [
+        {"scale": (-1, 1, 1)},
+        {"scale": (2, 0.5, 3)},
+        {"location": (1e4, 0, 0), "rotation_euler": (0.3, 0.5, -1.0)},
+    ],
 )
 def test_materials_follow_every_transform(transform):
     """The truth is the sum of two bodies of one density each."""
@@ -77,7 +83,9 @@ def test_materials_follow_every_transform(transform):
         parts.append(measure(add(box(low, high), **transform), density=density).mass_moments)
     truth = combine(parts)
     assert (
-        abs(found.mass - truth.mass) <= found.rounding_error["mass"] + truth.rounding_error["mass"] < 1e-12 * truth.mass
+        abs(found.mass - truth.mass)
+        <= found.rounding_error["mass"] + truth.rounding_error["mass"]
+        < 1e-12 * truth.mass
     )
     assert (
         np.linalg.norm(found.center - truth.center)
@@ -93,7 +101,9 @@ def test_a_shell_takes_its_materials_by_face():
     obj = add(box((0, 0, 0), (1, 1, 1)))
     obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
     down = [polygon.normal.z < -0.5 for polygon in obj.data.polygons]
-    by_material(obj, material("Cork", CORK), material("Steel", STEEL), faces=[int(one) for one in down])
+    by_material(
+        obj, material("Cork", CORK), material("Steel", STEEL), faces=[int(one) for one in down]
+    )
     found = measure(obj)
     mass = 0.01 * (5 * CORK + STEEL)
     assert str(found.method) == "shell" and close(found.mass_properties.mass, mass, rel=1e-14)
@@ -105,7 +115,9 @@ def test_a_shell_takes_its_materials_by_face():
 def test_the_mean_by_area_is_that_of_the_areas_as_they_are_seen():
     """A unit cube scaled to 1 x 2 x 3 is the box of 1 x 2 x 3, beside another place with another scale."""
     cork, steel = material("Cork", CORK), material("Steel", STEEL)
-    cube = by_material(add(box((0, 0, 0), (1, 1, 1)), scale=(1, 2, 3)), cork, steel, faces=[1, 0, 0, 0, 0, 0])
+    cube = by_material(
+        add(box((0, 0, 0), (1, 1, 1)), scale=(1, 2, 3)), cork, steel, faces=[1, 0, 0, 0, 0, 0]
+    )
     same = by_material(add(box((0, 0, 0), (1, 2, 3))), cork, steel, faces=[1, 0, 0, 0, 0, 0])
     mass = measure(same).mass_properties.mass
     assert measure(cube).mass_properties.mass == pytest.approx(mass, rel=1e-13)
@@ -119,12 +131,16 @@ def test_the_mean_by_area_is_that_of_the_areas_as_they_are_seen():
     empty.body_moments.density_from = "MATERIALS"
     bpy.context.scene.collection.objects.link(empty)
     bpy.context.view_layer.update()
-    assert measure(empty).mass_properties.mass == pytest.approx(mass + (5 * CORK + STEEL) / 6, rel=1e-13)
+    assert measure(empty).mass_properties.mass == pytest.approx(
+        mass + (5 * CORK + STEEL) / 6, rel=1e-13
+    )
 
 
 def test_faces_without_a_density_take_the_objects_and_it_is_said():
     obj = add(box((0, 0, 0), (1, 1, 1)), box((4, 0, 0), (5, 1, 1)))
-    by_material(obj, material("Steel", STEEL), material("Paint"), faces=[0] * 6 + [1] * 6, others=500.0)
+    by_material(
+        obj, material("Steel", STEEL), material("Paint"), faces=[0] * 6 + [1] * 6, others=500.0
+    )
     found = measure(obj)
     assert found.mass_properties.mass == pytest.approx(STEEL + 500.0, rel=1e-14)
     lacking = {"count": 6, "total": 12, "density": 500.0, "materials": ["Paint"]}
@@ -138,7 +154,9 @@ def test_faces_without_a_density_take_the_objects_and_it_is_said():
         measure(obj)
     bare = add(box())
     bare.body_moments.density_from = "MATERIALS"
-    assert said(measure(bare)) == {"object_density_used": {"count": 6, "total": 6, "density": 1000.0}}
+    assert said(measure(bare)) == {
+        "object_density_used": {"count": 6, "total": 6, "density": 1000.0}
+    }
 
 
 def test_empty_material_slot_takes_density_of_object():
@@ -162,7 +180,10 @@ def test_empty_material_slot_takes_density_of_object():
 def test_cavity_subtracts_outer_material_and_insert_adds():
     hole = box((1, 1, 1), (3, 3, 3), turned=True)
     obj = by_material(
-        add(box((0, 0, 0), (4, 4, 4)), hole), material("Steel", STEEL), material("Cork", CORK), faces=[0] * 6 + [1] * 6
+        add(box((0, 0, 0), (4, 4, 4)), hole),
+        material("Steel", STEEL),
+        material("Cork", CORK),
+        faces=[0] * 6 + [1] * 6,
     )
     found = measure(obj)
     assert found.mass_properties.mass == pytest.approx(STEEL * 56, rel=1e-14)
@@ -178,12 +199,16 @@ def test_cavity_subtracts_outer_material_and_insert_adds():
     assert "overlapping_densities" in said(found)
     insert.body_moments.kind, insert.body_moments.thickness = "SHELL", 0.01
     assert "overlapping_densities" not in said(measure(insert))
-    same = by_material(add(box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3))), bpy.data.materials["Steel"])
+    same = by_material(
+        add(box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3))), bpy.data.materials["Steel"]
+    )
     assert "overlapping_densities" not in said(measure(same))
     inner = [box((i, 1, 1), (i + 0.5, 3, 3)) for i in (1, 2)]
     beside = [box((x, 0, 0), (x + 2, 1, 1)) for x in (10, 11)]
     faces = [0] * 18 + [1] * 12
-    both = by_material(add(box((0, 0, 0), (4, 4, 4)), *inner, *beside), *insert.data.materials, faces=faces)
+    both = by_material(
+        add(box((0, 0, 0), (4, 4, 4)), *inner, *beside), *insert.data.materials, faces=faces
+    )
     found = measure(both)
     assert found.health.nested_components == found.health.overlapping_components == 2
     assert "overlapping_densities" in said(found)
@@ -212,8 +237,12 @@ def test_collection_members_bring_their_materials():
     bpy.context.view_layer.update()
     found = measure(empty)
     assert found.mass_properties.mass == pytest.approx(STEEL + CORK, rel=1e-14)
-    assert close(found.mass_properties.center[0], (CORK * 0.5 + STEEL * 4.5) / (STEEL + CORK), rel=1e-14)
-    second.location.x = 0.5  # their boxes meet: they are compared as one surface, each with its material
+    assert close(
+        found.mass_properties.center[0], (CORK * 0.5 + STEEL * 4.5) / (STEEL + CORK), rel=1e-14
+    )
+    second.location.x = (
+        0.5  # their boxes meet: they are compared as one surface, each with its material
+    )
     bpy.context.view_layer.update()
     assert measure(empty).mass_properties.mass == pytest.approx(STEEL + CORK, rel=1e-6)
 
@@ -255,10 +284,16 @@ def test_geometry_nodes_instances_bring_their_materials():
     obj = by_material(add(box((0, 0, 0), (1, 1, 1))), material("Cork", CORK))
 
     def build(tree, geometry):
-        cube, paint = tree.nodes.new("GeometryNodeMeshCube"), tree.nodes.new("GeometryNodeSetMaterial")
+        cube, paint = (
+            tree.nodes.new("GeometryNodeMeshCube"),
+            tree.nodes.new("GeometryNodeSetMaterial"),
+        )
         paint.inputs["Material"].default_value = steel
         tree.links.new(cube.outputs[0], paint.inputs["Geometry"])
-        line, on = tree.nodes.new("GeometryNodeMeshLine"), tree.nodes.new("GeometryNodeInstanceOnPoints")
+        line, on = (
+            tree.nodes.new("GeometryNodeMeshLine"),
+            tree.nodes.new("GeometryNodeInstanceOnPoints"),
+        )
         line.inputs["Count"].default_value = 3
         line.inputs["Start Location"].default_value = (5, 0, 0)
         line.inputs["Offset"].default_value = (5, 0, 0)
@@ -302,7 +337,9 @@ def test_coefficients_are_the_same_density():
     assert one.mass == other.mass and np.array_equal(one.inertia, other.inertia)
     # A decimal comma makes two coefficients, too: it is reported as what it was read.
     source = measure(by_polynomial(obj, "1000,5")).density_from
-    assert source == finding("density_from_polynomial", polynomial="(1000,5) · (1, x, y, z, …)", frame="object")
+    assert source == finding(
+        "density_from_polynomial", polynomial="(1000,5) · (1, x, y, z, …)", frame="object"
+    )
 
 
 def boxes_mass(low, high, density):
@@ -328,7 +365,9 @@ def boxes_mass(low, high, density):
 )
 def test_coordinates_are_the_objects_own_or_the_worlds(frame, scale, place):
     """Own coordinates are meters along the axes as they are drawn: scaled they are not, mirrored they are."""
-    obj = by_polynomial(add(box((0, 0, 1), (1, 2, 3)), location=place, scale=scale), "5 + z**2", frame)
+    obj = by_polynomial(
+        add(box((0, 0, 1), (1, 2, 3)), location=place, scale=scale), "5 + z**2", frame
+    )
     found = measure(obj).mass_properties
     size, sign = np.abs(scale), np.sign(scale[2])
     local = [np.array((0, 0, 1)) * size, np.array((1, 2, 3)) * size]
@@ -342,7 +381,9 @@ def test_coordinates_are_the_objects_own_or_the_worlds(frame, scale, place):
 
 def test_sheared_object_names_its_density_axes():
     parent = add(box(), name="Parent", scale=(3, 1, 1))
-    child = by_polynomial(add(box((0, 0, 0), (1, 1, 1)), name="Child", rotation_euler=(0, 0, 0.7)), "1000 + 10*z")
+    child = by_polynomial(
+        add(box((0, 0, 0), (1, 1, 1)), name="Child", rotation_euler=(0, 0, 0.7)), "1000 + 10*z"
+    )
     child.parent = parent
     bpy.context.view_layer.update()
     found = measure(child)
@@ -393,22 +434,32 @@ def test_a_negative_density_is_refused_with_its_place(text):
     with pytest.raises(MeasureError) as caught:
         measure(obj)
     values = caught.value.finding.values
-    assert caught.value.finding.code == "density_negative" and values["density"] < 0.0 and values["frame"] == "object"
-    assert parse_polynomial(text)(np.array([values["point"]]))[0] == pytest.approx(values["density"])
+    assert (
+        caught.value.finding.code == "density_negative"
+        and values["density"] < 0.0
+        and values["frame"] == "object"
+    )
+    assert parse_polynomial(text)(np.array([values["point"]]))[0] == pytest.approx(
+        values["density"]
+    )
 
 
 def test_possibly_negative_density_is_a_finding():
     ring = add(box((-1, -1, 0), (1, 1, 1)))
     found = measure(by_polynomial(ring, "(x**2 + y**2)*z"))
     assert not found.findings
-    found = measure(by_polynomial(ring, "(x - 0.9993)**2 + (y - 0.9131)**2 + (z - 0.0717)**2 - 0.0001"))
+    found = measure(
+        by_polynomial(ring, "(x - 0.9993)**2 + (y - 0.9131)**2 + (z - 0.0717)**2 - 0.0001")
+    )
     assert said(found) == {"density_possibly_negative": {}}
     assert not measure(by_polynomial(ring, "500*z")).findings
 
 
 @pytest.mark.parametrize(("segments", "size"), [(128, 1.0), (16, 0.001)])
 def test_density_falling_to_zero_at_surface_is_allowed(segments, size):
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=segments, ring_count=segments // 2, scale=(size, size, size))
+    bpy.ops.mesh.primitive_uv_sphere_add(
+        segments=segments, ring_count=segments // 2, scale=(size, size, size)
+    )
     ball = bpy.context.object
     text = "1000*(1 - (x**2 + y**2 + z**2)/{:g}**2)"
     found = measure(by_polynomial(ball, text.format(size)))
@@ -428,11 +479,16 @@ def test_unreadable_polynomial_is_refused_with_its_part():
 
 
 def test_united_shells_take_a_polynomial():
-    obj = by_polynomial(add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)), location=(3, 0, 0)), "100 + 10*x")
+    obj = by_polynomial(
+        add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)), location=(3, 0, 0)),
+        "100 + 10*x",
+    )
     obj.body_moments.overlap = "UNION"
     assert measure(obj).mass_properties.mass == pytest.approx(100 * 1.5 + 10 * 1.5**2 / 2, rel=1e-6)
     obj.body_moments.density_frame = "WORLD"
-    assert measure(obj).mass_properties.mass == pytest.approx(100 * 1.5 + 10 * (4.5**2 - 9) / 2, rel=1e-6)
+    assert measure(obj).mass_properties.mass == pytest.approx(
+        100 * 1.5 + 10 * (4.5**2 - 9) / 2, rel=1e-6
+    )
     obj.body_moments.density_frame, obj.rotation_euler = "OBJECT", (0.0, 0.0, math.pi)
     bpy.context.scene.unit_settings.scale_length = 0.5
     mass = (100 * 0.75 + 10 * 0.75**2 / 2) * 0.25
@@ -446,7 +502,9 @@ def sheet(n=4, **transform):
     """The unit square in z = 0, in n x n quads."""
     points = [(i / n, j / n, 0.0) for i in range(n + 1) for j in range(n + 1)]
     at = [[i * (n + 1) + j for j in range(n + 1)] for i in range(n + 1)]
-    faces = [(at[i][j], at[i + 1][j], at[i + 1][j + 1], at[i][j + 1]) for i in range(n) for j in range(n)]
+    faces = [
+        (at[i][j], at[i + 1][j], at[i + 1][j + 1], at[i][j + 1]) for i in range(n) for j in range(n)
+    ]
     return add({"points": points, "faces": faces}, name="Sheet", **transform), np.array(points)
 
 
@@ -458,7 +516,10 @@ def test_a_sheet_with_a_density_that_rises_along_x(scale):
     body, area = found.mass_properties, abs(scale[0]) * scale[1]
     assert close(body.mass, 0.01 * area * 10.0, rel=1e-13)
     assert close(abs(body.center[0]), abs(scale[0]) * (8 / 2 + 4 / 3) / 10.0, rel=1e-13)
-    assert found.density_from == finding("density_from_attribute", attribute="density") and not found.findings
+    assert (
+        found.density_from == finding("density_from_attribute", attribute="density")
+        and not found.findings
+    )
     assert found.error_bound["input"]["center_of_mass"] > 0.0
 
 
@@ -511,8 +572,13 @@ def test_an_attribute_is_read_as_modifiers_leave_it():
 
 def test_the_table_gives_a_blender_material_its_density():
     made = material("Cork")
-    assert bpy.ops.material.body_moments_set_density(material="Steel, Carbon", target="Cork") == {"FINISHED"}
-    assert made.body_moments.density == pytest.approx(7820.0) and made.body_moments.material == "Steel, Carbon"
+    assert bpy.ops.material.body_moments_set_density(material="Steel, Carbon", target="Cork") == {
+        "FINISHED"
+    }
+    assert (
+        made.body_moments.density == pytest.approx(7820.0)
+        and made.body_moments.material == "Steel, Carbon"
+    )
     made.body_moments.density = 10.0
     assert made.body_moments.material == ""
     with pytest.raises(RuntimeError, match="No local material “Nothing”"):
@@ -523,7 +589,10 @@ def test_object_of_placed_density_is_not_snapped(capfd):
     obj = by_polynomial(add(box()), "1000 + 20*z")
     obj.select_set(True)
     bpy.context.view_layer.objects.active = obj
-    for operator in (bpy.ops.object.body_moments_origin_to_center, bpy.ops.object.body_moments_axes_to_principal):
+    for operator in (
+        bpy.ops.object.body_moments_origin_to_center,
+        bpy.ops.object.body_moments_axes_to_principal,
+    ):
         place = obj.matrix_world.copy()
         operator()
         assert str(finding("density_coordinates", frame="object")) in capfd.readouterr().out
@@ -535,7 +604,10 @@ def test_object_of_placed_density_is_not_snapped(capfd):
     assert np.allclose(measure(obj).mass_properties.center, center, atol=1e-6)
     place = obj.matrix_world.copy()
     bpy.ops.object.body_moments_align_to_world()
-    assert str(finding("density_coordinates", frame="world")) in capfd.readouterr().out and obj.matrix_world == place
+    assert (
+        str(finding("density_coordinates", frame="world")) in capfd.readouterr().out
+        and obj.matrix_world == place
+    )
 
 
 def test_command_line_density_overrides_materials(tmp_path):
@@ -563,9 +635,15 @@ def test_open_body_of_uniform_sources_has_equal_moments(order):
         obj = add({"points": points, "faces": faces})
         by_material(obj, bpy.data.materials.get("Cork") or material("Cork", CORK))
         settings = obj.body_moments
-        settings.density_from, settings.density_polynomial, settings.density = source, str(CORK), CORK
+        settings.density_from, settings.density_polynomial, settings.density = (
+            source,
+            str(CORK),
+            CORK,
+        )
         bpy.context.view_layer.update()
-        found.append(measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=order)))
+        found.append(
+            measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=order))
+        )
     plain = found[0].volume_moments
     assert str(found[0].method) == "open"
     for varied in found[1:]:
@@ -578,7 +656,9 @@ def test_open_body_of_uniform_sources_has_equal_moments(order):
 
 
 def test_shell_ignores_negative_density_inside():
-    obj = by_polynomial(add(box((-1, -1, 0), (1, 1, 2))), "(z - 1)**2 + x**2 + y**2 - 0.02", "WORLD")
+    obj = by_polynomial(
+        add(box((-1, -1, 0), (1, 1, 2))), "(z - 1)**2 + x**2 + y**2 - 0.02", "WORLD"
+    )
     with pytest.raises(MeasureError) as caught:
         measure(obj)
     assert caught.value.finding.values["frame"] == "world"

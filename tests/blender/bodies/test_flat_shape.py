@@ -40,17 +40,28 @@ def test_flat_signature_is_independent_of_size():
 def test_a_flat_shape_of_any_size_is_turned_onto_another_one(sizes):
     small, large = (
         sheet(TRIANGLE, name, location=where, rotation=turn, scale=(size,) * 3)
-        for name, size, where, turn in zip("ab", sizes, ((1, 2, 3), (-4, 5, 6)), ((0.3, 0.2, 0.1), (1.0, -0.5, 2.0)))
+        for name, size, where, turn in zip(
+            "ab", sizes, ((1, 2, 3), (-4, 5, 6)), ((0.3, 0.2, 0.1), (1.0, -0.5, 2.0))
+        )
     )
     source, target = flat(small), flat(large)
-    fit = register_surfaces(source, target, OutlineDistance(source), OutlineDistance(target), sizes[1] / sizes[0])
-    turns = [np.array(obj.matrix_world.to_quaternion().to_matrix(), float) for obj in (small, large)]
+    fit = register_surfaces(
+        source, target, OutlineDistance(source), OutlineDistance(target), sizes[1] / sizes[0]
+    )
+    turns = [
+        np.array(obj.matrix_world.to_quaternion().to_matrix(), float) for obj in (small, large)
+    ]
     assert np.abs(fit.rotation @ turns[0] - turns[1]).max() < 1e-5 and not fit.is_mirror_image
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 def test_near_square_symmetry_follows_tolerance_at_any_size(size):
-    obj = sheet([(0, 0), (1, 0), (1, 1.003), (0, 1)], location=(3, 4, 5), rotation=(1, 2, 3), scale=(size,) * 3)
+    obj = sheet(
+        [(0, 0), (1, 0), (1, 1.003), (0, 1)],
+        location=(3, 4, 5),
+        rotation=(1, 2, 3),
+        scale=(size,) * 3,
+    )
     shape = flat(obj)
     for tolerance, group in ((1e-4, "C1"), (0.02, "C4v")):
         assert [found.group for found in shape.find_symmetries(tolerance)] == [group, group]

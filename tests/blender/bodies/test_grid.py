@@ -20,7 +20,9 @@ from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
 
-SHEARED = np.array([[0.5, 0.125, 0.0, 3.0], [0.0, -0.25, 0.0625, -2.0], [0.25, 0.0, 1.0, 0.5], [0, 0, 0, 1]])
+SHEARED = np.array(
+    [[0.5, 0.125, 0.0, 3.0], [0.0, -0.25, 0.0625, -2.0], [0.25, 0.0, 1.0, 0.5], [0, 0, 0, 1]]
+)
 
 
 def depsgraph():
@@ -52,13 +54,17 @@ def random_values(dtype, shape=(9, 20, 33), seed=0):
 
 def expected_body(values, matrix):
     """Mass, center and inertia of voxels with these densities by a plain sum over boxes."""
-    index = np.stack(np.meshgrid(*map(np.arange, values.shape), indexing="ij"), axis=-1).reshape(-1, 3)
+    index = np.stack(np.meshgrid(*map(np.arange, values.shape), indexing="ij"), axis=-1).reshape(
+        -1, 3
+    )
     masses = values.reshape(-1).astype(float) * abs(np.linalg.det(matrix[:3, :3]))
     points = index @ matrix[:3, :3].T + matrix[:3, 3]
     mass = masses.sum()
     center = masses @ points / mass
     arms = points - center
-    second = np.einsum("n,ni,nj->ij", masses, arms, arms) + mass * matrix[:3, :3] @ matrix[:3, :3].T / 12
+    second = (
+        np.einsum("n,ni,nj->ij", masses, arms, arms) + mass * matrix[:3, :3] @ matrix[:3, :3].T / 12
+    )
     return mass, center, np.trace(second) * np.eye(3) - second
 
 
@@ -141,14 +147,24 @@ def test_both_ways_measure_the_same(monkeypatch, tmp_path):
     by_nodes(monkeypatch)
     second = measure(obj)
     assert second.mass_properties.mass == pytest.approx(first.mass_properties.mass, rel=1e-14)
-    assert second.mass_properties.inertia == pytest.approx(first.mass_properties.inertia, rel=1e-9, abs=1e-9)
+    assert second.mass_properties.inertia == pytest.approx(
+        first.mass_properties.inertia, rel=1e-9, abs=1e-9
+    )
     assert second.volume == pytest.approx(first.volume, rel=1e-14)
 
 
 def snapshot():
     return {
         name: [(block.name, block.users, block.session_uid) for block in getattr(bpy.data, name)]
-        for name in ("objects", "meshes", "node_groups", "scenes", "volumes", "collections", "worlds")
+        for name in (
+            "objects",
+            "meshes",
+            "node_groups",
+            "scenes",
+            "volumes",
+            "collections",
+            "worlds",
+        )
     }
 
 
@@ -190,7 +206,9 @@ def test_grid_and_object_transforms(tmp_path, name, matrix):
     offset = np.eye(4)
     offset[:3, 3] = (-2, 4, 9)
     check(found, values, np.array(obj.matrix_world, float) @ matrix @ offset)
-    filled = np.count_nonzero(values) * abs(np.linalg.det((np.array(obj.matrix_world, float) @ matrix)[:3, :3]))
+    filled = np.count_nonzero(values) * abs(
+        np.linalg.det((np.array(obj.matrix_world, float) @ matrix)[:3, :3])
+    )
     assert close(found.volume, filled, rel=1e-6)
     assert found.density == pytest.approx(found.mass_properties.mass / found.volume, rel=1e-12)
 
@@ -238,7 +256,11 @@ def test_the_grid_is_chosen(tmp_path):
     obj = volume_object(tmp_path / "a.vdb", vdb_grid(one, "alpha"), vdb_grid(two, "density"))
     found = measure(obj)
     assert found.mass_properties.mass == pytest.approx(two.sum(dtype=float), rel=1e-12)
-    assert said(found)["others_left_out"] == {"kind": "grid", "name": "density", "others": ["alpha"]}
+    assert said(found)["others_left_out"] == {
+        "kind": "grid",
+        "name": "density",
+        "others": ["alpha"],
+    }
     obj.body_moments.grid = "alpha"
     assert measure(obj).mass_properties.mass == pytest.approx(one.sum(dtype=float), rel=1e-12)
     obj.body_moments.grid = "nothing"
@@ -279,7 +301,9 @@ def test_level_set_is_no_density_and_measures_as_solid(tmp_path):
     assert found.mass_properties.mass == pytest.approx(1000 * found.volume, rel=1e-12)
     assert found.mass_properties.center == pytest.approx([5, 0, 0], abs=1e-3)
     told = said(found)["level_set_measured"]
-    assert told["grid"] == "distance" and 1.3 < told["polygons"] * 0.1**2 / found.area < 1.6  # through each voxel
+    assert (
+        told["grid"] == "distance" and 1.3 < told["polygons"] * 0.1**2 / found.area < 1.6
+    )  # through each voxel
 
 
 def test_volume_without_file_is_refused_after_saving(tmp_path):
@@ -297,7 +321,10 @@ def test_volume_without_file_is_refused_after_saving(tmp_path):
 
 def test_unmeasurable_volumes_are_refused_with_reason(tmp_path):
     empty = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
-    with refused("volume_without_grids", "Empty"), volume_reading(empty, bpy.context.evaluated_depsgraph_get()):
+    with (
+        refused("volume_without_grids", "Empty"),
+        volume_reading(empty, bpy.context.evaluated_depsgraph_get()),
+    ):
         pass
     missing = linked(bpy.data.objects.new("Missing", bpy.data.volumes.new("Missing")))
     missing.data.filepath = str(tmp_path / "none.vdb")
@@ -328,7 +355,8 @@ def test_a_mesh_that_its_nodes_turn_into_a_volume():
     for direction in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
     start, end, fog = (
-        tree.nodes.new(name) for name in ("NodeGroupInput", "NodeGroupOutput", "GeometryNodeMeshToVolume")
+        tree.nodes.new(name)
+        for name in ("NodeGroupInput", "NodeGroupOutput", "GeometryNodeMeshToVolume")
     )
     tree.links.new(start.outputs[0], fog.inputs[0])
     tree.links.new(fog.outputs[0], end.inputs[0])
@@ -365,7 +393,10 @@ def with_nodes(obj, *makers):
 
 
 def an_instance(tree):
-    cube, instance = tree.nodes.new("GeometryNodeMeshCube"), tree.nodes.new("GeometryNodeGeometryToInstance")
+    cube, instance = (
+        tree.nodes.new("GeometryNodeMeshCube"),
+        tree.nodes.new("GeometryNodeGeometryToInstance"),
+    )
     tree.links.new(cube.outputs[0], instance.inputs[0])
     return instance.outputs[0]
 
@@ -411,7 +442,9 @@ def test_damaged_volume_file_is_refused_with_grid_name(tmp_path):
 
 
 def test_instances_of_empty_volume_are_its_body():
-    obj = with_nodes(linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty"))), an_instance)
+    obj = with_nodes(
+        linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty"))), an_instance
+    )
     assert close(measure(obj).volume, 1.0, rel=1e-6)
 
 

@@ -17,8 +17,29 @@ from tests.corpus import scenes
 from tests.corpus import shapes as s
 
 pytestmark = pytest.mark.usefixtures("scene")
-MESHES = ("closed", "faulty", "overlaps", "shapes", "shells", "booleans", "millimeters", "kilometers", "refused")
-SAME = ("name", "type", "kind", "thickness", "density", "volume", "area", "fingerprint", "findings", "error_bound")
+MESHES = (
+    "closed",
+    "faulty",
+    "overlaps",
+    "shapes",
+    "shells",
+    "booleans",
+    "millimeters",
+    "kilometers",
+    "refused",
+)
+SAME = (
+    "name",
+    "type",
+    "kind",
+    "thickness",
+    "density",
+    "volume",
+    "area",
+    "fingerprint",
+    "findings",
+    "error_bound",
+)
 KINDS = {
     "shard": lambda rng, i: s.random_hull(i),
     "tetrahedra": lambda rng, i: s.random_tetrahedra(i, count=1),
@@ -33,17 +54,27 @@ KINDS = {
         s.without(s.box((8, 0, 0), rng.uniform(9, 10, 3)), i),
         s.without(s.random_hull(i), i),
     ),
-    "warped": lambda rng, i: s.without((s.box()[0] + rng.uniform(-0.1, 0.1, (8, 3)), s.box()[1]), 2),
+    "warped": lambda rng, i: s.without(
+        (s.box()[0] + rng.uniform(-0.1, 0.1, (8, 3)), s.box()[1]), 2
+    ),
     "cracked": lambda rng, i: cracked(10.0 ** (i - 9.5)),
     "two": lambda rng, i: s.joined(s.box(), s.box((3, 0, 0), rng.uniform(4, 5, 3))),
     "touching": lambda rng, i: s.joined(s.box(), s.box((1, 0, 0), rng.uniform(2, 3, 3))),
-    "nested": lambda rng, i: s.joined(s.box((0, 0, 0), (9, 9, 9)), s.box((3, 3, 3), rng.uniform(4, 5, 3))),
-    "cavity": lambda rng, i: s.joined(s.box((0, 0, 0), (9, 9, 9)), s.inverted(s.box((3, 3, 3), rng.uniform(4, 5, 3)))),
-    "inside out": lambda rng, i: s.joined(s.box(), s.inverted(s.box((3, 0, 0), rng.uniform(4, 5, 3)))),
+    "nested": lambda rng, i: s.joined(
+        s.box((0, 0, 0), (9, 9, 9)), s.box((3, 3, 3), rng.uniform(4, 5, 3))
+    ),
+    "cavity": lambda rng, i: s.joined(
+        s.box((0, 0, 0), (9, 9, 9)), s.inverted(s.box((3, 3, 3), rng.uniform(4, 5, 3)))
+    ),
+    "inside out": lambda rng, i: s.joined(
+        s.box(), s.inverted(s.box((3, 0, 0), rng.uniform(4, 5, 3)))
+    ),
     "scattered": lambda rng, i: s.joined(
         *[s.box((3 * k, 0, 0), rng.uniform(1, 2, 3) + [3 * k, 0, 0]) for k in range(5)]
     ),
-    "with a leaf": lambda rng, i: s.joined(s.box(), (s.box((3, 0, 0), (4, 1, 1))[0] * [1, 1, 1e-13], s.box()[1])),
+    "with a leaf": lambda rng, i: s.joined(
+        s.box(), (s.box((3, 0, 0), (4, 1, 1))[0] * [1, 1, 1e-13], s.box()[1])
+    ),
     "box and hull": lambda rng, i: s.joined(s.box((5, 5, 5), (6, 6, 6)), s.random_hull(i)),
     "flipped": lambda rng, i: s.with_flipped(s.random_hull(i), 1),
     "inverted": lambda rng, i: s.inverted(s.random_hull(i)),
@@ -75,7 +106,9 @@ def shards(count=4, seed=3):
         for i in range(count):
             points, faces = make(rng, i)
             mesh = bpy.data.meshes.new(kind)
-            mesh.from_pydata(np.asarray(points).tolist(), [], [list(map(int, face)) for face in faces])
+            mesh.from_pydata(
+                np.asarray(points).tolist(), [], [list(map(int, face)) for face in faces]
+            )
             for twin in range(2):
                 obj = bpy.data.objects.new("{} {} {}".format(kind, i, twin), mesh)
                 bpy.context.scene.collection.objects.link(obj)
@@ -120,14 +153,18 @@ def assert_same(found, expected):
     ), one.name
     for name in ("center", "inertia"):
         assert np.array_equal(getattr(first, name), getattr(second, name)), (one.name, name)
-    assert np.array_equal(one.rotation, other.rotation) and np.array_equal(one.location, other.location)
+    assert np.array_equal(one.rotation, other.rotation) and np.array_equal(
+        one.location, other.location
+    )
     frame, own = first.principal, second.principal
     assert np.array_equal(frame.moments, own.moments)
     assert np.abs(frame.axes - own.axes).max() < 1e-11, one.name
     for name in ("symmetry", "is_unique", "finding", "undetermined_axes"):
         assert getattr(frame, name) == getattr(own, name), (one.name, name)
     for name in ("raw", "about", "rounding_error", "input_error") if one.volume_moments else ():
-        assert np.array_equal(getattr(one.volume_moments, name), getattr(other.volume_moments, name)), one.name
+        assert np.array_equal(
+            getattr(one.volume_moments, name), getattr(other.volume_moments, name)
+        ), one.name
 
 
 def _is_together(found):
@@ -145,11 +182,26 @@ def test_stacked_shards_equal_single_measurements():
     objects = shards()
     pairs, depsgraph = all_outcomes(objects)
     stacked = {obj.name.split()[0] for obj, found in pairs if isinstance(found, Stacked)}
-    together = {obj.name.split()[0] for obj, found in pairs if isinstance(found, Stacked) and _is_together(found)}
+    together = {
+        obj.name.split()[0]
+        for obj, found in pairs
+        if isinstance(found, Stacked) and _is_together(found)
+    }
     assert together >= {"shard", "box", "cylinder", "L", "two", "scattered"}
     assert together >= {"open", "tube", "holed", "halves", "warped"}
     assert not together & {"touching", "nested", "cavity", "inside", "with", "cracked"}
-    assert stacked >= {"shard", "box", "cylinder", "L", "open", "two", "flipped", "inverted", "bent", "unwelded"}
+    assert stacked >= {
+        "shard",
+        "box",
+        "cylinder",
+        "L",
+        "open",
+        "two",
+        "flipped",
+        "inverted",
+        "bent",
+        "unwelded",
+    }
     for obj, found in pairs:
         assert_same(found, alone(obj, depsgraph))
 
@@ -182,7 +234,9 @@ def test_the_corpus_together_is_the_corpus_alone(name):
 
 def object_of(points, faces, name="Object"):
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(np.asarray(points, float).tolist(), [], [list(map(int, face)) for face in faces])
+    mesh.from_pydata(
+        np.asarray(points, float).tolist(), [], [list(map(int, face)) for face in faces]
+    )
     obj = bpy.data.objects.new(name, mesh)
     bpy.context.scene.collection.objects.link(obj)
     bpy.context.view_layer.update()
@@ -191,11 +245,21 @@ def object_of(points, faces, name="Object"):
 
 def test_meshes_of_equal_corners_and_other_faces_differ():
     """A triangle and five corners, or five corners and a triangle, and what closes either of them."""
-    points = [(0, 0, 0), (2, 0, 0.5), (3, 2, -0.5), (1, 3, 0), (-1, 2, 0.5), (2, 4, 1), (1, 1, 3), (2, 3, -3)]
+    points = [
+        (0, 0, 0),
+        (2, 0, 0.5),
+        (3, 2, -0.5),
+        (1, 3, 0),
+        (-1, 2, 0.5),
+        (2, 4, 1),
+        (1, 1, 3),
+        (2, 3, -3),
+    ]
     a, b, c, d, e, g, p, q = range(8)
     rest = [(a, e, p), (e, d, p), (d, c, p), (c, b, p), (b, a, p), (a, c, q), (c, g, q), (g, a, q)]
     objects = [
-        object_of(points, [*first, *rest]) for first in ([(a, b, c, d, e), (a, g, c)], [(a, b, c), (d, e, a, g, c)])
+        object_of(points, [*first, *rest])
+        for first in ([(a, b, c, d, e), (a, g, c)], [(a, b, c), (d, e, a, g, c)])
     ]
     pairs, depsgraph = all_outcomes(objects)
     volumes = [found.measurement.volume for _, found in pairs]
@@ -233,7 +297,15 @@ def test_object_settings_and_options_hold_in_stacks(settings):
         setattr(obj.body_moments, name, value)
     bpy.context.view_layer.update()
     own = {"kind": "solid", "overlap": "signed"}
-    for options in ({}, {"mass": 5.0}, {"mass": 0.0}, {"density": 7.0}, {"density": 0.0}, own, {"order": 2}):
+    for options in (
+        {},
+        {"mass": 5.0},
+        {"mass": 0.0},
+        {"density": 7.0},
+        {"density": 0.0},
+        own,
+        {"order": 2},
+    ):
         pairs, depsgraph = all_outcomes([obj], MeasureOptions(**options))
         assert_same(pairs[0][1], alone(obj, depsgraph, MeasureOptions(**options)))
 

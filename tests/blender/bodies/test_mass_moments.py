@@ -23,7 +23,9 @@ ORDER = 12
 
 def box_mesh(low, high):
     mesh = bpy.data.meshes.new("Box")
-    corners = [[(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)]
+    corners = [
+        [(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)
+    ]
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     mesh.from_pydata(corners, [], faces)
     return mesh
@@ -45,7 +47,8 @@ def mass_moments(*words, order=ORDER):
     moments = measured("--order", order, "--about", ",".join(map(str, middle)), *words)["moments"]
     keys = [",".join(map(str, powers)) for powers in monomials(order).tolist()]
     return tuple(
-        np.array([table["mass"][key] for key in keys]) for table in (moments, moments["error"], moments["input"])
+        np.array([table["mass"][key] for key in keys])
+        for table in (moments, moments["error"], moments["input"])
     )
 
 
@@ -73,7 +76,9 @@ def test_a_polynomial():
     obj = box()
     obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "100 + 20*z"
     obj.body_moments.density_frame = "WORLD"
-    assert_moments(lambda powers: 140.0 * centered(powers) + 20.0 * centered(np.add(powers, (0, 0, 1))))
+    assert_moments(
+        lambda powers: 140.0 * centered(powers) + 20.0 * centered(np.add(powers, (0, 0, 1)))
+    )
 
 
 def test_materials_by_part():
@@ -88,12 +93,17 @@ def test_materials_by_part():
     joined = bpy.data.objects.new("Other", second)
     bpy.context.collection.objects.link(joined)
     with bpy.context.temp_override(
-        active_object=obj, selected_editable_objects=[obj, joined], object=obj, selected_objects=[obj, joined]
+        active_object=obj,
+        selected_editable_objects=[obj, joined],
+        object=obj,
+        selected_objects=[obj, joined],
     ):
         bpy.ops.object.join()
     obj.body_moments.density_from = "MATERIALS"
     assert_moments(
-        lambda powers: 1000.0 * centered(powers) + 3000.0 * centered(powers, LOW + other, HIGH + other),
+        lambda powers: (
+            1000.0 * centered(powers) + 3000.0 * centered(powers, LOW + other, HIGH + other)
+        ),
         order=5,
         reach=(20.5, 1.0, 1.5),
     )
@@ -114,10 +124,15 @@ def test_a_vertex_attribute_of_a_shell():
     )  # fmt: skip
     moments = measured("--order", 9)["moments"]
     for p, q in ((0, 0), (4, 2), (9, 0), (3, 6)):
-        truth = 0.125 * (100.0 * 2.0 ** (p + 1) / (p + 1) + 10.0 * 2.0 ** (p + 2) / (p + 2)) / (q + 1)
+        truth = (
+            0.125 * (100.0 * 2.0 ** (p + 1) / (p + 1) + 10.0 * 2.0 ** (p + 2) / (p + 2)) / (q + 1)
+        )
         key = "{},{},0".format(p, q)
         assert close(moments["mass"][key], truth, rel=1e-13)
-        assert abs(moments["mass"][key] - truth) <= moments["error"]["mass"][key] + moments["input"]["mass"][key]
+        assert (
+            abs(moments["mass"][key] - truth)
+            <= moments["error"]["mass"][key] + moments["input"]["mass"][key]
+        )
     assert moments["mass"]["0,0,1"] == 0.0
 
 
@@ -133,7 +148,10 @@ def test_a_volume_object_within_a_solid(tmp_path):
     grid.hide_render = True
     cut = np.array([HIGH[0], HIGH[1], 2.0])
     assert_moments(
-        lambda powers: 30.0 * centered(powers, LOW, cut) + 10.0 * centered(powers, np.array([*LOW[:2], 2.0]), HIGH),
+        lambda powers: (
+            30.0 * centered(powers, LOW, cut)
+            + 10.0 * centered(powers, np.array([*LOW[:2], 2.0]), HIGH)
+        ),
         ["--object", "Box"],
         order=6,
     )
@@ -151,7 +169,10 @@ def test_a_grid_with_any_spline_order(tmp_path, spline_order):
         table = [1.0] + power * [0.0]
         for _ in range(spline_order):
             uniform = [(0.5 ** (n + 1) - (-0.5) ** (n + 1)) / (n + 1) for n in range(power + 1)]
-            table = [sum(math.comb(n, k) * table[n - k] * uniform[k] for k in range(n + 1)) for n in range(power + 1)]
+            table = [
+                sum(math.comb(n, k) * table[n - k] * uniform[k] for k in range(n + 1))
+                for n in range(power + 1)
+            ]
         return table[power]
 
     for powers in ((0, 0, 0), (2, 0, 0), (4, 2, 2), (8, 0, 0), (0, 0, 6)):

@@ -20,11 +20,17 @@ CUBE = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1
 
 
 def corners(low, high):
-    return [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+    return [
+        (x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])
+    ]
 
 
 def box(low=(0, 0, 0), high=(1, 2, 3), name="Box", turned=False):
-    return {"points": corners(low, high), "faces": [face[::-1] for face in CUBE] if turned else CUBE, "name": name}
+    return {
+        "points": corners(low, high),
+        "faces": [face[::-1] for face in CUBE] if turned else CUBE,
+        "name": name,
+    }
 
 
 def add(*shells, name="Box", **transform):
@@ -79,7 +85,9 @@ def test_a_box_is_exact_through_every_transform(name):
     assert np.allclose(body.inertia, inertia, rtol=0, atol=1e-13 * np.trace(second))
     axes = body.principal.axes
     assert np.linalg.det(axes) == pytest.approx(1.0, abs=1e-12)
-    assert np.allclose(axes.T @ inertia @ axes, np.diag(body.principal.moments), atol=1e-12 * np.trace(second))
+    assert np.allclose(
+        axes.T @ inertia @ axes, np.diag(body.principal.moments), atol=1e-12 * np.trace(second)
+    )
     faces = linear @ np.diag([1, 2, 3])
     area = 2 * sum(np.linalg.norm(np.cross(faces[:, i], faces[:, (i + 1) % 3])) for i in range(3))
     assert abs(found.area - area) <= found.error_bound["area"] + found.error_bound["input"]["area"]
@@ -128,16 +136,24 @@ def test_an_unevenly_scaled_shell_is_measured_as_it_lies():
     even = measure(add(box((0, 0, 0), (1, 2, 3))), kind="shell", thickness=0.01)
     uneven = measure(add(box((0, 0, 0), (1, 1, 1)), scale=(1, 2, 3)), kind="shell", thickness=0.01)
     assert uneven.area == pytest.approx(even.area, rel=1e-12)
-    assert np.allclose(uneven.mass_properties.inertia, even.mass_properties.inertia, rtol=1e-12, atol=1e-12)
+    assert np.allclose(
+        uneven.mass_properties.inertia, even.mass_properties.inertia, rtol=1e-12, atol=1e-12
+    )
 
 
 def test_overlapping_shells_are_summed_with_a_warning_or_united():
     obj = add(box((0, 0, 0), (1, 1, 1)), box((0.5, 0, 0), (1.5, 1, 1)))
     signed, united = measure(obj), measure(obj, overlap="union")
     assert signed.volume == pytest.approx(2.0) and signed.health.overlapping_components
-    assert said(signed) == {"components_overlap": {"count": 2}} and "union_by_boolean" in said(united)
+    assert said(signed) == {"components_overlap": {"count": 2}} and "union_by_boolean" in said(
+        united
+    )
     assert str(united.method) == "union" and united.volume == pytest.approx(1.5, rel=1e-6)
-    assert np.allclose(np.diag(united.mass_properties.inertia), np.array([0.25, 0.40625, 0.40625]) * 1000, rtol=1e-5)
+    assert np.allclose(
+        np.diag(united.mass_properties.inertia),
+        np.array([0.25, 0.40625, 0.40625]) * 1000,
+        rtol=1e-5,
+    )
     assert united.health.overlapping_components  # the input's
 
 
@@ -149,7 +165,9 @@ def test_distant_brick_is_exact_within_input_bound():
     low, high = points.min(axis=0), points.max(axis=0)
     stored = [Fraction(float(h)) - Fraction(float(a)) for a, h in zip(low, high)]
     assert close(found.volume, float(stored[0] * stored[1] * stored[2]), rel=1e-13)
-    assert 1e-13 < abs(found.volume - 0.05**3) < found.error_bound["input"]["volume"] < 0.1 * 0.05**3
+    assert (
+        1e-13 < abs(found.volume - 0.05**3) < found.error_bound["input"]["volume"] < 0.1 * 0.05**3
+    )
 
 
 def test_measuring_changes_nothing():
@@ -181,8 +199,14 @@ def test_principal_frames_of_copies_turn_with_the_copies():
     first = measure(add(*l_prism))
     second = measure(add(*l_prism, rotation_euler=(1.0, 2.0, 3.0), location=(7, 8, 9)))
     turn = second.rotation
-    assert np.allclose(turn.T @ second.mass_properties.principal.axes, first.mass_properties.principal.axes, atol=1e-5)
-    assert np.allclose(second.in_object_frame().inertia, first.in_object_frame().inertia, rtol=1e-5, atol=1e-2)
+    assert np.allclose(
+        turn.T @ second.mass_properties.principal.axes,
+        first.mass_properties.principal.axes,
+        atol=1e-5,
+    )
+    assert np.allclose(
+        second.in_object_frame().inertia, first.in_object_frame().inertia, rtol=1e-5, atol=1e-2
+    )
 
 
 def collection_of(*objects):
@@ -225,7 +249,9 @@ def test_a_cavity_is_one_within_its_own_mesh_only(scale):
         found = measure(collection_of(*members))
         assert close(found.volume, 9.0 * volume, rel=1e-6)
         assert str(found.method) == ("reoriented" if turned else "exact")
-        expected = {"inverted_components": {"count": 1, "total": 1, "sources": [name]}} if turned else {}
+        expected = (
+            {"inverted_components": {"count": 1, "total": 1, "sources": [name]}} if turned else {}
+        )
         nested = {"components_nested": {"count": 1}}
         assert said(found) == {**expected, **nested}
         assert found.health.nested_components == 1 and not found.health.cavities
@@ -233,7 +259,9 @@ def test_a_cavity_is_one_within_its_own_mesh_only(scale):
         assert inside.elements == [[face, name] for face in range(6)]
     hollow = add(housing, box(**insert, turned=True), name="Hollow", scale=scale)
     found = measure(hollow)
-    assert close(found.volume, 7.0 * volume, rel=1e-6) and said(found) == {"cavities_subtracted": {"count": 1}}
+    assert close(found.volume, 7.0 * volume, rel=1e-6) and said(found) == {
+        "cavities_subtracted": {"count": 1}
+    }
 
 
 def test_body_in_cavity_of_another_is_not_nested():
@@ -280,7 +308,11 @@ def test_body_of_negative_inertia_is_refused():
     points = [(x, y, z) for z in (0, 1) for x, y in outline] + [(0.3, 0, 0), (0.3, 0, 1)]
     n = len(outline)
     faces = [(i, (i + 1) % n, (i + 1) % n + n, i + n) for i in range(n)]
-    faces += [face for i in range(n) for face in (((i + 1) % n, i, 2 * n), (i + n, (i + 1) % n + n, 2 * n + 1))]
+    faces += [
+        face
+        for i in range(n)
+        for face in (((i + 1) % n, i, 2 * n), (i + n, (i + 1) % n + n, 2 * n + 1))
+    ]
     with refused("negative_inertia"):
         measure(add({"points": points, "faces": faces}))
 
@@ -291,13 +323,23 @@ def test_a_thin_plate_keeps_its_axes_apart():
     found = measure(add(box((0, 0, 0), (1, 2, 1e-5)), rotation_euler=turn)).mass_properties
     assert found.principal.symmetry == "asymmetric"
     axes = found.principal.axes
-    assert np.allclose(axes.T @ found.inertia @ axes, np.diag(found.principal.moments), atol=1e-9 * found.inertia.max())
+    assert np.allclose(
+        axes.T @ found.inertia @ axes,
+        np.diag(found.principal.moments),
+        atol=1e-9 * found.inertia.max(),
+    )
 
 
 def test_input_bounds_are_finite_for_far_and_uneven_bodies():
-    far = measure(add(box((2e6, 4e6, 4e6), (2e6 + 1, 4e6 + 1, 4e6 + 1))), kind="shell", thickness=0.01)
-    assert not np.isnan([far.error_bound["input"][name] for name in far.error_bound["input"] if name != "input"]).any()
-    uneven = measure(add(box((1 / 3,) * 3, (4 / 3,) * 3), scale=(1, 2, 3)), kind="shell", thickness=0.01)
+    far = measure(
+        add(box((2e6, 4e6, 4e6), (2e6 + 1, 4e6 + 1, 4e6 + 1))), kind="shell", thickness=0.01
+    )
+    assert not np.isnan(
+        [far.error_bound["input"][name] for name in far.error_bound["input"] if name != "input"]
+    ).any()
+    uneven = measure(
+        add(box((1 / 3,) * 3, (4 / 3,) * 3), scale=(1, 2, 3)), kind="shell", thickness=0.01
+    )
     assert abs(uneven.area - 22.0) < uneven.error_bound["input"]["area"] < 1e-4
     assert uneven.error_bound["input"]["inertia"] > 0.0
 
@@ -305,7 +347,11 @@ def test_input_bounds_are_finite_for_far_and_uneven_bodies():
 def test_the_bound_of_a_union_covers_blenders_rounding():
     obj = add(box((0, 0, 0), (1, 1, 1)), rotation_euler=(0.3, 0.5, 0.7))
     found = measure(obj, overlap="union")
-    assert abs(found.volume - abs(np.linalg.det(world(obj)[:3, :3]))) < found.error_bound["input"]["volume"] < 1e-5
+    assert (
+        abs(found.volume - abs(np.linalg.det(world(obj)[:3, :3])))
+        < found.error_bound["input"]["volume"]
+        < 1e-5
+    )
 
 
 def test_a_unit_scale_is_used_in_double_precision():
@@ -346,7 +392,9 @@ def test_self_crossing_bar_is_found_and_monkey_is_not():
     signed, united = measure(part), measure(part, overlap="union")
     share = said(signed)["self_intersection"]["share"]
     assert 0.15 < share < 0.25 and signed.health.self_intersection == "found"
-    assert close(united.volume, 0.8 * signed.volume, rel=0.01) and "union_by_boolean" in said(united)
+    assert close(united.volume, 0.8 * signed.volume, rel=0.01) and "union_by_boolean" in said(
+        united
+    )
 
 
 @pytest.mark.filterwarnings("error")
@@ -354,7 +402,10 @@ def test_bodies_at_range_ends_are_exact_or_refused():
     large, small = (add(box((0, 0, 0), (size,) * 3), scale=(size,) * 3) for size in (1e30, 1e-35))
     sides = [np.float64(np.float32(size)) ** 2 for size in (1e30, 1e-35)]
     found = measure(large)
-    assert close(found.volume, sides[0] ** 3, 1e-15) and np.isfinite(found.mass_properties.inertia).all()
+    assert (
+        close(found.volume, sides[0] ** 3, 1e-15)
+        and np.isfinite(found.mass_properties.inertia).all()
+    )
     with refused("object_too_small"):
         measure(small)
     for obj in (large, small):
@@ -367,7 +418,11 @@ def test_united_instances_have_no_coordinates_of_their_own():
     unit = box((0, 0, 0), (1, 1, 1))
     obj = collection_of(add(unit), add(unit, location=(0.5, 0, 0)))
     settings = obj.body_moments
-    settings.overlap, settings.density_from, settings.density_polynomial = "UNION", "POLYNOMIAL", "100 + 10*x"
+    settings.overlap, settings.density_from, settings.density_polynomial = (
+        "UNION",
+        "POLYNOMIAL",
+        "100 + 10*x",
+    )
     settings.density_frame = "WORLD"
     assert measure(obj).mass_properties.mass == pytest.approx(100 * 1.5 + 10 * 1.5**2 / 2, rel=1e-6)
     settings.density_frame = "OBJECT"

@@ -63,7 +63,10 @@ def set_up(obj, before, draw):
 def linked(folder, rng):
     """Objects of a library: closed, open, and one that cannot be measured."""
     boxes = s.box(), s.without(s.box(), 0), s.sheet(3)
-    objects = [bpy.data.objects.new("Library {}".format(i), mesh_of("Library", *boxes[i])) for i in range(len(boxes))]
+    objects = [
+        bpy.data.objects.new("Library {}".format(i), mesh_of("Library", *boxes[i]))
+        for i in range(len(boxes))
+    ]
     path = str(folder / "library.blend")
     bpy.data.libraries.write(path, set(objects))
     names = [obj.name for obj in objects]
@@ -86,8 +89,14 @@ def mixed(seed, folder):
             place(obj, rng, draw)
             set_up(obj, made, draw)
             made.append(obj)
-    made += [bpy.data.objects.new("Empty", None), bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))]
-    made += [bpy.data.objects.new("Curve", bpy.data.curves.new("Curve", "CURVE")), *linked(folder, rng)]
+    made += [
+        bpy.data.objects.new("Empty", None),
+        bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera")),
+    ]
+    made += [
+        bpy.data.objects.new("Curve", bpy.data.curves.new("Curve", "CURVE")),
+        *linked(folder, rng),
+    ]
     draw.shuffle(made)
     for obj in made:
         link(obj)
@@ -154,7 +163,9 @@ def test_a_mixed_selection_is_each_measured_by_itself(seed, tmp_path, reported):
     assert list(bpy.context.selected_objects) == objects
     assert_total_is(total, displayed.total(bpy.context))
     refusals = [values for findings in alone for values in refused(findings)]
-    refusals = [values for values in refusals if values["object"] not in ("Empty", "Camera")]  # passed over together
+    refusals = [
+        values for values in refusals if values["object"] not in ("Empty", "Camera")
+    ]  # passed over together
     kept = {name: group.finding.code for group in groups for name in group.objects}
     assert kept == {values["object"]: values["cause"]["code"] for values in refusals}
     assert "linked_object" in kept.values()

@@ -32,7 +32,10 @@ def test_overlaps_of_instances(side, slight):
 
 @SIDES
 def test_flat_instances(side, slight):
-    sheet = {"points": [(3, 0, 0), (3 + side, 0, 0), (3 + side, side, 0), (3, side, 0)], "faces": [(0, 1, 2, 3)]}
+    sheet = {
+        "points": [(3, 0, 0), (3 + side, 0, 0), (3 + side, side, 0), (3, side, 0)],
+        "faces": [(0, 1, 2, 3)],
+    }
     found = measure(collection_of(add(UNIT), add(sheet)))
     assert said(found) == {"flat_surfaces": {"count": 1, "total": 2, **slight}}
     assert close(found.volume, 1.0, rel=1e-6)

@@ -24,7 +24,9 @@ from tests.close import close
 pytestmark = pytest.mark.usefixtures("scene")
 
 BALL = 4.0 * np.pi / 3.0
-STORED = 1.0 - 1.95e-7  # what the rounding of the primitive's control points and weights leaves of a ball
+STORED = (
+    1.0 - 1.95e-7
+)  # what the rounding of the primitive's control points and weights leaves of a ball
 
 
 def primitive(name):
@@ -41,10 +43,18 @@ def shown(obj):
 def spaces_of(spline):
     return (
         blender_space(
-            spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v, spline.use_endpoint_v
+            spline.point_count_v,
+            spline.order_v,
+            spline.use_cyclic_v,
+            spline.use_bezier_v,
+            spline.use_endpoint_v,
         ),
         blender_space(
-            spline.point_count_u, spline.order_u, spline.use_cyclic_u, spline.use_bezier_u, spline.use_endpoint_u
+            spline.point_count_u,
+            spline.order_u,
+            spline.use_cyclic_u,
+            spline.use_bezier_u,
+            spline.use_endpoint_u,
         ),
     )
 
@@ -83,7 +93,9 @@ def test_display_mesh_is_reproduced_for_all_spline_flags(along_u):
                 display_table(space, display_parameters(space, resolution))
                 for space, resolution in zip(spaces, (spline.resolution_v, spline.resolution_u))
             ]
-            found = Patch(spaces, points, weights).apply_weights(*tables).swapaxes(0, 1).reshape(-1, 3)
+            found = (
+                Patch(spaces, points, weights).apply_weights(*tables).swapaxes(0, 1).reshape(-1, 3)
+            )
             assert np.abs(found - vertices).max() <= 2e-6
         bpy.data.objects.remove(obj)
     assert valid >= 5
@@ -94,7 +106,9 @@ def test_the_sphere_is_measured_as_the_ball_that_it_is():
     assert str(ball.method) == "NURBS exact" and not ball.findings
     assert abs(ball.volume / (BALL * STORED) - 1.0) <= 1e-8
     assert ball.display_volume / BALL < 0.988  # and its polygons 1.3 % too small
-    assert abs(ball.volume - BALL) <= ball.error_bound["volume"] + ball.error_bound["input"]["volume"]
+    assert (
+        abs(ball.volume - BALL) <= ball.error_bound["volume"] + ball.error_bound["input"]["volume"]
+    )
     assert abs(ball.area / (4.0 * np.pi) - 1.0) <= 1e-6
     entry = record(ball)
     assert entry["display_mesh"]["difference"] == pytest.approx(ball.display_volume - ball.volume)
@@ -104,7 +118,11 @@ def test_the_sphere_is_measured_as_the_ball_that_it_is():
 def test_an_uneven_mirrored_transform_maps_the_body(name):
     obj = primitive(name)
     plain = measured(obj)
-    obj.location, obj.rotation_euler, obj.scale = (5.0, -2.0, 8.0), (0.3, -1.0, 2.0), (1.0, 2.0, -0.5)
+    obj.location, obj.rotation_euler, obj.scale = (
+        (5.0, -2.0, 8.0),
+        (0.3, -1.0, 2.0),
+        (1.0, 2.0, -0.5),
+    )
     moved = measured(obj)
     expected = plain.volume_moments.transform(place(obj)).about_point(moved.volume_moments.about)
     assert moved.method == plain.method and said(moved).keys() == said(plain).keys()
@@ -136,7 +154,11 @@ def test_a_shell_is_thin_or_has_real_walls():
 
 def test_patch_wall_keeps_thickness_under_scale():
     obj = primitive("sphere")
-    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
+    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = (
+        "SHELL",
+        "INWARD",
+        0.1,
+    )
     obj.scale = (2.0, 2.0, -2.0)
     assert measured(obj).volume == pytest.approx(BALL * (8.0 - 1.9**3), rel=1e-6)
 
@@ -157,7 +179,9 @@ def test_patch_moment_bounds_cover_float32_at_any_scale(order, kind, scale):
         volume, area = body.body.moments(order, True)
         (part,) = body.reading.parts
         farthest = max(np.linalg.norm(patch.points, axis=2).max() for patch in part.splines.patches)
-        return [area] if kind == "SHELL" else [volume, area], (growth - 1.0) * farthest / part.splines.stored
+        return [area] if kind == "SHELL" else [volume, area], (
+            growth - 1.0
+        ) * farthest / part.splines.stored
 
     (before, moved), (after, _) = moments(1.0), moments(growth)
     for was, now in zip(before, after):
@@ -193,7 +217,8 @@ def test_shape_keys_move_the_surface():
 
 
 @pytest.mark.parametrize(
-    "falloff", ["NONE", "SMOOTH", "SHARP", "ROOT", "LINEAR", "SPHERE", "CONSTANT", "INVERSE_SQUARE", "CURVE"]
+    "falloff",
+    ["NONE", "SMOOTH", "SHARP", "ROOT", "LINEAR", "SPHERE", "CONSTANT", "INVERSE_SQUARE", "CURVE"],
 )
 def test_hooks_move_the_surface(falloff):
     obj = primitive("sphere")
@@ -205,7 +230,11 @@ def test_hooks_move_the_surface(falloff):
     modifier.vertex_indices_set(list(range(8, 40)))
     modifier.falloff_type, modifier.falloff_radius = falloff, 1.6
     before = measured(obj).volume
-    hook.location, hook.rotation_euler, hook.scale = (0.2, 0.1, 0.5), (0.1, 0.2, 0.3), (1.3, 1.0, 0.9)
+    hook.location, hook.rotation_euler, hook.scale = (
+        (0.2, 0.1, 0.5),
+        (0.1, 0.2, 0.3),
+        (1.3, 1.0, 0.9),
+    )
     found = measured(obj)
     assert str(found.method).startswith("NURBS") and abs(found.volume / before - 1.0) > 1e-3
     assert ("control_points_recovered" in said(found)) == (falloff == "CURVE")
@@ -282,7 +311,9 @@ def test_weights_of_zero_leave_the_display_mesh():
     obj.data.splines[0].points[17].co[3] = 0.0
     obj.data.update_tag()
     found = measured(obj)
-    assert not str(found.method).startswith("NURBS") and said(found)["display_mesh_for_weights"] == {"count": 1}
+    assert not str(found.method).startswith("NURBS") and said(found)[
+        "display_mesh_for_weights"
+    ] == {"count": 1}
 
 
 def test_live_numbers_follow_hooks_keys_transforms_and_frames():
@@ -330,13 +361,19 @@ def test_patches_and_polygons_in_one_object_are_the_sum_of_both():
     matrix = np.array(empty.matrix_world, float)
     center = matrix[:3, :3] @ (np.array([6.0, 0, 0]) * 8.0 / (BALL + 8.0)) + matrix[:3, 3]
     assert np.abs(solid.mass_properties.center - center).max() < 1e-5
-    moments, surfaces = solid.volume_moments.about_point(matrix[:3, 3]), solid.area_moments.about_point(matrix[:3, 3])
+    moments, surfaces = (
+        solid.volume_moments.about_point(matrix[:3, 3]),
+        solid.area_moments.about_point(matrix[:3, 3]),
+    )
     axis = matrix[:3, 0] / 2.0  # along which the box lies: ∫ t^n dV of both
     for n in (1, 4, 6):
         of_ball = 2.0 * np.pi * (1 / (n + 1) - 1 / (n + 3)) if n % 2 == 0 else 0.0
         of_box = 4.0 * (7.0 ** (n + 1) - 5.0 ** (n + 1)) / (n + 1)
         powers = [(i, j, n - i - j) for i in range(n + 1) for j in range(n + 1 - i)]
-        count = [np.prod(np.arange(1, n + 1)) / np.prod([np.prod(np.arange(1, k + 1)) for k in p]) for p in powers]
+        count = [
+            np.prod(np.arange(1, n + 1)) / np.prod([np.prod(np.arange(1, k + 1)) for k in p])
+            for p in powers
+        ]
         along = sum(c * moments[p] * np.prod(axis**p) for c, p in zip(count, powers))
         assert close(along, 2.0 ** (n + 3) * (of_ball + of_box), 1e-5)
         of_ball = 4.0 * np.pi / (n + 1) if n % 2 == 0 else 0.0
@@ -346,10 +383,17 @@ def test_patches_and_polygons_in_one_object_are_the_sum_of_both():
     sheet = MeasureOptions(kind="shell", thickness=0.01, density=1.0, order=4)
     thin = measure_object(empty, depsgraph, sheet)
     assert close(thin.area, area, 1e-6) and close(thin.volume, 0.01 * area, 1e-6)
-    assert np.abs(thin.area_moments.raw - solid.area_moments.about_point(thin.area_moments.about).raw[:35]).max() < 1e-4
+    assert (
+        np.abs(
+            thin.area_moments.raw - solid.area_moments.about_point(thin.area_moments.about).raw[:35]
+        ).max()
+        < 1e-4
+    )
     for wall in ("inward", "outward", "centered"):
         with refused("wall_unsupported", "Both"):
-            measure_object(empty, depsgraph, MeasureOptions(kind="shell", wall=wall, thickness=0.01))
+            measure_object(
+                empty, depsgraph, MeasureOptions(kind="shell", wall=wall, thickness=0.01)
+            )
     empty.scale = (1, 1, 0)
     bpy.context.view_layer.update()
     with refused("zero_scale", "Both"):
@@ -359,7 +403,10 @@ def test_patches_and_polygons_in_one_object_are_the_sum_of_both():
 def moebius_net():
     """(3, 17, 3) the control points of a Möbius band of bilinear patches."""
     turns = np.linspace(0.0, 2.0 * np.pi, 17)
-    arm = np.stack([np.cos(turns) * np.cos(turns / 2), np.sin(turns) * np.cos(turns / 2), np.sin(turns / 2)], axis=1)
+    arm = np.stack(
+        [np.cos(turns) * np.cos(turns / 2), np.sin(turns) * np.cos(turns / 2), np.sin(turns / 2)],
+        axis=1,
+    )
     middle = np.stack([3.0 * np.cos(turns), 3.0 * np.sin(turns) + 5.0, 0.0 * turns - 2.0], axis=1)
     return np.stack([middle - arm, middle, middle + arm])
 
@@ -373,9 +420,13 @@ def test_flat_patch_beside_polygons_adds_no_moments():
         parts.objects.link(obj)
         bpy.context.scene.collection.objects.unlink(obj)
     bpy.ops.object.collection_instance_add(collection="Parts")
-    found = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=4))
+    found = measure_object(
+        bpy.context.object, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=4)
+    )
     moments = found.volume_moments.about_point(np.zeros(3))
-    assert close([found.volume, moments[4, 0, 0], moments[2, 2, 0]], [8.0, 8.0 / 5.0, 8.0 / 9.0], 1e-12)
+    assert close(
+        [found.volume, moments[4, 0, 0], moments[2, 2, 0]], [8.0, 8.0 / 5.0, 8.0 / 9.0], 1e-12
+    )
 
 
 def instances_of(obj, *places):
@@ -396,23 +447,37 @@ def instances_of(obj, *places):
 
 
 def test_patch_instances_add_up_with_unchecked_overlap():
-    found = measured(instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((9, 0, 0), (2, 2, 2))))
+    found = measured(
+        instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((9, 0, 0), (2, 2, 2)))
+    )
     assert close(found.volume, 9.0 * BALL * STORED, 1e-7) and not said(found)
-    found = measured(instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((1, 0, 0), (1, 1, 1))))
+    found = measured(
+        instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((1, 0, 0), (1, 1, 1)))
+    )
     assert close(found.volume, 2.0 * BALL * STORED, 1e-7)
     assert said(found) == {"instance_overlap_unchecked": {}}
-    found = measured(instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((9, 0, 0), (1, 1, 0))))
+    found = measured(
+        instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((9, 0, 0), (1, 1, 0)))
+    )
     assert close(found.volume, BALL * STORED, 1e-7)
     assert said(found)["flat_surfaces"] == {"count": 1, "total": 2}
 
 
 def test_patch_wall_has_moments_to_third_order():
     obj = primitive("sphere")
-    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
+    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = (
+        "SHELL",
+        "INWARD",
+        0.1,
+    )
     bpy.context.view_layer.update()
     depsgraph = bpy.context.evaluated_depsgraph_get()
     found = measure_object(obj, depsgraph, MeasureOptions(order=3, surface=True))
-    assert found.volume > 0.0 and found.area_moments.order == 3 and found.area_moments.total == found.area > 0.0
+    assert (
+        found.volume > 0.0
+        and found.area_moments.order == 3
+        and found.area_moments.total == found.area > 0.0
+    )
     with refused("wall_unsupported", obj.name):
         measure_object(obj, depsgraph, MeasureOptions(order=4))
     body = measure_body(obj, depsgraph).body
@@ -455,4 +520,6 @@ def test_instances_of_patches_that_overlap_are_united_too():
     empty.body_moments.overlap = "UNION"
     united = measured(empty)
     assert str(united.method) == "union" and "display_mesh_needed" in said(united)
-    assert close(united.volume, BALL * 27.0 / 16.0, 0.02)  # of two balls whose centers are a radius apart
+    assert close(
+        united.volume, BALL * 27.0 / 16.0, 0.02
+    )  # of two balls whose centers are a radius apart

@@ -105,7 +105,9 @@ def in_several_sizes(kind, **more):
     for by, unit in ((1.0, 1.0), (4.0, 1.0), (1.0, 0.25)):
         scene.unit_settings.scale_length, obj.scale, obj.location = unit, by * scale, by * place
         bpy.context.view_layer.update()
-        given = MeasureOptions(**{"density": 1000.0, **options, **more}, thickness=by * unit * THICKNESS)
+        given = MeasureOptions(
+            **{"density": 1000.0, **options, **more}, thickness=by * unit * THICKNESS
+        )
         found.append((by * unit, measure_object(obj, bpy.context.evaluated_depsgraph_get(), given)))
     return found
 
@@ -115,7 +117,10 @@ def test_a_larger_body_has_larger_numbers_and_bounds(kind):
     (_, plain), *larger = in_several_sizes(kind)
     assert plain.error_bound.get("estimated", False) == (kind in ESTIMATED)
     assert str(plain.method) == METHODS.get(kind, "shell")
-    assert (plain.health.closed, plain.health.components) == (kind not in OPEN, 2 if "instances" in kind else 1)
+    assert (plain.health.closed, plain.health.components) == (
+        kind not in OPEN,
+        2 if "instances" in kind else 1,
+    )
     power = 3 if kind == "wire" else 5
     rows = {"volume": 3, "area": 2, "center_of_mass": 1, "inertia": power}
     for factor, found in larger:

@@ -31,7 +31,10 @@ def prisms(*corners, offset=0.0):
         first, angles = len(points), 2.0 * np.pi * np.arange(count) / count
         for z in (2.0 * level, 2.0 * level + 1.5):
             points += [(np.cos(angle) + offset, np.sin(angle), z) for angle in angles]
-        faces += [tuple(first + i for i in range(count))[::-1], tuple(first + count + i for i in range(count))]
+        faces += [
+            tuple(first + i for i in range(count))[::-1],
+            tuple(first + count + i for i in range(count)),
+        ]
         faces += [
             (first + i, first + (i + 1) % count, first + count + (i + 1) % count, first + count + i)
             for i in range(count)
@@ -47,8 +50,16 @@ def test_grid_wire_and_wall_have_no_shape(tmp_path):
     wire = bpy.context.object
     wire.body_moments.kind = "WIRE"
     wall = add(box_mesh(1, 2, 3))
-    wall.body_moments.kind, wall.body_moments.wall, wall.body_moments.thickness = "SHELL", "INWARD", 0.1
-    for obj, code in ((cloud, "shape_of_grid"), (wire, "wire_unsupported"), (wall, "wall_unsupported")):
+    wall.body_moments.kind, wall.body_moments.wall, wall.body_moments.thickness = (
+        "SHELL",
+        "INWARD",
+        0.1,
+    )
+    for obj, code in (
+        (cloud, "shape_of_grid"),
+        (wire, "wire_unsupported"),
+        (wall, "wall_unsupported"),
+    ):
         with pytest.raises(NoShapeError) as caught:
             shape(obj)
         assert (caught.value.finding.code, caught.value.subject) == (code, obj.name)
@@ -85,7 +96,9 @@ def test_overflowing_shape_moments_are_refused():
 def test_prisms_round_to_sixth_order_have_corner_axes():
     """A prism of seven corners on one of eight: nothing but the plane of both first corners makes a copy of them."""
     obj, turn = add(prisms(7, 8)), 0.7
-    rotation = np.array([[np.cos(turn), -np.sin(turn), 0.0], [np.sin(turn), np.cos(turn), 0.0], [0.0, 0.0, 1.0]])
+    rotation = np.array(
+        [[np.cos(turn), -np.sin(turn), 0.0], [np.sin(turn), np.cos(turn), 0.0], [0.0, 0.0, 1.0]]
+    )
     found = []
     for angle in (0.0, turn):
         obj.rotation_euler.z = angle
@@ -111,8 +124,15 @@ def test_signature_is_independent_of_size_and_place(kind):
         one = shape(obj)
         found.append(one.signature())
         spread = one.moments.second().trace() / one.moments.total
-        assert close(found[-1].size, spread**0.5, 1e-9) and close(found[-1].size, size / 0.2 * found[0].size, 1e-6)
-        for name in ("invariants", "zernike", "chirality", *(["fourier"] if kind == "SOLID" else [])):
+        assert close(found[-1].size, spread**0.5, 1e-9) and close(
+            found[-1].size, size / 0.2 * found[0].size, 1e-6
+        )
+        for name in (
+            "invariants",
+            "zernike",
+            "chirality",
+            *(["fourier"] if kind == "SOLID" else []),
+        ):
             numbers, first = getattr(found[-1], name), getattr(found[0], name)
             assert np.abs(numbers - first).max() < 1e-6 * np.abs(first).max()
 
@@ -127,7 +147,9 @@ def test_open_sheet_has_signature_and_open_solid_none():
     plate.body_moments.kind = "SHELL"
     sheet = shape(plate)
     assert close(sheet.moments.total, sheet.measurement.area, 1e-12)
-    assert close(sheet.signature().size ** 2, sheet.moments.second().trace() / sheet.moments.total, 1e-9)
+    assert close(
+        sheet.signature().size ** 2, sheet.moments.second().trace() / sheet.moments.total, 1e-9
+    )
     strip = add(strip_mesh())
     work = bmesh.new()
     work.from_mesh(strip.data)
@@ -174,7 +196,9 @@ def test_pose_with_one_corner_off_is_bounded_or_not_unique(corners):
         pose = shape(obj).pose()
         assert pose["symmetry"] in ("C1", "Cs", "C1 or Cs")
         placed = points @ (np.array(pose["matrix"]) @ np.array(obj.matrix_world)).T
-        found.append((placed[:, :3], pose["angle_bound"] * 2.0 + pose["position_bound"], pose["unique"]))
+        found.append(
+            (placed[:, :3], pose["angle_bound"] * 2.0 + pose["position_bound"], pose["unique"])
+        )
     for (one, bound, unique), (other, *_, also) in zip(found, found[1:]):
         assert not (unique and also) or np.abs(one - other).max() < 2.0 * bound
 
@@ -189,7 +213,10 @@ def test_pose_of_clear_axes_is_unique_within_its_bounds():
         found.append(placed[:, :3])
         assert pose["unique"] and pose["angle_bound"] < 1e-3
         off = np.linalg.norm(placed - np.array([*found[0].T, np.ones(len(points))]).T, axis=1)
-        assert (off <= pose["position_bound"] + pose["angle_bound"] * np.linalg.norm(placed[:, :3], axis=1)).all()
+        assert (
+            off
+            <= pose["position_bound"] + pose["angle_bound"] * np.linalg.norm(placed[:, :3], axis=1)
+        ).all()
 
 
 @pytest.mark.filterwarnings("error")
@@ -198,7 +225,9 @@ def test_plate_symmetry_follows_its_corners_at_any_place(corners, group):
     """How far rounding puts its corners out of the plane says nothing."""
     angles = 2.0 * np.pi * np.arange(corners) / corners
     mesh = bpy.data.meshes.new("Plate")
-    mesh.from_pydata([(np.cos(angle), np.sin(angle), 0.0) for angle in angles], [], [tuple(range(corners))])
+    mesh.from_pydata(
+        [(np.cos(angle), np.sin(angle), 0.0) for angle in angles], [], [tuple(range(corners))]
+    )
     obj = add(mesh)
     obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
     for turn, where in (((0, 0, 0), (0, 0, 0)), ((0.3, 0.4, 0.5), (100, 200, 300))):

@@ -52,5 +52,7 @@ def test_stacked_signatures_equal_single_ones():
             one, other = getattr(found, name), getattr(wanted, name)
             assert np.abs(one - other).max() < MATRIX_RTOL * max(1.0, np.abs(other).max()), obj.name
         likeness = similarity(wanted, found)
-        assert likeness.distance() < MATRIX_RTOL and likeness.is_mirror_image in (False, None), obj.name
+        assert likeness.distance() < MATRIX_RTOL and likeness.is_mirror_image in (False, None), (
+            obj.name
+        )
     assert together > len(objects) / 2 and mirrored > len(KINDS) / 2

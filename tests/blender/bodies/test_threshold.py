@@ -22,7 +22,9 @@ pytestmark = pytest.mark.usefixtures("scene")
 def ramp(tmp_path, shape=(12, 9, 7), matrix=None, dtype=np.float32, name="ramp"):
     """A volume whose values are 1 + i along x: as a body, a box whose face moves with the threshold."""
     values = (1.0 + np.arange(shape[0]))[:, None, None] * np.ones(shape)
-    obj = volume_object(tmp_path / (name + ".vdb"), vdb_grid(values.astype(dtype), matrix=matrix, background=-1e6))
+    obj = volume_object(
+        tmp_path / (name + ".vdb"), vdb_grid(values.astype(dtype), matrix=matrix, background=-1e6)
+    )
     obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 3.25
     return obj
 
@@ -30,7 +32,9 @@ def ramp(tmp_path, shape=(12, 9, 7), matrix=None, dtype=np.float32, name="ramp")
 def sampled_ball(tmp_path, n=24, radius=9.3):
     index = np.arange(n) - (n - 1) / 2.0
     values = radius - np.sqrt(index[:, None, None] ** 2 + index[:, None] ** 2 + index**2)
-    obj = volume_object(tmp_path / "ball.vdb", vdb_grid(values.astype(np.float32), background=-30.0))
+    obj = volume_object(
+        tmp_path / "ball.vdb", vdb_grid(values.astype(np.float32), background=-30.0)
+    )
     obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 0.0
     return obj, values.astype(np.float32)
 
@@ -39,7 +43,10 @@ def sampled_ball(tmp_path, n=24, radius=9.3):
 def test_thresholded_ball_is_exact_under_any_transform(tmp_path, matrix):
     obj, values = sampled_ball(tmp_path)
     plain = measure(obj)
-    assert close(plain.volume, 4.0 / 3.0 * math.pi * 9.3**3, rel=1e-2) and str(plain.method) == "grid exact"
+    assert (
+        close(plain.volume, 4.0 / 3.0 * math.pi * 9.3**3, rel=1e-2)
+        and str(plain.method) == "grid exact"
+    )
     assert close(plain.area, 4.0 * math.pi * 9.3**2, rel=1e-2)
     assert close(plain.mass_properties.mass, 1000.0 * plain.volume, rel=1e-14)
     assert "threshold_measured" in said(plain) and "threshold_clipped" not in said(plain)
@@ -58,7 +65,9 @@ def test_thresholded_ramp_is_box_of_material_or_ramp(tmp_path):
     obj.body_moments.density = 2000.0
     solid = measure(obj)
     box = (11.0 - 2.25) * 8.0 * 6.0  # from x = 2.25 to 11
-    assert close(solid.volume, box, rel=1e-4) and close(solid.mass_properties.mass, 2000.0 * box, rel=1e-4)
+    assert close(solid.volume, box, rel=1e-4) and close(
+        solid.mass_properties.mass, 2000.0 * box, rel=1e-4
+    )
     assert close(solid.mass_properties.center[0], (11.0 + 2.25) / 2.0, rel=1e-4)
     obj.body_moments.threshold_fill, obj.body_moments.value_density = "GRID", 7.0
     filled = measure(obj)
@@ -77,8 +86,14 @@ def test_threshold_moments_of_any_order_are_the_body_s(tmp_path):
 def test_a_spline_is_measured_within_its_bound(tmp_path, spline_order):
     index = np.arange(-6.0, 7.0)
     values = 20.0 - (index[:, None, None] ** 2 + index[:, None] ** 2 + index**2)
-    obj = volume_object(tmp_path / "cubic.vdb", vdb_grid(values.astype(np.float32), background=-60.0))
-    obj.body_moments.grid_as, obj.body_moments.threshold, obj.body_moments.spline_order = "THRESHOLD", 0.0, spline_order
+    obj = volume_object(
+        tmp_path / "cubic.vdb", vdb_grid(values.astype(np.float32), background=-60.0)
+    )
+    obj.body_moments.grid_as, obj.body_moments.threshold, obj.body_moments.spline_order = (
+        "THRESHOLD",
+        0.0,
+        spline_order,
+    )
     measured = measure(obj)
     truth = 4.0 / 3.0 * math.pi * (20.0 - spline_order / 4.0) ** 1.5  # Σ i² B = x² + order / 12
     assert abs(measured.volume - truth) <= measured.error_bound["volume"] < 1e-3 * truth

@@ -60,10 +60,19 @@ def test_a_box_around_whole_voxels_weighs_them(tmp_path, mirror):
     assert found.density == pytest.approx(part.mean(), rel=1e-12)
     assert found.error_bound["estimated"]
     meaning = finding("values_scaled", density=1.0, order=1).as_record()
-    assert said(found) == {"grid_density": {"samples": [6, 6, 6], "cause": meaning, "sources": [volume.name]}}
-    volume.body_moments.spline_order = 4  # voxels fill what is inside of them whatever a grid by itself is taken for
-    assert said(measure(box)) == said(found) and measure(box).mass_properties.mass == found.mass_properties.mass
-    assert found.density_from == finding("density_from_grid", grid="density").of_sources([volume.name])
+    assert said(found) == {
+        "grid_density": {"samples": [6, 6, 6], "cause": meaning, "sources": [volume.name]}
+    }
+    volume.body_moments.spline_order = (
+        4  # voxels fill what is inside of them whatever a grid by itself is taken for
+    )
+    assert (
+        said(measure(box)) == said(found)
+        and measure(box).mass_properties.mass == found.mass_properties.mass
+    )
+    assert found.density_from == finding("density_from_grid", grid="density").of_sources(
+        [volume.name]
+    )
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.25])
@@ -85,9 +94,9 @@ def test_a_uniform_grid_is_a_plain_density_wherever_both_stand(tmp_path, unit):
     ball.body_moments.density_volume = volume
     found = measure(ball)
     assert found.mass_properties.mass == pytest.approx(plain.mass_properties.mass, rel=1e-11)
-    assert np.abs(found.mass_properties.inertia - plain.mass_properties.inertia).max() <= 1e-9 * np.trace(
-        plain.mass_properties.inertia
-    )
+    assert np.abs(
+        found.mass_properties.inertia - plain.mass_properties.inertia
+    ).max() <= 1e-9 * np.trace(plain.mass_properties.inertia)
     assert 0.0 < found.error_bound["inertia"] < 1e-6 * unit**5
     for name in ("volume", "area", "center_of_mass", "inertia"):
         assert close(found.error_bound["input"][name], plain.error_bound["input"][name], 0.4), name
@@ -184,10 +193,15 @@ def test_snapping_of_a_cloud(tmp_path):
     assert np.allclose(bpy.context.scene.cursor.location, center, atol=1e-5)
     assert bpy.ops.object.body_moments_align_to_world() == {"FINISHED"}
     body = measure(obj).mass_properties
-    assert np.abs(body.inertia - np.diag(np.diag(body.inertia))).max() <= 1e-6 * np.trace(body.inertia)
+    assert np.abs(body.inertia - np.diag(np.diag(body.inertia))).max() <= 1e-6 * np.trace(
+        body.inertia
+    )
     assert body.center == pytest.approx(center, abs=1e-5)
     matrix = obj.matrix_world.copy()
-    for operator in (bpy.ops.object.body_moments_origin_to_center, bpy.ops.object.body_moments_axes_to_principal):
+    for operator in (
+        bpy.ops.object.body_moments_origin_to_center,
+        bpy.ops.object.body_moments_axes_to_principal,
+    ):
         assert operator() == {"CANCELLED"}
     assert obj.matrix_world == matrix
 

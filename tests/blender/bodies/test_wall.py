@@ -54,7 +54,13 @@ def test_a_cube_is_the_cube_less_the_cube_inside():
 )
 @pytest.mark.parametrize("mirror", [1.0, -1.0])
 def test_thickness_is_a_length_in_the_world_whatever_the_scale(wall, low, high, mirror):
-    obj = box(wall=wall, thickness=0.1, location=(30, -20, 10), rotation=(0.3, 0.5, 0.7), scale=(2 * mirror, 3, 4))
+    obj = box(
+        wall=wall,
+        thickness=0.1,
+        location=(30, -20, 10),
+        rotation=(0.3, 0.5, 0.7),
+        scale=(2 * mirror, 3, 4),
+    )
     found = measured(obj)
     assert abs(found.volume / shell_volume((2, 3, 4), low, high) - 1.0) < 1e-6
 
@@ -81,7 +87,9 @@ def test_folding_wall_is_refused_with_largest_thickness():
     values = refusal.value.finding.values
     assert refusal.value.finding.code == "wall_folds" and 0.249 < values["largest"] < 0.25
     assert values["thickness"] == pytest.approx(0.3) and len(values["point"]) == 3
-    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(thickness=values["largest"]))
+    found = measure_object(
+        obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(thickness=values["largest"])
+    )
     assert 0.99 < found.volume < 1.0
 
 
@@ -97,7 +105,9 @@ def test_a_flipped_face_is_turned_before_and_said():
 def test_open_surface_of_opposed_faces_is_refused():
     mesh = bpy.data.meshes.new("Sheet")
     mesh.from_pydata(
-        [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0), (2, 1, 0)], [], [(0, 1, 2, 3), (1, 2, 5, 4)]
+        [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0), (2, 1, 0)],
+        [],
+        [(0, 1, 2, 3), (1, 2, 5, 4)],
     )
     obj = add(mesh)
     obj.body_moments.kind, obj.body_moments.wall = "SHELL", "INWARD"
@@ -129,7 +139,11 @@ def test_instances_turned_every_way_share_one_wall():
     for k in range(5):
         one = bpy.data.objects.new("Place", None)
         one.instance_type, one.instance_collection = "COLLECTION", collection
-        one.location, one.rotation_euler, one.scale = (5 * k, 0, 0), (k, 2 * k, 3), (1 + k % 2, 1 + k % 2, 1 + k % 2)
+        one.location, one.rotation_euler, one.scale = (
+            (5 * k, 0, 0),
+            (k, 2 * k, 3),
+            (1 + k % 2, 1 + k % 2, 1 + k % 2),
+        )
         inner.objects.link(one)
     holder.instance_type, holder.instance_collection = "COLLECTION", inner
     bpy.context.view_layer.update()
@@ -169,7 +183,9 @@ def test_thickness_slider_stores_measured_results():
         assert staleness.stale_reason(obj, bpy.context.scene) is None
         press(obj)
         for name in ("mass", "volume", "area", "center", "inertia", "moments"):
-            one, other = (np.array(getattr(numbers, name)) for numbers in (kept, properties.stored(obj)))
+            one, other = (
+                np.array(getattr(numbers, name)) for numbers in (kept, properties.stored(obj))
+            )
             assert np.abs(one - other).max() <= 1e-13 * max(1.0, np.abs(other).max())
 
 
@@ -218,7 +234,9 @@ def test_after_loading_a_file_the_slider_waits_for_measure(tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     obj = bpy.data.objects["Box"]
-    assert obj.body_moments.wall == "INWARD" and staleness.stale_reason(obj, bpy.context.scene) is None
+    assert (
+        obj.body_moments.wall == "INWARD" and staleness.stale_reason(obj, bpy.context.scene) is None
+    )
     obj.body_moments.thickness = 0.2
     assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
     press(obj)
@@ -249,7 +267,9 @@ def sheet_of(points, faces, wall="OUTWARD", thickness=0.125):
 
 
 def test_face_without_area_is_counted_in_wall():
-    obj = sheet_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 3, 0), (0, 3, 0)], [(0, 2, 3, 4), (0, 1, 2)])
+    obj = sheet_of(
+        [(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 3, 0), (0, 3, 0)], [(0, 2, 3, 4), (0, 1, 2)]
+    )
     found = measured(obj)
     assert close(found.volume, 6.0 * 0.125, rel=1e-12)
     assert said(found)["wall_faces_without_area"] == {"count": 1}
@@ -302,7 +322,9 @@ def shown_together(part, *places):
     return holder
 
 
-@pytest.mark.parametrize(("first", "second", "edge"), [(2.0, 1.0, 2.0), (1.0, 2.0, 1.0), (4.0, 2.0, 4.0)])
+@pytest.mark.parametrize(
+    ("first", "second", "edge"), [(2.0, 1.0, 2.0), (1.0, 2.0, 1.0), (4.0, 2.0, 4.0)]
+)
 def test_meeting_walls_of_instances_are_reported(first, second, edge):
     for gap, expected in ((0.27, False), (0.23, True)):
         shown = shown_together(box(), (0.0, first), (edge + gap, second))

@@ -13,5 +13,7 @@ GEOMETRY = "50d4ad0b3a2b"  # BLAKE2s, six bytes
 
 
 def test_fingerprint_of_saved_files_is_unchanged():
-    assert fingerprints.fingerprint(b"geometry", "matrix", "settings") == "v1:{}:matrix:settings".format(GEOMETRY)
+    assert fingerprints.fingerprint(
+        b"geometry", "matrix", "settings"
+    ) == "v1:{}:matrix:settings".format(GEOMETRY)
     assert fingerprints.digest(np.frombuffer(b"geometry", np.uint8)) == GEOMETRY

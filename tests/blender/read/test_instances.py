@@ -54,7 +54,9 @@ def empty(name, instances=None):
 
 
 def grid(tree, side):
-    return node(tree, "GeometryNodeMeshGrid", {"Vertices X": side, "Vertices Y": side}).outputs["Mesh"]
+    return node(tree, "GeometryNodeMeshGrid", {"Vertices X": side, "Vertices Y": side}).outputs[
+        "Mesh"
+    ]
 
 
 def on_points(tree, points, instance, scale=(1.0, 1.0, 1.0)):
@@ -93,11 +95,19 @@ def test_instances_may_be_objects_collections_and_geometry():
     host = placed(cube("Host"))
 
     def build(tree, _source):
-        one = node(tree, "GeometryNodeObjectInfo", {"Object": source, "As Instance": True}).outputs["Geometry"]
-        real = node(tree, "GeometryNodeObjectInfo", {"Object": source, "As Instance": False}).outputs["Geometry"]
+        one = node(tree, "GeometryNodeObjectInfo", {"Object": source, "As Instance": True}).outputs[
+            "Geometry"
+        ]
+        real = node(
+            tree, "GeometryNodeObjectInfo", {"Object": source, "As Instance": False}
+        ).outputs["Geometry"]
         whole = node(tree, "GeometryNodeCollectionInfo", {"Collection": members}).outputs[0]
-        each = node(tree, "GeometryNodeCollectionInfo", {"Collection": members, "Separate Children": True}).outputs[0]
-        moved = node(tree, "GeometryNodeTransform", {"Translation": (3.0, 3.0, 3.0)}, Geometry=whole).outputs[0]
+        each = node(
+            tree, "GeometryNodeCollectionInfo", {"Collection": members, "Separate Children": True}
+        ).outputs[0]
+        moved = node(
+            tree, "GeometryNodeTransform", {"Translation": (3.0, 3.0, 3.0)}, Geometry=whole
+        ).outputs[0]
         return on_points(tree, grid(tree, 2), join(tree, one, real, whole, each, moved))
 
     nodes(host, build)
@@ -214,7 +224,9 @@ def test_self_hiding_host_may_instance_vertex_instancer():
     host = cube("Host")
 
     def build(tree, source):
-        one = node(tree, "GeometryNodeObjectInfo", {"Object": parent, "As Instance": True}).outputs["Geometry"]
+        one = node(tree, "GeometryNodeObjectInfo", {"Object": parent, "As Instance": True}).outputs[
+            "Geometry"
+        ]
         return join(tree, source, one)
 
     nodes(host, build)
@@ -317,7 +329,9 @@ def test_instances_scaled_to_nothing_are_left_out_and_said(count):
 
     def build(tree, source):
         index = tree.nodes.new("GeometryNodeInputIndex").outputs[0]
-        points = node(tree, "GeometryNodeMeshLine", {"Count": count, "Start Location": (1.0, 0.0, 0.0)}).outputs[0]
+        points = node(
+            tree, "GeometryNodeMeshLine", {"Count": count, "Start Location": (1.0, 0.0, 0.0)}
+        ).outputs[0]
         made = node(tree, "GeometryNodeInstanceOnPoints", Points=points, Instance=source)
         tree.links.new(index, made.inputs["Scale"])
         return made.outputs[0]
@@ -348,8 +362,12 @@ def test_picked_instances_leave_out_others():
     host = cube("Host")
 
     def build(tree, source):
-        info = node(tree, "GeometryNodeCollectionInfo", {"Collection": members, "Separate Children": True})
-        made = node(tree, "GeometryNodeInstanceOnPoints", Points=grid(tree, 2), Instance=info.outputs[0])
+        info = node(
+            tree, "GeometryNodeCollectionInfo", {"Collection": members, "Separate Children": True}
+        )
+        made = node(
+            tree, "GeometryNodeInstanceOnPoints", Points=grid(tree, 2), Instance=info.outputs[0]
+        )
         made.inputs["Pick Instance"].default_value = True
         index = tree.nodes.new("GeometryNodeInputIndex").outputs[0]
         chosen = tree.nodes.new("ShaderNodeMath")

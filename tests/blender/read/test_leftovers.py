@@ -24,7 +24,10 @@ pytestmark = pytest.mark.usefixtures("scene")
 def counts():
     """Of all data, and of who uses it."""
     groups = [one.identifier for one in bpy.data.bl_rna.properties if one.type == "COLLECTION"]
-    return {name: (len(getattr(bpy.data, name)), sum(one.users for one in getattr(bpy.data, name))) for name in groups}
+    return {
+        name: (len(getattr(bpy.data, name)), sum(one.users for one in getattr(bpy.data, name)))
+        for name in groups
+    }
 
 
 def circle():
@@ -56,7 +59,9 @@ KINDS = {
     "mesh": lambda folder: add(mesh_body()),
     "edited": lambda folder: edited(),
     "edited with a modifier": lambda folder: mirrored(),
-    "patches": lambda folder: bpy.ops.surface.primitive_nurbs_surface_sphere_add() and bpy.context.object,
+    "patches": lambda folder: (
+        bpy.ops.surface.primitive_nurbs_surface_sphere_add() and bpy.context.object
+    ),
     "ball": lambda folder: bpy.ops.object.metaball_add() and bpy.context.object,
     "grid": level,
 }
@@ -64,7 +69,9 @@ SHELL = MeasureOptions(kind="shell", thickness=0.01, density=1.0)
 WAYS = (
     lambda obj, depsgraph: measure_object(obj, depsgraph).mass_properties.inertia,
     lambda obj, depsgraph: measure_object(obj, depsgraph, SHELL).mass_properties.inertia,
-    lambda obj, depsgraph: measure_object(obj, depsgraph, MeasureOptions(kind="wire")).mass_properties.inertia,
+    lambda obj, depsgraph: (
+        measure_object(obj, depsgraph, MeasureOptions(kind="wire")).mass_properties.inertia
+    ),
     lambda obj, depsgraph: flat_region(obj, depsgraph, resolution=5).moments(2).raw,
     lambda obj, depsgraph: flat_region(obj, depsgraph, exact=False, selected=False).moments(2).raw,
     lambda obj, depsgraph: flat_shape_of(obj, depsgraph).signature().invariants,

@@ -85,7 +85,9 @@ def test_similar_objects_of_one_name_are_selected_each(linked):
 
 
 @pytest.mark.parametrize(("operator", "options"), ALL[:4] + [("copy_settings", {})])
-def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, operator, options, reported):
+def test_an_override_is_given_nothing_that_its_file_would_lose(
+    overridden, operator, options, reported
+):
     if operator == "copy_settings":
         local = next(obj for obj in bpy.context.selected_objects if obj != overridden)
         local.body_moments.density = 5.0

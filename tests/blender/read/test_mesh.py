@@ -32,7 +32,9 @@ RNG = np.random.default_rng(7)
 
 def prism(sides, wobble=0.0):
     angle = np.arange(sides) * 2.0 * np.pi / sides
-    ring = np.stack([np.cos(angle), np.sin(angle)], 1) * (1.0 + 0.6 * (np.arange(sides) % 2))[:, None]
+    ring = (
+        np.stack([np.cos(angle), np.sin(angle)], 1) * (1.0 + 0.6 * (np.arange(sides) % 2))[:, None]
+    )
     points = np.concatenate([np.c_[ring, np.zeros(sides)], np.c_[ring, np.ones(sides)]])
     points += RNG.uniform(-wobble, wobble, points.shape)
     i = np.arange(sides)
@@ -108,7 +110,9 @@ def test_a_modified_mesh_is_read_as_evaluated():
     plain = link("Subdivided", mesh("Body", *mixed()))
     plain.modifiers.new("Subdivision", "SUBSURF").levels = 2
     for each in (obj, plain):
-        assert surface_triangles(read_object(each, depsgraph()).parts[0].surface) == bmesh_triangles(each)
+        assert surface_triangles(
+            read_object(each, depsgraph()).parts[0].surface
+        ) == bmesh_triangles(each)
 
 
 def test_edit_mode_reads_edits_that_nothing_has_told_blender_of():

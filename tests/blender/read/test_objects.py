@@ -84,7 +84,9 @@ def ball():
     return metaball("Ball")
 
 
-@pytest.mark.parametrize("make", [cube, bevelled, text, nurbs, shaped, ball], ids=lambda make: make.__name__)
+@pytest.mark.parametrize(
+    "make", [cube, bevelled, text, nurbs, shaped, ball], ids=lambda make: make.__name__
+)
 def test_every_kind_that_shows_a_surface_is_read(make):
     obj = make()
     reading = read(obj)
@@ -100,7 +102,9 @@ def test_every_kind_that_shows_a_surface_is_read(make):
 
 
 @pytest.mark.parametrize(
-    "add", [bpy.ops.surface.primitive_nurbs_surface_sphere_add, bpy.ops.curve.primitive_bezier_circle_add], ids=str
+    "add",
+    [bpy.ops.surface.primitive_nurbs_surface_sphere_add, bpy.ops.curve.primitive_bezier_circle_add],
+    ids=str,
 )
 def test_joined_curve_with_shape_keys_is_refused(add):
     """Join gives the keys no points, and Blender draws what lies in memory behind them."""
@@ -165,7 +169,10 @@ def test_straight_bezier_spline_is_its_polygon(cyclic):
     spline.use_cyclic_u, spline.order_u = cyclic, 2  # an order that none but NURBS has
     depsgraph()
     assert not drawn(obj)
-    for item, name in ((spline.bezier_points[0], "handle_left"), (spline.bezier_points[-1], "handle_right")):
+    for item, name in (
+        (spline.bezier_points[0], "handle_left"),
+        (spline.bezier_points[-1], "handle_right"),
+    ):
         setattr(item, name + "_type", "FREE")
         setattr(item, name, item.co + item.co.orthogonal())
     assert drawn(obj) == cyclic
@@ -174,7 +181,9 @@ def test_straight_bezier_spline_is_its_polygon(cyclic):
     assert drawn(obj)
 
 
-@pytest.mark.parametrize("kind", ["LIGHT", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"])
+@pytest.mark.parametrize(
+    "kind", ["LIGHT", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"]
+)
 def test_kinds_without_geometry_are_refused_by_name(kind):
     adders = {
         "LIGHT": lambda: bpy.ops.object.light_add(type="SUN"),
@@ -253,7 +262,9 @@ def test_a_curve_may_show_a_surface_once_it_is_thick_or_modified():
 
 def test_a_point_cloud_with_a_surface_from_nodes_is_read():
     obj = link("Cloud", bpy.data.pointclouds.new("Cloud"))
-    nodes(obj, lambda tree, source: join(tree, source, node(tree, "GeometryNodeMeshCube").outputs[0]))
+    nodes(
+        obj, lambda tree, source: join(tree, source, node(tree, "GeometryNodeMeshCube").outputs[0])
+    )
     assert measurable(obj)
     assert len(read(obj).parts[0].surface.quads) == 6
 
@@ -337,11 +348,15 @@ def test_other_levels_for_the_render_are_a_note():
     reading = read(obj)
     assert len(reading.parts[0].surface.quads) == 24
     differing = finding("render_levels_differ", name="“Smooth”", viewport=1, render=3)
-    assert said(reading) == {"render_differs": {"differences": [differing.as_record()], "slight": True}}
+    assert said(reading) == {
+        "render_differs": {"differences": [differing.as_record()], "slight": True}
+    }
     assert severity(reading.findings[0]) == Severity.NOTE
     assert "“Smooth”: 1 in the viewport, 3 in the render." in str(reading.findings[0])
     bpy.context.scene.render.use_simplify = True
-    bpy.context.scene.render.simplify_subdivision = bpy.context.scene.render.simplify_subdivision_render = 1
+    bpy.context.scene.render.simplify_subdivision = (
+        bpy.context.scene.render.simplify_subdivision_render
+    ) = 1
     assert read(obj).findings == []
 
 
@@ -352,11 +367,15 @@ def differences(obj):
 def test_modifiers_differing_in_render_are_reported():
     obj = doubled("Body")
     obj.modifiers["Array"].show_viewport = False
-    assert differences(obj) == [finding("render_modifier_differs", modifier="Array", place="render").as_record()]
+    assert differences(obj) == [
+        finding("render_modifier_differs", modifier="Array", place="render").as_record()
+    ]
     obj.modifiers["Array"].show_render = False
     assert read(obj).findings == []
     obj.modifiers["Array"].show_viewport = True
-    assert differences(obj) == [finding("render_modifier_differs", modifier="Array", place="viewport").as_record()]
+    assert differences(obj) == [
+        finding("render_modifier_differs", modifier="Array", place="viewport").as_record()
+    ]
 
 
 # Transforms.
@@ -427,10 +446,17 @@ def test_linked_objects_and_collections_are_read(tmp_path):
         here.collections = ["Library"]
     bpy.context.scene.collection.children.link(here.collections[0])
     own = bpy.data.objects["Linked", None]
-    assert measurable_objects(bpy.context.view_layer) == [instancer, own, *here.collections[0].objects, obj]
+    assert measurable_objects(bpy.context.view_layer) == [
+        instancer,
+        own,
+        *here.collections[0].objects,
+        obj,
+    ]
 
 
-@pytest.mark.parametrize("mode", ["SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "EDIT", "OBJECT"])
+@pytest.mark.parametrize(
+    "mode", ["SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "EDIT", "OBJECT"]
+)
 def test_reading_keeps_mode_selection_and_active_object(mode):
     obj, other = doubled("Body"), cube("Other")
     activate(obj)
@@ -456,7 +482,10 @@ def test_sculpted_multires_levels_are_refused(instanced):
     asked = obj
     if instanced:
         asked = link("Instancer", None)
-        asked.instance_type, asked.instance_collection = "COLLECTION", bpy.data.collections.new("Made")
+        asked.instance_type, asked.instance_collection = (
+            "COLLECTION",
+            bpy.data.collections.new("Made"),
+        )
         asked.instance_collection.objects.link(obj)
     bpy.ops.object.mode_set(mode="SCULPT")
     unreadable = finding("sculpted_mesh")
@@ -493,7 +522,9 @@ def test_edit_mode_reads_the_shape_keys_that_it_shows(blended, edited, half, exp
     assert reading.parts[0].surface.box[1].tolist() == [half] * 3
     single = [] if blended else [expected]
     assert reading.findings == [finding("read_in_mode", mode="Edit Mode"), *single]
-    assert "edit_mode_single_shape_key" not in said(read(other))  # which is not the one that is edited
+    assert "edit_mode_single_shape_key" not in said(
+        read(other)
+    )  # which is not the one that is edited
 
 
 def test_members_of_hidden_collection_are_not_listed():

@@ -24,13 +24,21 @@ def test_a_union_is_as_exact_as_float32_wherever_it_is(size, away):
     place = size * away * np.array([1.0, -0.5, 0.25])
     points = np.concatenate([size * part + place for part in (near, far)]).astype(np.float32)
     surface = Surface(points, quads=np.concatenate([CUBE_FACES, np.add(CUBE_FACES, 8)]))
-    counts = [len(getattr(bpy.data, name)) for name in ("meshes", "objects", "collections", "scenes")]
+    counts = [
+        len(getattr(bpy.data, name)) for name in ("meshes", "objects", "collections", "scenes")
+    ]
     united = union_surface(surface)
-    assert counts == [len(getattr(bpy.data, name)) for name in ("meshes", "objects", "collections", "scenes")]
+    assert counts == [
+        len(getattr(bpy.data, name)) for name in ("meshes", "objects", "collections", "scenes")
+    ]
     moments = polyhedron_moments(united)[0]
     tolerance = 1e-6 * (1.0 + away)
     assert close(moments.raw[0], 40.0 / 3.0 * size**3, tolerance)
     center = moments.about + moments.raw[1:4] / moments.raw[0]
     assert np.abs(center - place - (size * 2.0 / 3.0, 0.0, 0.0)).max() <= tolerance * size
-    more = united.displacement - surface.coordinate_error  # rounded before and after Blender's boolean
-    assert (more > 0.1 * FLOAT32_HALF_ULP * size).all() and (more < 8.0 * FLOAT32_HALF_ULP * size).all()
+    more = (
+        united.displacement - surface.coordinate_error
+    )  # rounded before and after Blender's boolean
+    assert (more > 0.1 * FLOAT32_HALF_ULP * size).all() and (
+        more < 8.0 * FLOAT32_HALF_ULP * size
+    ).all()

@@ -29,7 +29,9 @@ def mjcf_turns(rng, degrees, sequence):
     turn = np.eye(3)
     for name, each in zip(sequence, angles):
         step = about(np.eye(3)["xyz".index(name.lower())], each)
-        turn = turn @ step if name.islower() else step @ turn  # about axes that turn along, or that do not
+        turn = (
+            turn @ step if name.islower() else step @ turn
+        )  # about axes that turn along, or that do not
     x, y = rng.normal(size=(2, 3))
     upright = y - (y @ x) / (x @ x) * x
     z = np.cross(x, upright)
@@ -39,7 +41,10 @@ def mjcf_turns(rng, degrees, sequence):
     yield 'euler="{}"'.format(text(angles * unit)), turn
     yield 'axisangle="{} {!r}"'.format(text(2.5 * axis), float(angle * unit)), about(axis, angle)
     yield 'xyaxes="{}"'.format(text([x, y])), columns / np.linalg.norm(columns, axis=0)
-    yield 'zaxis="{}"'.format(text(axis)), about(np.cross((0, 0, 1), axis), np.arccos(axis[2] / np.linalg.norm(axis)))
+    yield (
+        'zaxis="{}"'.format(text(axis)),
+        about(np.cross((0, 0, 1), axis), np.arccos(axis[2] / np.linalg.norm(axis))),
+    )
     yield 'zaxis="0 0 2"', np.eye(3)
     yield 'zaxis="0 0 -2"', np.diag([1.0, -1.0, -1.0])
 
@@ -67,7 +72,9 @@ def test_mjcf(tmp_path, seed):
             products = rng.normal(size=3) / 9
             tensor = np.diag(moments) + sum(
                 value * (np.outer(*pair) + np.outer(*pair[::-1]))
-                for value, pair in zip(products, (np.eye(3)[[0, 1]], np.eye(3)[[0, 2]], np.eye(3)[[1, 2]]))
+                for value, pair in zip(
+                    products, (np.eye(3)[[0, 1]], np.eye(3)[[0, 2]], np.eye(3)[[1, 2]])
+                )
             )
             moments = 'fullinertia="{}"'.format(text([*moments, *products]))
         else:
@@ -89,18 +96,30 @@ def test_mjcf(tmp_path, seed):
             'mesh="none"': ("mesh", (1, 1, 1)),
         }
         geoms = ['<geom {} pos="{}" {}/>'.format(size, text(place), attributes) for size in sizes]
-        shapes = [(kind, size, place, turn, "collision", "".join(file)) for kind, size, *file in sizes.values()]
-        geoms += [
-            '<geom type="{}" fromto="{}" size="0.5"/>'.format(kind, text(ends)) for kind in ("capsule", "cylinder")
+        shapes = [
+            (kind, size, place, turn, "collision", "".join(file))
+            for kind, size, *file in sizes.values()
         ]
-        shapes += [(kind, (0.5, length), ends.mean(0), upright, "collision", "") for kind in ("capsule", "cylinder")]
+        geoms += [
+            '<geom type="{}" fromto="{}" size="0.5"/>'.format(kind, text(ends))
+            for kind in ("capsule", "cylinder")
+        ]
+        shapes += [
+            (kind, (0.5, length), ends.mean(0), upright, "collision", "")
+            for kind in ("capsule", "cylinder")
+        ]
         for more, role in (('contype="0"', "collision"), ('conaffinity="0"', "collision")):
             geoms.append('<geom size="3" {}/>'.format(more))
             shapes.append(("sphere", (3,), (0, 0, 0), np.eye(3), role, ""))
-        geoms += ['<geom size="3" contype="0" conaffinity="0"/>', '<geom type="plane" size="1 1 1"/>']
+        geoms += [
+            '<geom size="3" contype="0" conaffinity="0"/>',
+            '<geom type="plane" size="1 1 1"/>',
+        ]
         shapes.append(("sphere", (3,), (0, 0, 0), np.eye(3), "visual", ""))
         truth.append(((mass, center, tensor), shapes))
-        inertials.append('<inertial pos="{}" mass="{!r}" {} {}/>'.format(text(center), mass, moments, attributes))
+        inertials.append(
+            '<inertial pos="{}" mass="{!r}" {} {}/>'.format(text(center), mass, moments, attributes)
+        )
         bodies.append('<body name="b{}">{}{}</body>'.format(number, inertials[-1], "".join(geoms)))
     description = read(tmp_path, head.format(statement) + "".join(bodies) + "</worldbody></mujoco>")
     assert (description.name, description.format) == ("bot", "mjcf")
@@ -129,8 +148,14 @@ def test_mjcf_defaults_come_from_classes(tmp_path):
     )
     nowhere, turn = (0, 0, 0), about((0, 0, 1), 0.5)
     expected = {
-        "body 1": [("box", (2, 4, 6), nowhere, np.eye(3), "visual"), ("sphere", (4,), (1, 2, 3), np.eye(3), "visual")],
-        "x": [("box", (8, 10, 12), nowhere, np.eye(3), "visual"), ("box", (14, 14, 14), nowhere, turn, "collision")],
+        "body 1": [
+            ("box", (2, 4, 6), nowhere, np.eye(3), "visual"),
+            ("sphere", (4,), (1, 2, 3), np.eye(3), "visual"),
+        ],
+        "x": [
+            ("box", (8, 10, 12), nowhere, np.eye(3), "visual"),
+            ("box", (14, 14, 14), nowhere, turn, "collision"),
+        ],
         "body 3": [("sphere", (4,), (1, 2, 3), np.eye(3), "visual")],
         "body 4": [("sphere", (4,), nowhere, np.eye(3), "visual")],
         "y": [("box", (2, 4, 6), (4, 5, 6), np.eye(3), "visual")],
@@ -169,7 +194,9 @@ WRONG = {
 def test_wrong_numbers_are_findings_and_others_are_read(tmp_path, name):
     content, texts = WRONG[name]
     (link,) = read(tmp_path, content, name).links
-    assert [(one.code, one.values["text"]) for one in link.findings] == [("description_number", one) for one in texts]
+    assert [(one.code, one.values["text"]) for one in link.findings] == [
+        ("description_number", one) for one in texts
+    ]
     assert link.inertial is None and [shape.shape.size for shape in link.shapes] == [(2.0,)]
 
 
@@ -193,7 +220,11 @@ PLACES = {
 
 <geom type="sphere" size="@"/></body></worldbody></mujoco>""",
 }
-ELEMENTS = {"robot.urdf": ("mass", "sphere"), "robot.sdf": ("mass", "radius"), "robot.xml": ("inertial", "geom")}
+ELEMENTS = {
+    "robot.urdf": ("mass", "sphere"),
+    "robot.sdf": ("mass", "radius"),
+    "robot.xml": ("inertial", "geom"),
+}
 
 
 @pytest.mark.parametrize("name", PLACES)
@@ -206,7 +237,9 @@ def test_word_for_a_number_is_named_with_its_line(tmp_path, name):
         assert link.inertial is None and not link.shapes
     for word in ("+1", "1.", ".1e1", " 1E0\t"):
         (link,) = read(tmp_path, PLACES[name].replace("@", word), name).links
-        assert not link.findings and link.inertial.mass == 1.0 and link.shapes[0].shape.size == (1.0,)
+        assert (
+            not link.findings and link.inertial.mass == 1.0 and link.shapes[0].shape.size == (1.0,)
+        )
 
 
 @SEEDS
@@ -218,17 +251,31 @@ def test_urdf(tmp_path, seed):
     own = turn.T @ tensor @ turn + np.ones((3, 3)) / 9
     tensor = turn @ own @ turn.T
     entries = " ".join(
-        'i{}{}="{!r}"'.format("xyz"[i], "xyz"[j], float(own[i, j])) for i in range(3) for j in range(i, 3)
+        'i{}{}="{!r}"'.format("xyz"[i], "xyz"[j], float(own[i, j]))
+        for i in range(3)
+        for j in range(i, 3)
     )
     origin = '<origin xyz="{}" rpy="{}"/>'
     shapes = {
-        '<mesh filename="a b.stl" scale="{}"/>'.format(text([a, b, c])): ("mesh", (a, b, c), "a b.stl"),
+        '<mesh filename="a b.stl" scale="{}"/>'.format(text([a, b, c])): (
+            "mesh",
+            (a, b, c),
+            "a b.stl",
+        ),
         '<mesh filename="c.stl"/>': ("mesh", (1, 1, 1), "c.stl"),
         '<box size="{}"/>'.format(text([a, b, c])): ("box", (a, b, c), ""),
         "<box/>": ("box", (1, 1, 1), ""),
         '<sphere radius="{!r}"/>'.format(float(a)): ("sphere", (a,), ""),
-        '<cylinder radius="{!r}" length="{!r}"/>'.format(*map(float, (a, b))): ("cylinder", (a, b), ""),
-        '<capsule radius="{!r}" length="{!r}"/>'.format(*map(float, (a, b))): ("capsule", (a, b), ""),
+        '<cylinder radius="{!r}" length="{!r}"/>'.format(*map(float, (a, b))): (
+            "cylinder",
+            (a, b),
+            "",
+        ),
+        '<capsule radius="{!r}" length="{!r}"/>'.format(*map(float, (a, b))): (
+            "capsule",
+            (a, b),
+            "",
+        ),
     }
     content = """<robot name="bot" note="a>b"><link name="first"><inertial note="'>">{}<mass value="{!r}"/><inertia {}/>
     </inertial>{}<collision><geometry/></collision><visual/></link><link name="second"><inertial/></link>
@@ -243,11 +290,16 @@ def test_urdf(tmp_path, seed):
     first, second, third = description.links
     assert (description.name, description.format, first.name) == ("bot", "urdf", "first")
     expected = [(kind, size, place, turn, "visual", file) for kind, size, file in shapes.values()]
-    expected += [(kind, size, (0, 0, 0), np.eye(3), "collision", file) for kind, size, file in shapes.values()]
+    expected += [
+        (kind, size, (0, 0, 0), np.eye(3), "collision", file)
+        for kind, size, file in shapes.values()
+    ]
     check(first, ((mass, center, tensor), expected))
     check(second, ((0.0, (0, 0, 0), np.zeros((3, 3))), []))
     check(third, (None, []))
-    assert first.inertial.angles == pytest.approx(tuple(angles)) and first.inertial.quaternion is None
+    assert (
+        first.inertial.angles == pytest.approx(tuple(angles)) and first.inertial.quaternion is None
+    )
     assert first.moves and not second.moves and third.span is None
     inertial = description.source[slice(*first.span)]
     assert inertial.startswith(b"<inertial note") and inertial.endswith(b"</inertial>")
@@ -275,20 +327,32 @@ def test_sdf(tmp_path, seed):
     ]
     pose, position, rotation = poses[seed]
     sizes = {
-        "<mesh><uri>m.dae</uri><scale>{}</scale></mesh>".format(text([a, b, c])): ("mesh", (a, b, c), "m.dae"),
+        "<mesh><uri>m.dae</uri><scale>{}</scale></mesh>".format(text([a, b, c])): (
+            "mesh",
+            (a, b, c),
+            "m.dae",
+        ),
         "<mesh><uri> n.dae </uri></mesh>": ("mesh", (1, 1, 1), "n.dae"),
         "<box><size>{}</size></box>".format(text([a, b, c])): ("box", (a, b, c), ""),
         "<empty/><box/>": ("box", (1, 1, 1), ""),
-        "<ellipsoid><radii>{}</radii></ellipsoid>".format(text([a, b, c])): ("ellipsoid", (a, b, c), ""),
+        "<ellipsoid><radii>{}</radii></ellipsoid>".format(text([a, b, c])): (
+            "ellipsoid",
+            (a, b, c),
+            "",
+        ),
         "<ellipsoid/>": ("ellipsoid", (1, 1, 1), ""),
         "<sphere><radius>{!r}</radius></sphere>".format(float(a)): ("sphere", (a,), ""),
         "<sphere/>": ("sphere", (1,), ""),
-        "<cylinder><radius>{!r}</radius><length>{!r}</length></cylinder>".format(*map(float, (a, b))): (
+        "<cylinder><radius>{!r}</radius><length>{!r}</length></cylinder>".format(
+            *map(float, (a, b))
+        ): (
             "cylinder",
             (a, b),
             "",
         ),
-        "<capsule><radius>{!r}</radius><length>{!r}</length></capsule>".format(*map(float, (a, b))): (
+        "<capsule><radius>{!r}</radius><length>{!r}</length></capsule>".format(
+            *map(float, (a, b))
+        ): (
             "capsule",
             (a, b),
             "",
@@ -319,7 +383,9 @@ def test_sdf(tmp_path, seed):
     assert link.name == "a" and not link.moves
     angled, known = link.inertial.angles, link.inertial.quaternion
     assert (angled is None, known is None) == (seed == 5, seed != 5)
-    assert near(np.array(angled or known), np.array([w, *xyz] if seed == 5 else angles * (seed > 1)), 1e-12)
+    assert near(
+        np.array(angled or known), np.array([w, *xyz] if seed == 5 else angles * (seed > 1)), 1e-12
+    )
     world = """<sdf><world><model name="m"><link name="a"><inertial/>{0}</link><model name="n"><link name="b">{0}</link>
     </model></model><model name="s"><static>true</static><link name="c">{0}</link></model><model name="t"><static> 1
     </static><link name="d">{0}</link></model><model name="u"><static>0</static><link name="e"><inertial auto="true">
@@ -357,9 +423,16 @@ def test_mjcf_frames_place_and_scale_what_is_in_them(tmp_path):
         found = link(body.format(attributes))
         assert found.inertial.mass == mass and found.span is None
         assert near(np.diag(found.inertial.inertia), inertia, 1e-14)
-    assert near(found.shapes[0].shape.size, (0.2, 0.8, 1.8), 1e-15) and found.inertial.center.tolist() == [0, 0, 1.5]
-    found = link(own + '<body name="d" pos="1" scale="2">{}</body>'.format(own + geom))  # no frame: it has no scale
+    assert near(
+        found.shapes[0].shape.size, (0.2, 0.8, 1.8), 1e-15
+    ) and found.inertial.center.tolist() == [0, 0, 1.5]
+    found = link(
+        own + '<body name="d" pos="1" scale="2">{}</body>'.format(own + geom)
+    )  # no frame: it has no scale
     assert found.inertial.mass == 2 and found.span is not None and not found.findings
-    for wrong in ("<frame scale='0'>{}</frame>", "<frame scale='1 2 3'><frame euler='0 0 30'>{}</frame></frame>"):
+    for wrong in (
+        "<frame scale='0'>{}</frame>",
+        "<frame scale='1 2 3'><frame euler='0 0 30'>{}</frame></frame>",
+    ):
         found = link(own + wrong.format(geom))
         assert [one.code for one in found.findings] == ["description_number"] and not found.shapes

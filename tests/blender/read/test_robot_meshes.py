@@ -42,7 +42,9 @@ def check(path, expected, rel=1e-12):
         return turned[np.lexsort(turned.reshape(-1, 9).round(4).T[::-1])]
 
     assert surface.triangles.shape == (len(expected), 3)
-    assert near(ordered(surface.points[surface.triangles].astype(float)), ordered(np.asarray(expected)), rel)
+    assert near(
+        ordered(surface.points[surface.triangles].astype(float)), ordered(np.asarray(expected)), rel
+    )
     return upright
 
 
@@ -56,7 +58,10 @@ def test_stl_and_obj(tmp_path, seed):
     points = rng.normal(size=(9, 3)).astype(np.float32).astype(float)
     polygons = [rng.permutation(9)[:count].tolist() for count in (3, 4, 5, 3)]
     corners = points[fans(polygons)]
-    rows = np.zeros(len(corners), np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]))
+    rows = np.zeros(
+        len(corners),
+        np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]),
+    )
     rows["corners"] = corners
     binary = struct.pack("<80sI", b"solid", len(rows)) + rows.tobytes()
     (tmp_path / "a.stl").write_bytes(binary)
@@ -68,9 +73,17 @@ def test_stl_and_obj(tmp_path, seed):
     faces, halves = [], (points[:5], points[5:])
     for number, face in enumerate(polygons):
         relative = [index - 9 for index in face] if number % 2 else [index + 1 for index in face]
-        faces.append("f " + " ".join("{}{}".format(i, ["", "/1", "//2", "/1/2"][number]) for i in relative))
-    obj = ["# f 1 2 3", "", *("v {} 0.5 0.5 0.5".format(text(point)) for half in halves for point in half)]
-    (tmp_path / "c.obj").write_text("\n".join([*obj, *["vn 0 0 1"] * 2, "g all", *faces]).replace(" ", " \\\n", 1))
+        faces.append(
+            "f " + " ".join("{}{}".format(i, ["", "/1", "//2", "/1/2"][number]) for i in relative)
+        )
+    obj = [
+        "# f 1 2 3",
+        "",
+        *("v {} 0.5 0.5 0.5".format(text(point)) for half in halves for point in half),
+    ]
+    (tmp_path / "c.obj").write_text(
+        "\n".join([*obj, *["vn 0 0 1"] * 2, "g all", *faces]).replace(" ", " \\\n", 1)
+    )
     assert check(tmp_path / "c.obj", corners) is None
     for name, content in (
         ("a.stl", binary[:-1].replace(b"solid", b"")),
@@ -83,7 +96,11 @@ def test_stl_and_obj(tmp_path, seed):
         ("c.obj", b"v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3"),
     ):
         assert refusal(tmp_path / name, content) == "mesh_unreadable", content
-    for name, content in (("a.stl", struct.pack("<80sI", b"", 0)), ("c.obj", b"v 0 0 0"), ("b.stl", b"solid endsolid")):
+    for name, content in (
+        ("a.stl", struct.pack("<80sI", b"", 0)),
+        ("c.obj", b"v 0 0 0"),
+        ("b.stl", b"solid endsolid"),
+    ):
         assert refusal(tmp_path / name, content) == "mesh_unreadable"
     assert refusal(tmp_path / "a.ply", b"") == "mesh_unreadable"
 
@@ -118,14 +135,21 @@ def random_glb(rng):
         rows = np.zeros((7, stride), np.uint8)
         rows[:, :12] = points[number].view(np.uint8)
         binary += b"\7" * ahead + rows.tobytes()
-        views.append({"buffer": 0, "byteOffset": start, **({"byteStride": stride} if number else {})})
+        views.append(
+            {"buffer": 0, "byteOffset": start, **({"byteStride": stride} if number else {})}
+        )
         accessor = {"bufferView": len(views) - 1, "componentType": 5126, "count": 7, "type": "VEC3"}
         accessors.append({**accessor, **({"byteOffset": ahead} if ahead else {})})
         views.append({"byteOffset": len(binary)})
         binary += orders[number].tobytes() + b"\7" * (-orders[number].nbytes % 4)
-        accessors.append({"bufferView": len(views) - 1, "componentType": kind, "count": 12, "type": "SCALAR"})
+        accessors.append(
+            {"bufferView": len(views) - 1, "componentType": kind, "count": 12, "type": "SCALAR"}
+        )
     meshes_of = [
-        [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 1}, {"attributes": {"POSITION": 0}, "indices": 1}],
+        [
+            {"attributes": {"POSITION": 0}, "indices": 1, "mode": 1},
+            {"attributes": {"POSITION": 0}, "indices": 1},
+        ],
         [{"attributes": {"POSITION": 2}, "indices": 3, "mode": 4}, {"attributes": {"POSITION": 2}}],
         [{"attributes": {"POSITION": 4}, "indices": 5}],
     ]
@@ -135,7 +159,13 @@ def random_glb(rng):
         "scene": 1,
         "scenes": [{"nodes": [3]}, {"nodes": [0, 2]}, {}],
         "nodes": [
-            {"translation": move.tolist(), "rotation": [*xyz, w], "scale": scales.tolist(), "mesh": 0, "children": [1]},
+            {
+                "translation": move.tolist(),
+                "rotation": [*xyz, w],
+                "scale": scales.tolist(),
+                "mesh": 0,
+                "children": [1],
+            },
             {"matrix": second.T.ravel().tolist(), "mesh": 1},
             {"mesh": 2},
             {"mesh": 2, "scale": [3, 3, 3]},
@@ -268,13 +298,20 @@ def test_collada(tmp_path, seed):
     else:
         assert upright.tolist() == UPRIGHT[up]
     path.write_text(content.format(unit, "Z_UP", geometries, text(second), steps, ""))
-    everything = np.concatenate([corners, corners, points[triangles]])  # as it is, where there is no scene
+    everything = np.concatenate(
+        [corners, corners, points[triangles]]
+    )  # as it is, where there is no scene
     assert check(path, meter * everything) is None
-    path.write_text("<COLLADA>" + content.partition("</asset>")[2].format(geometries, text(second), steps, scene))
+    path.write_text(
+        "<COLLADA>"
+        + content.partition("</asset>")[2].format(geometries, text(second), steps, scene)
+    )
     assert check(path, np.array(expected)).tolist() == UPRIGHT["Y_UP"]
     for wrong in (
         content.format(unit, up, geometries.replace("3 4 6", "3 4 5"), text(second), steps, scene),
-        content.format(unit, up, geometries.replace("<vcount>3 4 6</vcount>", ""), text(second), steps, scene),
+        content.format(
+            unit, up, geometries.replace("<vcount>3 4 6</vcount>", ""), text(second), steps, scene
+        ),
         content.format(unit, up, geometries, text(second), steps, scene).replace("#ga", "#gc"),
         content.format(unit, up, geometries, "1 2 3", steps, scene),
     ):
@@ -282,7 +319,9 @@ def test_collada(tmp_path, seed):
 
 
 def test_collada_sources_without_numbers_have_no_points(tmp_path):
-    geometry = '<COLLADA><library_geometries><geometry><mesh><source id="a"/><vertices id="v"><input '
+    geometry = (
+        '<COLLADA><library_geometries><geometry><mesh><source id="a"/><vertices id="v"><input '
+    )
     geometry += 'semantic="POSITION" source="#a"/></vertices><triangles><input semantic="VERTEX" source="#v"/>'
     geometry += "<p>{}</p></triangles></mesh></geometry></library_geometries></COLLADA>"
     assert refusal(tmp_path / "a.dae", geometry.format("0 1 2").encode()) == "mesh_unreadable"
@@ -292,7 +331,9 @@ def test_collada_sources_without_numbers_have_no_points(tmp_path):
 def test_collada_nodes_in_a_circle_are_refused(tmp_path):
     geometry = '<library_geometries><geometry id="g"><mesh>{}<triangles><input semantic="VERTEX" source="#va"/><p>0 1 2'
     geometry += "</p></triangles></mesh></geometry></library_geometries>"
-    deep = "<library_visual_scenes><visual_scene id='s'>{}{}{}</visual_scene></library_visual_scenes>"
+    deep = (
+        "<library_visual_scenes><visual_scene id='s'>{}{}{}</visual_scene></library_visual_scenes>"
+    )
     end = '<scene><instance_visual_scene url="#s"/></scene></COLLADA>'
     source = SOURCE.format("a", "0 0 0 1 0 0 0 1 0", "")
     path = tmp_path / "a.dae"

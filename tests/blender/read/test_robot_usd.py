@@ -18,7 +18,12 @@ SEEDS = pytest.mark.parametrize("seed", range(6))
 
 def usd_steps(rng):
     """Operations with their values, and what they do."""
-    axis, angle, vector, scales = rng.normal(size=3), rng.uniform(-3, 3), rng.normal(size=3), rng.uniform(0.5, 2)
+    axis, angle, vector, scales = (
+        rng.normal(size=3),
+        rng.uniform(-3, 3),
+        rng.normal(size=3),
+        rng.uniform(0.5, 2),
+    )
     turn, angles = np.eye(4), rng.uniform(-3, 3, 3)
     turn[:3, :3] = about(axis, angle)
     moved, scaled = np.eye(4), np.diag([scales, scales, scales, 1])
@@ -42,7 +47,9 @@ def usd_operations(rng, count):
     for number in rng.permutation(len(steps))[:count]:
         kind, values, step = steps[number]
         name = "xformOp:" + kind
-        lines.append("double[] {} = ({})".format(name, ", ".join(map(repr, np.ravel(values).tolist()))))
+        lines.append(
+            "double[] {} = ({})".format(name, ", ".join(map(repr, np.ravel(values).tolist())))
+        )
         names.append(name)
         matrix = matrix @ step
     if count and rng.integers(2):  # back again, as pivots do
@@ -74,8 +81,14 @@ def test_usd(tmp_path, seed):
     radius, height = rng.uniform(0.5, 2, 2).tolist()
     corners, sizes = rng.normal(size=(6, 3)), [3, 4, 5]
     indices = rng.integers(0, 6, sum(sizes))
-    values = {"center": center, "moments": moments, "axes": np.multiply(quaternion((1, 2, 3), 0.7), 2)}
-    values = {name: "({})".format(", ".join(map(repr, value.tolist()))) for name, value in values.items()}
+    values = {
+        "center": center,
+        "moments": moments,
+        "axes": np.multiply(quaternion((1, 2, 3), 0.7), 2),
+    }
+    values = {
+        name: "({})".format(", ".join(map(repr, value.tolist()))) for name, value in values.items()
+    }
     points = ", ".join("({})".format(", ".join(map(repr, point))) for point in corners.tolist())
     mesh = "point3f[] points = [{}]\nint[] faceVertexCounts = {}\nint[] faceVertexIndices = {}\n".format(
         points, sizes, indices.tolist()
@@ -86,9 +99,15 @@ def test_usd(tmp_path, seed):
         ("Cube", ""),
         ("Sphere", "double radius = {!r}".format(radius)),
         ("Sphere", ""),
-        ("Capsule", 'double radius = {!r}\ndouble height = {!r}\ntoken axis = "X"'.format(radius, height)),
+        (
+            "Capsule",
+            'double radius = {!r}\ndouble height = {!r}\ntoken axis = "X"'.format(radius, height),
+        ),
         ("Capsule", ""),
-        ("Cylinder", 'double radius = {!r}\ndouble height = {!r}\ntoken axis = "Y"'.format(radius, height)),
+        (
+            "Cylinder",
+            'double radius = {!r}\ndouble height = {!r}\ntoken axis = "Y"'.format(radius, height),
+        ),
         ("Cylinder", 'uniform token axis = "Z"'),
         ("Mesh", mesh),
         ("Mesh", mesh + 'uniform token orientation = "leftHanded"'),
@@ -96,7 +115,9 @@ def test_usd(tmp_path, seed):
     ):
         number = len(prims)
         schemas = '(prepend apiSchemas = ["PhysicsCollisionAPI"])' if number % 2 else ""
-        prims.append('def {} "p{}" {}\n{{\n{}\n{}\n}}\n'.format(kind, number, schemas, below, statements))
+        prims.append(
+            'def {} "p{}" {}\n{{\n{}\n{}\n}}\n'.format(kind, number, schemas, below, statements)
+        )
     content = """#usda 1.0
 (
     metersPerUnit = {meters!r}
@@ -128,13 +149,23 @@ def Xform "world" ( doc = "a }} b" )
     }}
     def Sphere "only" ( prepend apiSchemas = ["PhysicsMassAPI"] ) {{ float physics:mass = 1 }}
 }}
-""".format(meters=meters, kilograms=kilograms, above=above, own=own, prims="".join(prims), mass=mass, **values).replace(
-        "!reset!", 'uniform token[] xformOpOrder = ["!resetXformStack!"]'
-    )
+""".format(
+        meters=meters,
+        kilograms=kilograms,
+        above=above,
+        own=own,
+        prims="".join(prims),
+        mass=mass,
+        **values,
+    ).replace("!reset!", 'uniform token[] xformOpOrder = ["!resetXformStack!"]')
     description = read(tmp_path, content)
     assert (description.name, description.format) == ("world", "usd")
     link, following, only = description.links
-    assert [one.name for one in description.links] == ["world/body", "world/body/next", "world/only"]
+    assert [one.name for one in description.links] == [
+        "world/body",
+        "world/body/next",
+        "world/only",
+    ]
     assert [one.inertial is None for one in description.links] == [False, True, True]
     assert not link.moves and not link.findings
     assert near(link.inertial.mass, mass * kilograms, 1e-14)
@@ -142,7 +173,9 @@ def Xform "world" ( doc = "a }} b" )
     assert near(link.inertial.inertia, tensor * meters**2 * kilograms, 1e-12)
     assert near(link.local, local, 1e-12)
     inside = description.source[slice(*link.span)]
-    assert inside.lstrip().startswith(b"float physics:mass") and inside.rstrip().endswith(b'class Sphere "s" {} }')
+    assert inside.lstrip().startswith(b"float physics:mass") and inside.rstrip().endswith(
+        b'class Sphere "s" {} }'
+    )
     grown = scale * np.cbrt(np.linalg.det(third[:3, :3])) * meters
     turned = third[:3, :3] / np.cbrt(np.linalg.det(third[:3, :3]))
     orders = {"X": [1, 2, 0], "Y": [2, 0, 1], "Z": [0, 1, 2]}
@@ -156,7 +189,9 @@ def Xform "world" ( doc = "a }} b" )
         shape = stated.shape
         assert shape.kind == kind and stated.role == ("collision" if number % 2 else "visual")
         assert near(np.array(shape.size), np.array(size) * grown, 1e-12)
-        assert np.abs(shape.pose.position - inner[:3, 3] * meters).max() <= 1e-12 * np.max(shape.size)
+        assert np.abs(shape.pose.position - inner[:3, 3] * meters).max() <= 1e-12 * np.max(
+            shape.size
+        )
         assert near(shape.pose.rotation, turned[:, orders[axis[0] if axis else "Z"]], 1e-12)
     starts = np.cumsum(sizes) - sizes
     fans = [(s, s + i + 1, s + i + 2) for s, count in zip(starts, sizes) for i in range(count - 2)]
@@ -164,37 +199,64 @@ def Xform "world" ( doc = "a }} b" )
     for stated, order in zip(link.shapes[8:10], ([0, 1, 2], [2, 1, 0])):
         assert stated.shape.kind == "mesh" and near(stated.shape.surface.points, placed, 1e-12)
         assert (stated.shape.surface.triangles == indices[np.array(fans)][:, order]).all()
-    assert len(link.shapes) == 11 and link.shapes[10].shape.kind == "ellipsoid"  # up to the next body
-    for other, size, place in ((following, meters, np.eye(4)), (only, meters * np.cbrt(np.linalg.det(first)), first)):
+    assert (
+        len(link.shapes) == 11 and link.shapes[10].shape.kind == "ellipsoid"
+    )  # up to the next body
+    for other, size, place in (
+        (following, meters, np.eye(4)),
+        (only, meters * np.cbrt(np.linalg.det(first)), first),
+    ):
         assert near(np.array(other.shapes[0].shape.size), np.full(3, size), 1e-12)
         assert near(other.local, np.diag([*[np.cbrt(np.linalg.det(place))] * 3, 1]), 1e-12)
     check_repair(tmp_path, description)
 
 
 def test_damaged_meshes_in_usd_are_findings(tmp_path):
-    whole = {"points": "[(0, 0, 0), (1, 0, 0), (0, 1, 0)]", "faceVertexCounts": "[3]", "faceVertexIndices": "[0, 1, 2]"}
+    whole = {
+        "points": "[(0, 0, 0), (1, 0, 0), (0, 1, 0)]",
+        "faceVertexCounts": "[3]",
+        "faceVertexIndices": "[0, 1, 2]",
+    }
     wrong = [
-        *({"points": "[0, 1]"}, {"faceVertexCounts": "[4]"}, {"faceVertexCounts": "[0]", "faceVertexIndices": "[]"}),
+        *(
+            {"points": "[0, 1]"},
+            {"faceVertexCounts": "[4]"},
+            {"faceVertexCounts": "[0]", "faceVertexIndices": "[]"},
+        ),
         *({"faceVertexIndices": "[0, 1, 3]"}, {"faceVertexIndices": "[0, -1, 2]"}),
     ]
     cases = [{**whole, **change} for change in wrong]
     cases += [{name: value for name, value in whole.items() if name != left} for left in whole]
-    cases.append({**whole, "faceVertexCounts": "[2, 3, 1]", "faceVertexIndices": "[2, 2, 0, 1, 2, 1]"})  # a triangle
+    cases.append(
+        {**whole, "faceVertexCounts": "[2, 3, 1]", "faceVertexIndices": "[2, 2, 0, 1, 2, 1]"}
+    )  # a triangle
     meshes = ["\n".join("int[] {} = {}".format(*item) for item in case.items()) for case in cases]
     prims = "".join('def Mesh "m" {{\n{}\n}}\n'.format(mesh) for mesh in meshes)
     body = '#usda 1.0\ndef Xform "b" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{\n{}{}}}'
     (link,) = read(tmp_path, body.format("float physics:mass = 1\n", prims)).links
     assert len(link.shapes) == 1 and link.inertial is None
-    texts = ["[0, 1]", "[4]", "[]", "[0, 1, 3]", "[0, -1, 2]"]  # an absent attribute may stand in another layer
+    texts = [
+        "[0, 1]",
+        "[4]",
+        "[]",
+        "[0, 1, 3]",
+        "[0, -1, 2]",
+    ]  # an absent attribute may stand in another layer
     assert [one.values["text"] for one in link.findings] == texts
-    assert (link.shapes[0].shape.surface.points == [[0, 0, 0], [0.01, 0, 0], [0, 0.01, 0]]).all()  # centimeters
+    assert (
+        link.shapes[0].shape.surface.points == [[0, 0, 0], [0.01, 0, 0], [0, 0.01, 0]]
+    ).all()  # centimeters
     wrong = "float3 physics:diagonalInertia = (1, 2)\nfloat physics:mass = 1\n"
     (link,) = read(tmp_path, body.format(wrong, "")).links
-    assert [(one.code, one.values["text"]) for one in link.findings] == [("description_number", "(1, 2)")]
+    assert [(one.code, one.values["text"]) for one in link.findings] == [
+        ("description_number", "(1, 2)")
+    ]
     for word in ("1_0", "٣", "1.0x0"):
         wrong = 'float physics:mass = {0}\ndef Sphere "s" {{\ndouble radius = {0}x\n}}'.format(word)
         (link,) = read(tmp_path, body.format(wrong, "")).links
-        found = [(one.values["text"], one.values["element"], one.values["line"]) for one in link.findings]
+        found = [
+            (one.values["text"], one.values["element"], one.values["line"]) for one in link.findings
+        ]
         assert found == [(word, "b", 3), (word + "x", "s", 5)] and not link.shapes
 
 
@@ -213,7 +275,10 @@ def test_damaged_meshes_in_usd_are_findings(tmp_path):
 def test_a_layer_that_is_cut_short_says_where(tmp_path, content, line):
     with pytest.raises(FileError) as refused:
         read(tmp_path, "#usda 1.0\n" + content)
-    assert (refused.value.finding.code, refused.value.finding.values["line"]) == ("description_invalid", line)
+    assert (refused.value.finding.code, refused.value.finding.values["line"]) == (
+        "description_invalid",
+        line,
+    )
 
 
 def bodies(tmp_path, inside, metadata=""):
@@ -231,8 +296,17 @@ def test_minimal_usd_has_defaults_of_the_schemas(tmp_path):
     for inside in (mass + diagonal, mass + diagonal + zeros):
         ((link),) = bodies(tmp_path, BODY.format("b", inside))
         stated = link.inertial
-        assert stated.mass == 3.0 and (stated.center == 0.0).all() and (stated.rotation == np.eye(3)).all()
-        assert near(stated.tensor, np.diag([2e-4, 3e-4, 4e-4]), 1e-15) and stated.quaternion == (1.0, 0.0, 0.0, 0.0)
+        assert (
+            stated.mass == 3.0
+            and (stated.center == 0.0).all()
+            and (stated.rotation == np.eye(3)).all()
+        )
+        assert near(stated.tensor, np.diag([2e-4, 3e-4, 4e-4]), 1e-15) and stated.quaternion == (
+            1.0,
+            0.0,
+            0.0,
+            0.0,
+        )
     for inside in (mass, diagonal, zeros):
         (link,) = bodies(tmp_path, BODY.format("b", inside))
         assert link.inertial is None and not link.findings
@@ -242,7 +316,10 @@ def test_minimal_usd_has_defaults_of_the_schemas(tmp_path):
     (tmp_path / "a.usda").write_bytes(b'#usda 1.0\n\ndef "\xff"')
     with pytest.raises(FileError) as refused:
         descriptions.read_description(tmp_path / "a.usda")
-    assert (refused.value.finding.code, refused.value.finding.values["line"]) == ("description_invalid", 1)
+    assert (refused.value.finding.code, refused.value.finding.values["line"]) == (
+        "description_invalid",
+        1,
+    )
 
 
 def test_usd_statements_without_value_end_at_the_next(tmp_path):
@@ -254,18 +331,33 @@ def test_usd_statements_without_value_end_at_the_next(tmp_path):
 def test_usd_shapes_are_as_large_as_each_axis_says(tmp_path):
     scale = 'float3 xformOp:scale = ({})\nuniform token[] xformOpOrder = ["xformOp:scale"]\n'
     prims = [
-        *('def Cube "a" {', 'def Sphere "a" { double radius = (3, 4)', 'def Sphere "a" { double radius = None'),
-        *('def Cylinder "a" { uniform token axis = "{}"'.replace("{}", axis) for axis in ("X", "Y", "Z", "W")),
+        *(
+            'def Cube "a" {',
+            'def Sphere "a" { double radius = (3, 4)',
+            'def Sphere "a" { double radius = None',
+        ),
+        *(
+            'def Cylinder "a" { uniform token axis = "{}"'.replace("{}", axis)
+            for axis in ("X", "Y", "Z", "W")
+        ),
         *('def Capsule "a" { token axis = "X"', 'def Capsule "a" {', 'def Cone "a" {'),
     ]
     sizes = [(4, 6, 10), (2, 3, 5), (3, 4), (5, 6), (2, 10), (2, 10), (1.5, 2), (1, 5)]
-    turns = [np.eye(3)] * 2 + [np.eye(3)[:, order] for order in ([1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2])]
+    turns = [np.eye(3)] * 2 + [
+        np.eye(3)[:, order] for order in ([1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2])
+    ]
     turns += [np.eye(3)[:, [1, 2, 0]], np.eye(3)]
-    for signs, turn in (((1, 1, 1), np.eye(3)), ((-1, 1, 1), np.diag([1, -1, -1]))):  # a mirrored one is turned
+    for signs, turn in (
+        ((1, 1, 1), np.eye(3)),
+        ((-1, 1, 1), np.diag([1, -1, -1])),
+    ):  # a mirrored one is turned
         text = scale.format(", ".join(map(str, np.multiply(signs, (2, 3, 5)).tolist())))
         inside = "".join("{}\n{}}}\n".format(prim, text) for prim in prims)
         (link,) = bodies(tmp_path, BODY.format("b", inside), "(\nmetersPerUnit = 1\n)\n")
-        assert [one.values["text"] for one in link.findings] == ["(3, 4)", "Cone"]  # not the default in its place
+        assert [one.values["text"] for one in link.findings] == [
+            "(3, 4)",
+            "Cone",
+        ]  # not the default in its place
         for stated, size, own in zip(link.shapes, sizes, turns, strict=True):
             assert near(np.array(stated.shape.size), np.array(size, float), 1e-15)
             assert near(stated.shape.pose.rotation, turn @ own, 1e-15)
@@ -289,7 +381,9 @@ def test_usd_meshes_and_bodies_that_are_mirrored(tmp_path, is_mirrored, is_left_
         (link,) = bodies(tmp_path, content)
         (made,) = (shape.shape.surface for shape in link.shapes)
         assert near(made.points, 0.01 * np.diag(local), 1e-15)
-        ahead = np.linalg.det(made.points[made.triangles[0]]) > 0.0  # whether it faces away from the origin
+        ahead = (
+            np.linalg.det(made.points[made.triangles[0]]) > 0.0
+        )  # whether it faces away from the origin
         assert ahead == (not is_left_handed)
         if content is own:
             assert near(link.local, np.diag([*local, 1.0]), 1e-15)

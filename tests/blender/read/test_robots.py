@@ -105,13 +105,21 @@ def glb():
             {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
             {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"},
         ],
-        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": 48},
+            {"buffer": 0, "byteOffset": 48, "byteLength": 24},
+        ],
         "buffers": [{"byteLength": 72}],
     }
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     binary = points + order
-    body = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) + binary
+    body = (
+        struct.pack("<II", len(text), 0x4E4F534A)
+        + text
+        + struct.pack("<II", len(binary), 0x004E4942)
+        + binary
+    )
     return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
 
 
@@ -137,7 +145,10 @@ def test_invalid_descriptions_are_refused(tmp_path):
     ):
         assert refusal(read_description, write(tmp_path / "a.xml", content)) == code, content[:40]
     binary = write(tmp_path / "a.xml", b"PXR-USDC\0\0")
-    assert refusal(read_description, binary) in ("usd_not_text", "file_unreadable")  # without and with usd-core
+    assert refusal(read_description, binary) in (
+        "usd_not_text",
+        "file_unreadable",
+    )  # without and with usd-core
     assert refusal(read_description, tmp_path / "none.urdf") == "file_missing"
     assert refusal(read_description, tmp_path) == "file_not_regular"
 
@@ -157,25 +168,44 @@ def test_meshes_are_found_within_the_folders_that_are_allowed(tmp_path, monkeypa
     mesh = write(package / "meshes" / "a.stl", "")
     secret = write(tmp_path / "secret.stl", "")
     file = package / "urdf" / "arm.urdf"
-    for name in (str(secret), "file://" + str(secret), "../../secret.stl", "package://../../secret.stl"):
+    for name in (
+        str(secret),
+        "file://" + str(secret),
+        "../../secret.stl",
+        "package://../../secret.stl",
+    ):
         assert refusal(Roots.for_file(file).find, name) == "mesh_outside", name
     assert Roots.for_file(file).find("../meshes/a.stl") == mesh.resolve()
     other = write(tmp_path / "src" / "more" / "other_meshes" / "b.stl", "")
     assert refusal(Roots.for_file(file).find, "package://other_meshes/b.stl") == "mesh_missing"
-    assert Roots.for_file(file, [tmp_path / "src"]).find("package://other_meshes/b.stl") == other.resolve()
+    assert (
+        Roots.for_file(file, [tmp_path / "src"]).find("package://other_meshes/b.stl")
+        == other.resolve()
+    )
     monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join(["/none", str(other.parents[1])]))
     assert Roots.for_file(file).find("package://other_meshes/b.stl") == other.resolve()
     write(package / "package.xml", "<package/>")
     roots = Roots.for_file(file)
-    for name in ("../meshes/a.stl", "package://arm_description/meshes/a.stl", "meshes/a.stl", r"..\meshes\a.stl"):
+    for name in (
+        "../meshes/a.stl",
+        "package://arm_description/meshes/a.stl",
+        "meshes/a.stl",
+        r"..\meshes\a.stl",
+    ):
         assert roots.find(name) == mesh.resolve(), name
     assert refusal(roots.find, "package://../../secret.stl") == "mesh_outside"
     assert refusal(roots.find, "https://example.com/a.stl") == "mesh_on_network"
     assert refusal(roots.find, "package://arm_description/meshes/b.stl") == "mesh_missing"
     write(package / "package.xml", "<package><name> arm </name></package>")
     assert Roots.for_file(file).find("package://arm/meshes/a.stl") == mesh.resolve()
-    assert Roots.for_file(file, [tmp_path]).find("package://arm_description/meshes/a.stl") == mesh.resolve()
-    assert Roots.for_file(tmp_path / "out" / "arm.urdf", [package]).find("../meshes/a.stl") == mesh.resolve()
+    assert (
+        Roots.for_file(file, [tmp_path]).find("package://arm_description/meshes/a.stl")
+        == mesh.resolve()
+    )
+    assert (
+        Roots.for_file(tmp_path / "out" / "arm.urdf", [package]).find("../meshes/a.stl")
+        == mesh.resolve()
+    )
     assert Roots.for_file(file, anywhere=True).find(str(secret)) == secret.resolve()
 
 
@@ -197,7 +227,12 @@ def test_included_models_of_sdf_are_read_from_their_folders(tmp_path):
     model = '<sdf version="1.9"><model name="arm">\n {}</model></sdf>'
     write(tmp_path / "arm" / "arm.sdf", model.format(link.format("upper", 2)))
     own, upper = read_description(file).links
-    assert (own.name, upper.name, upper.inertial.mass, upper.span) == ("m::own", "arm::upper", 2.0, None)
+    assert (own.name, upper.name, upper.inertial.mass, upper.span) == (
+        "m::own",
+        "arm::upper",
+        2.0,
+        None,
+    )
     assert (upper.place.line, upper.place.column) == (2, 2) and upper.place.file.endswith("arm.sdf")
     for text in (
         model.format("<include><uri>model://arm</uri></include>"),
@@ -218,7 +253,9 @@ def test_bytes_that_are_no_text_of_usd_do_not_hang(tmp_path):
     for _ in range(60):
         data = bytearray(USDA)
         place = int(rng.integers(len(data)))
-        data[place : place + 2] = rng.choice(list(b'"{}[]()=@<>#\n a1'), 2).astype(np.uint8).tobytes()
+        data[place : place + 2] = (
+            rng.choice(list(b'"{}[]()=@<>#\n a1'), 2).astype(np.uint8).tobytes()
+        )
         with contextlib.suppress(FileError):
             read_description(write(tmp_path / "a.usda", bytes(data)))
 

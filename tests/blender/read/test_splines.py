@@ -19,10 +19,14 @@ FAR = np.array([300.0, -20.0, 7.0])
 def made(seed, weighted, shape=(5, 4), orders=(3, 4)):
     """A patch away from the origin, and where its display mesh samples it."""
     rng = np.random.default_rng(seed)
-    spaces = tuple(blender_space(count, order, False, False, True) for count, order in zip(shape, orders))
+    spaces = tuple(
+        blender_space(count, order, False, False, True) for count, order in zip(shape, orders)
+    )
     points = FAR + rng.uniform(-1.0, 1.0, (*shape, 3)) * (3.0, 2.0, 1.0)
     weights = rng.uniform(0.5, 2.0, shape) if weighted else None
-    return Patch(spaces, points, weights), tuple(display_table(space, display_parameters(space, 3)) for space in spaces)
+    return Patch(spaces, points, weights), tuple(
+        display_table(space, display_parameters(space, 3)) for space in spaces
+    )
 
 
 def reading(obj, mesh=None):
@@ -48,7 +52,9 @@ def test_invalid_spline_surfaces_are_read_from_display():
     row.points.foreach_set("co", [1.0] * 20)
     found = reading(obj)
     assert len(found.patches) == 1
-    assert [(one.code, one.values) for one in found.findings] == [("splines_left_out", {"count": 1, "total": 2})]
+    assert [(one.code, one.values) for one in found.findings] == [
+        ("splines_left_out", {"count": 1, "total": 2})
+    ]
     obj.data.splines.new("POLY")
     obj.data.update_tag()
     assert reading(obj) is None

@@ -54,7 +54,11 @@ def test_the_display_mesh_lies_on_the_surface_of_the_file(tmp_path, order_s, wei
         spaces = []
         for order in (order_s, order_t):
             knots = np.cumsum(rng.uniform(0.2, 2.0, order + 8)).tolist()
-            spaces.append(SplineSpace(tuple(knots), order, 8) if order % 2 else clamped_space(order, (0.3, 0.35)))
+            spaces.append(
+                SplineSpace(tuple(knots), order, 8)
+                if order % 2
+                else clamped_space(order, (0.3, 0.35))
+            )
         shape = (spaces[0].count, spaces[1].count)
         weights = rng.uniform(0.3, 3.0, shape) if weighted else None
         patch = Patch(tuple(spaces), rng.uniform(-1.0, 1.0, (*shape, 3)), weights)
@@ -62,8 +66,12 @@ def test_the_display_mesh_lies_on_the_surface_of_the_file(tmp_path, order_s, wei
         (spline,) = obj.data.splines
         (found,) = read_surfaces(tmp_path / "body.igs").bodies[0].patches
         s, t = (
-            true_parameters(space, np.minimum(display_parameters(short, resolution), short.domain[1]))
-            for space, short, resolution in zip(spaces, found.spaces, (spline.resolution_v, spline.resolution_u))
+            true_parameters(
+                space, np.minimum(display_parameters(short, resolution), short.domain[1])
+            )
+            for space, short, resolution in zip(
+                spaces, found.spaces, (spline.resolution_v, spline.resolution_u)
+            )
         )
         truth = patch.evaluate_grid(s, t)
         points = shown(obj).reshape(len(t), len(s), 3).swapaxes(0, 1)
@@ -74,7 +82,9 @@ def test_the_display_mesh_lies_on_the_surface_of_the_file(tmp_path, order_s, wei
 
 @pytest.mark.parametrize("patch, truth", [(sphere(), BALL), (torus(), DONUT)])
 @pytest.mark.parametrize("unit, meters", [(2, 1e-3), (1, 0.0254), (6, 1.0)])
-def test_iges_bodies_are_measured_from_their_control_points(tmp_path, reported, patch, truth, unit, meters):
+def test_iges_bodies_are_measured_from_their_control_points(
+    tmp_path, reported, patch, truth, unit, meters
+):
     bpy.context.scene.unit_settings.scale_length = 0.01
     obj = imported(filepath=str(written(tmp_path, unrolled(patch), unit=unit)))
     assert obj.name == "body" and obj.select_get() and obj.type == "SURFACE"
@@ -103,7 +113,10 @@ def test_several_files_import_and_invalid_one_is_named(tmp_path, reported):
     (tmp_path / "bad.igs").write_text("nothing")
     names = [{"name": name} for name in ("body.igs", "two.obj", "bad.igs")]
     obj = imported(directory=str(tmp_path), files=names, unit=0.001)
-    assert [one.name for one in bpy.context.selected_objects] == ["body", "Donut"] and obj.name == "body"
+    assert [one.name for one in bpy.context.selected_objects] == [
+        "body",
+        "Donut",
+    ] and obj.name == "body"
     assert "file_unrecognized" in reported.codes
     assert close(measured(bpy.data.objects["Donut"]).volume, DONUT * 1e-9, 4e-7)
     assert bpy.ops.object.body_moments_import_surfaces.poll()
@@ -122,7 +135,9 @@ def test_surface_faces_look_along_normals_of_the_file(tmp_path):
     (body,) = read_surfaces(written(tmp_path, unrolled(sphere()))).bodies
     ((obj, _),) = import_bodies([body], bpy.context.scene.collection, 1.0)
     mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
-    outward = [polygon.normal.dot(polygon.center) for polygon in mesh.polygons if polygon.area > 1e-6]
+    outward = [
+        polygon.normal.dot(polygon.center) for polygon in mesh.polygons if polygon.area > 1e-6
+    ]
     assert min(outward) > 0.5
 
 

@@ -19,7 +19,13 @@ def run(name, **options):
 
 def bodies(count):
     return [
-        add(mesh_body(), "Body {:d}".format(i), (5 * i, i, 0), (0.1 * i, 0.2, 0), (1, 1 + 0.1 * i, 1))
+        add(
+            mesh_body(),
+            "Body {:d}".format(i),
+            (5 * i, i, 0),
+            (0.1 * i, 0.2, 0),
+            (1, 1 + 0.1 * i, 1),
+        )
         for i in range(count)
     ]
 
@@ -36,7 +42,8 @@ def evaluations():
 
 @pytest.mark.parametrize("collected", [False, True])
 @pytest.mark.parametrize(
-    "name, options", [*((name, {}) for name in SNAPS), ("add_empty", {}), ("set_rigid_body_mass", {"add": True})]
+    "name, options",
+    [*((name, {}) for name in SNAPS), ("add_empty", {}), ("set_rigid_body_mass", {"add": True})],
 )
 def test_evaluations_do_not_grow_with_object_count(name, options, collected, evaluations):
     taken = []
@@ -88,7 +95,10 @@ def shown_by_nodes(collection):
     for side in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
     start, end = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
-    info, join = tree.nodes.new("GeometryNodeCollectionInfo"), tree.nodes.new("GeometryNodeJoinGeometry")
+    info, join = (
+        tree.nodes.new("GeometryNodeCollectionInfo"),
+        tree.nodes.new("GeometryNodeJoinGeometry"),
+    )
     info.transform_space = "RELATIVE"
     info.inputs["Collection"].default_value = collection
     tree.links.new(start.outputs[0], join.inputs[0])
@@ -105,7 +115,11 @@ def test_object_showing_others_is_changed_after_them():
     bpy.context.view_layer.update()
     touched = side_by_side.dependents([*members, shower])
     assert shower in touched[members[0]] and members[0] not in touched[shower]
-    assert side_by_side.independent_rounds(touched.items()) == [[members[0]], [members[1]], [shower]]
+    assert side_by_side.independent_rounds(touched.items()) == [
+        [members[0]],
+        [members[1]],
+        [shower],
+    ]
 
 
 def beveled_by(obj):
@@ -137,7 +151,9 @@ def scattering(obj):
     tree = shown_by_nodes(collect([obj]))
     info = next(node for node in tree.nodes if node.bl_idname == "GeometryNodeCollectionInfo")
     info.transform_space = "ORIGINAL"
-    info.inputs["Separate Children"].default_value = info.inputs["Reset Children"].default_value = True
+    info.inputs["Separate Children"].default_value = info.inputs["Reset Children"].default_value = (
+        True
+    )
     shower.modifiers.new("Show", "NODES").node_group = tree
     return shower
 
@@ -176,8 +192,15 @@ def test_refused_object_leaves_others_to_be_changed(reported):
     only(*objects)
     assert run("origin_to_center") == {"FINISHED"}
     assert reported.codes.count("failure") == 2
-    failures = {finding.values["object"]: finding.values["cause"] for finding in reported if finding.code == "failure"}
-    assert failures["Body 1"] == {"code": "modifiers_change_shape", "values": {"modifiers": ["Bend"]}}
+    failures = {
+        finding.values["object"]: finding.values["cause"]
+        for finding in reported
+        if finding.code == "failure"
+    }
+    assert failures["Body 1"] == {
+        "code": "modifiers_change_shape",
+        "values": {"modifiers": ["Bend"]},
+    }
     assert failures["Body 2"] == {"code": "channel_locked", "values": {"channel": "location"}}
     moved = [np.abs(place(obj) - matrix).max() > 0.1 for obj, matrix in zip(objects, matrices)]
     assert moved == [True, False, False, True]
@@ -198,7 +221,11 @@ def test_followed_empty_is_placed_before_its_follower():
     bpy.context.view_layer.update()
     only(follower, leader)
     assert run("add_empty") == {"FINISHED"}
-    own = next(obj for obj in bpy.data.objects if obj.type == "EMPTY" and obj.get("principal_frame_of") == follower)
+    own = next(
+        obj
+        for obj in bpy.data.objects
+        if obj.type == "EMPTY" and obj.get("principal_frame_of") == follower
+    )
     kept = place(own)
     run("add_empty")
     assert np.abs(place(own) - kept).max() < 1e-6
@@ -208,7 +235,9 @@ def test_shared_mesh_in_shown_collection_is_reframed():
     first = add(mesh_body(), "First", (1, 2, 0))
     other, third = add(mesh_body(), "Other", (9, 0, 0)), add(first.data, "Third", (4, 5, 6))
     shower = add(mesh_body(), "Shower", (0, 20, 0))
-    shower.modifiers.new("Show", "NODES").node_group = shown_by_nodes(collect([first, other, third]))
+    shower.modifiers.new("Show", "NODES").node_group = shown_by_nodes(
+        collect([first, other, third])
+    )
     bpy.context.view_layer.update()
     only(first)
     assert run("origin_to_center") == {"FINISHED"}

@@ -50,10 +50,19 @@ def test_splines_are_the_patches(offset, factor, rational):
     for spline, patch in zip(obj.data.splines, given, strict=True):
         own = stored(spline)
         assert np.array_equal(own[..., :3], (factor * patch.points - origin).astype(np.float32))
-        weights = np.ones(patch.points.shape[:2]) if patch.weights is None else patch.weights / patch.weights.max()
+        weights = (
+            np.ones(patch.points.shape[:2])
+            if patch.weights is None
+            else patch.weights / patch.weights.max()
+        )
         assert np.array_equal(own[..., 3], weights.astype(np.float32))
         assert (spline.order_v, spline.order_u) == patch.points.shape[:2] and spline.use_smooth
-        assert spline.use_bezier_u and spline.use_bezier_v and spline.use_endpoint_u and spline.use_endpoint_v
+        assert (
+            spline.use_bezier_u
+            and spline.use_bezier_v
+            and spline.use_endpoint_u
+            and spline.use_endpoint_v
+        )
         assert not spline.use_cyclic_u and not spline.use_cyclic_v
         again = Patch(patch.spaces, own[..., :3] + origin, own[..., 3])
         off = again.evaluate_grid(grid, grid) - factor * patch.evaluate_grid(grid, grid)
@@ -68,7 +77,11 @@ def test_imported_bodies_are_linked_and_scene_is_unchanged():
     into = bpy.data.collections.new("Into")
     bodies = [SurfaceBody("First", tuple(patches()[:2])), SurfaceBody("Second", tuple(patches()))]
     made = imports.import_bodies(bodies, into, 0.5)
-    assert [obj.name for obj, _ in made] == [obj.name for obj in into.objects] == ["First", "Second"]
+    assert (
+        [obj.name for obj, _ in made] == [obj.name for obj in into.objects] == ["First", "Second"]
+    )
     assert [len(obj.data.splines) for obj, _ in made] == [2, len(SHAPES)]
-    assert np.array_equal(stored(made[0][0].data.splines[0])[..., :3], (0.5 * patches()[0].points).astype(np.float32))
+    assert np.array_equal(
+        stored(made[0][0].data.splines[0])[..., :3], (0.5 * patches()[0].points).astype(np.float32)
+    )
     assert bpy.context.scene == before and bpy.context.object == cube and cube.select_get()

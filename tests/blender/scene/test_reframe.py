@@ -14,7 +14,9 @@ from tests.blender.objects import add, mesh_body, place, seen
 from tests.blender.spline_bodies import surface
 
 pytestmark = pytest.mark.usefixtures("scene")
-CHANGE = np.array([[0.0, -1.5, 0.25, 1.0], [1.5, 0.0, 0.0, -2.0], [0.0, 0.25, 1.5, 3.0], [0.0, 0.0, 0.0, 1.0]])
+CHANGE = np.array(
+    [[0.0, -1.5, 0.25, 1.0], [1.5, 0.0, 0.0, -2.0], [0.0, 0.25, 1.5, 3.0], [0.0, 0.0, 0.0, 1.0]]
+)
 
 
 def points_of(collection, name):
@@ -44,7 +46,9 @@ def test_points_and_shape_keys_are_rounded_once(mirrored, far):
     for one, points in zip((obj.data.vertices, *(key.data for key in keys)), wanted):
         assert np.array_equal(points_of(one, "co"), points)
     turned = [tuple(face.vertices) for face in obj.data.polygons]
-    assert (turned == faces) != mirrored and [set(face) for face in turned] == [set(face) for face in faces]
+    assert (turned == faces) != mirrored and [set(face) for face in turned] == [
+        set(face) for face in faces
+    ]
 
 
 def test_data_of_each_kind_is_transformed():
@@ -52,13 +56,18 @@ def test_data_of_each_kind_is_transformed():
     patch.shape_key_add(name="Basis")
     bpy.ops.object.metaball_add()
     ball = bpy.context.object
-    for obj, points in ((patch, lambda: patch.data.splines[0].points), (ball, lambda: ball.data.elements)):
+    for obj, points in (
+        (patch, lambda: patch.data.splines[0].points),
+        (ball, lambda: ball.data.elements),
+    ):
         before = np.array([tuple(point.co)[:3] for point in points()])
         reframe.transform_data(obj.data, CHANGE)
         now = np.array([tuple(point.co)[:3] for point in points()])
         assert np.abs(now - before @ CHANGE[:3, :3].T - CHANGE[:3, 3]).max() < 1e-5
     key = np.array([tuple(point.co)[:3] for point in patch.data.shape_keys.key_blocks[0].data])
-    assert np.abs(key - [tuple(point.co)[:3] for point in patch.data.splines[0].points]).max() < 1e-5
+    assert (
+        np.abs(key - [tuple(point.co)[:3] for point in patch.data.splines[0].points]).max() < 1e-5
+    )
 
 
 def target_of(obj, turn=0.5, shift=(1.0, 2.0, 3.0)):
@@ -121,7 +130,9 @@ def test_the_same_change_of_shared_data_is_made_once():
         obj.modifiers.new("Triangulate", "TRIANGULATE")
     bpy.context.view_layer.update()
     shifts = [(float(obj == objects[3]), 2, 3) for obj in objects]
-    plans = [Plan(obj, target_of(obj, 0.0, shift), 3.0, True) for obj, shift in zip(objects, shifts)]
+    plans = [
+        Plan(obj, target_of(obj, 0.0, shift), 3.0, True) for obj, shift in zip(objects, shifts)
+    ]
     before = [seen(obj) for obj in objects]
     progress = []
     done, refusals = reframe.reframe(bpy.context, plans, progress.append)
@@ -134,7 +145,9 @@ def test_free_normals_turn_with_the_points():
     mesh = add(mesh_body()).data
     normals = np.random.default_rng(1).normal(size=(len(mesh.loops), 3))
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    mesh.attributes.new("custom_normal", "FLOAT_VECTOR", "CORNER").data.foreach_set("vector", normals.ravel())
+    mesh.attributes.new("custom_normal", "FLOAT_VECTOR", "CORNER").data.foreach_set(
+        "vector", normals.ravel()
+    )
     turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
     change = np.eye(4)
     change[:3, :3] = turn

@@ -18,17 +18,28 @@ def parts(count=6):
     """Objects of all kinds that may be reframed together, and some that may not."""
     rng, made = np.random.default_rng(5), []
     for i in range(count):
-        points, faces = s.box(-rng.uniform(0.5, 2, 3), rng.uniform(0.5, 2, 3)) if i % 2 else s.random_hull(i)
+        points, faces = (
+            s.box(-rng.uniform(0.5, 2, 3), rng.uniform(0.5, 2, 3)) if i % 2 else s.random_hull(i)
+        )
         mesh = bpy.data.meshes.new("Part")
         mesh.from_pydata(
-            (np.asarray(points) + rng.normal(size=3)).tolist(), [], [list(map(int, face)) for face in faces]
+            (np.asarray(points) + rng.normal(size=3)).tolist(),
+            [],
+            [list(map(int, face)) for face in faces],
         )
         for twin in range(3):
             obj = bpy.data.objects.new("Part {} {}".format(i, twin), mesh)
             bpy.context.scene.collection.objects.link(obj)
             obj.rotation_mode = ("XYZ", "ZYX", "QUATERNION", "YZX", "XZY", "XYZ")[i]
-            obj.rotation_euler, obj.location = rng.uniform(-3, 3, 3), rng.normal(size=3) * 10.0 ** rng.uniform(-1, 3)
-            obj.scale = (1.0, 1.0, 1.0) if twin else np.full(3, rng.uniform(0.5, 2.0)) * (1, 1, -1 if i % 2 else 1)
+            obj.rotation_euler, obj.location = (
+                rng.uniform(-3, 3, 3),
+                rng.normal(size=3) * 10.0 ** rng.uniform(-1, 3),
+            )
+            obj.scale = (
+                (1.0, 1.0, 1.0)
+                if twin
+                else np.full(3, rng.uniform(0.5, 2.0)) * (1, 1, -1 if i % 2 else 1)
+            )
             made.append(obj)
     if count > 1:
         made[1].delta_location.x, made[4].lock_location[1] = 0.5, True
@@ -65,7 +76,9 @@ def test_reframed_meshes_keep_visible_points_and_normals(operator):
     before, places = seen(objects), [place(obj) for obj in objects]
     assert getattr(bpy.ops.object, operator)() == {"FINISHED"}
     after = seen(objects)
-    moved = [np.abs(place(obj) - was).max() > 1e-3 for obj, was in zip(objects, places, strict=True)]
+    moved = [
+        np.abs(place(obj) - was).max() > 1e-3 for obj, was in zip(objects, places, strict=True)
+    ]
     assert sum(moved) > len(objects) / 2
     for name in before:
         size = np.ptp(before[name][0], axis=0).max() + 1e-3 * np.abs(before[name][0]).max()

@@ -47,7 +47,10 @@ def test_the_basis_is_blenders_and_can_be_set(mode):
     transforms.set_rotation_and_scale(obj, wanted)
     transforms.set_location(obj, np.array([1.0, 2.0, -3.0]), 0.0)
     now = place(obj)
-    assert np.abs(now[:3, :3] - wanted).max() < 1e-6 * 3.0 and np.abs(now[:3, 3] - (1, 2, -3)).max() < 1e-6
+    assert (
+        np.abs(now[:3, :3] - wanted).max() < 1e-6 * 3.0
+        and np.abs(now[:3, 3] - (1, 2, -3)).max() < 1e-6
+    )
     assert np.sign(np.prod(obj.scale) * np.prod(obj.delta_scale)) == np.sign(np.linalg.det(wanted))
 
 
@@ -57,7 +60,10 @@ def test_a_quaternion_keeps_its_sign():
     for sign in (1.0, -1.0):
         obj.rotation_quaternion = sign * np.array([0.8, 0.6, 0.0, 0.0])
         transforms.set_rotation_and_scale(obj, transforms.rotation_matrix([0.6, 0.8, 0.0, 0.0]))
-        assert np.abs(np.array(obj.rotation_quaternion) - sign * np.array([0.6, 0.8, 0.0, 0.0])).max() < 1e-6
+        assert (
+            np.abs(np.array(obj.rotation_quaternion) - sign * np.array([0.6, 0.8, 0.0, 0.0])).max()
+            < 1e-6
+        )
 
 
 @pytest.mark.parametrize("mode", ORDERS)
@@ -71,14 +77,22 @@ def test_euler_angles_are_nearest_of_equal_rotations(mode):
     found = transforms.euler_angles(rotations, mode, near)
     first = "XYZ".index(mode[0])
     for row, (rotation, own, wished, given) in enumerate(zip(rotations, found, near, angles)):
-        assert np.abs(transforms.euler_matrix(own, mode) - rotation).max() < (1e-12 if row not in range(4, 6) else 1e-7)
+        assert np.abs(transforms.euler_matrix(own, mode) - rotation).max() < (
+            1e-12 if row not in range(4, 6) else 1e-7
+        )
         assert np.abs(own - wished).max() <= np.pi + 1e-9
         if row < 6:  # locked, all but: the first angle is free
-            assert min(abs(own[first] - wished[first]), abs(abs(own[first] - wished[first]) - np.pi)) < 1e-9
+            assert (
+                min(abs(own[first] - wished[first]), abs(abs(own[first] - wished[first]) - np.pi))
+                < 1e-9
+            )
         else:
             other = given + np.pi
             other[middle] = np.pi - given[middle]
-            rest = [angles + 2.0 * np.pi * np.round((wished - angles) / (2.0 * np.pi)) for angles in (given, other)]
+            rest = [
+                angles + 2.0 * np.pi * np.round((wished - angles) / (2.0 * np.pi))
+                for angles in (given, other)
+            ]
             best = min(np.abs(angles - wished).sum() for angles in rest)
             assert abs(np.abs(own - wished).sum() - best) < 1e-6
     alone = transforms.euler_angles(rotations[9], mode, near[9])
@@ -106,7 +120,11 @@ def test_impossible_rotation_and_scale_are_refused():
     assert np.abs(np.array(obj.scale) - (3.0, 1.0, 2.0)).max() < 1e-6
     turn = np.diag([3.0, 1.0, 2.0])[[1, 0, 2]] * ((1,), (-1,), (1,))
     obj.lock_scale, obj.scale = (False,) * 3, (1.0, 1.0, 1.0)
-    for mode, locks in (("XYZ", "lock_rotation"), ("QUATERNION", "lock_rotation"), ("AXIS_ANGLE", "lock_rotation")):
+    for mode, locks in (
+        ("XYZ", "lock_rotation"),
+        ("QUATERNION", "lock_rotation"),
+        ("AXIS_ANGLE", "lock_rotation"),
+    ):
         obj.rotation_mode = mode
         setattr(obj, locks, (False, False, True))
         with refused("channel_locked", channel="rotation"):

@@ -47,7 +47,11 @@ def remember():
     bpy.ops.surface.primitive_nurbs_surface_sphere_add()
     bpy.ops.object.body_moments_live()
     obj = add(mesh_body())
-    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.01
+    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = (
+        "SHELL",
+        "INWARD",
+        0.01,
+    )
     only(obj)
     bpy.ops.object.body_moments_measure()
     bpy.context.scene.body_moments.moments_order = 2
@@ -63,7 +67,9 @@ def remember():
     bpy.context.view_layer.update()
     assert staleness.is_edited(obj) and displayed.drawn(obj, bpy.context.scene) is not None
     # a wall was measured, no grid
-    assert {key for key, cache in caches().items() if not len(cache)} == {(sliders.__name__, "_grids")}
+    assert {key for key, cache in caches().items() if not len(cache)} == {
+        (sliders.__name__, "_grids")
+    }
 
 
 @pytest.mark.parametrize("end", ["load", "unregister"])

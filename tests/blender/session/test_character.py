@@ -51,7 +51,9 @@ def boxes():
     faces = [tuple(face.vertices) for face in body.data.polygons]
     mesh, count = bpy.data.meshes.new("Boxes"), len(points)
     places = np.concatenate([0.1 * points + (0, 0, number) for number in range(3)])
-    mesh.from_pydata(places, [], [tuple(np.array(face) + count * k) for k in range(3) for face in faces])
+    mesh.from_pydata(
+        places, [], [tuple(np.array(face) + count * k) for k in range(3) for face in faces]
+    )
     bpy.data.objects.remove(body)
     body = add(mesh, "Boxes")
     for number in range(3):
@@ -93,7 +95,11 @@ def test_center_and_inertia_equal_those_of_rigid_skin(scene):
     rig, body = boxes()
     shown(rig)
     for number, bone in enumerate(rig.pose.bones):
-        bone.rotation_mode, bone.rotation_euler, bone.location = "XYZ", (0.3, 0.2 * number, -0.4), (0.1, 0.2, 0.3)
+        bone.rotation_mode, bone.rotation_euler, bone.location = (
+            "XYZ",
+            (0.3, 0.2 * number, -0.4),
+            (0.1, 0.2, 0.3),
+        )
     now = weight(rig)
     bpy.context.view_layer.objects.active = body
     truth = measured(body).mass_properties
@@ -124,7 +130,9 @@ def test_held_object_counts_with_its_mass_where_it_is(scene, kind):
     spread = np.trace(own.inertia) / 2.0 * np.eye(3) - own.inertia
     assert now.parts.spreads[-1] == pytest.approx(spread, rel=1e-5, abs=1e-9)
     rig.pose.bones["spine"].rotation_euler = 0.5, 0.0, 0.0
-    assert weight(rig).parts.centers[-1] == pytest.approx(measured(stone).mass_properties.center, abs=1e-6)
+    assert weight(rig).parts.centers[-1] == pytest.approx(
+        measured(stone).mass_properties.center, abs=1e-6
+    )
     constraint.influence = 0.0
     assert weight(rig).parts.mass == pytest.approx(before.parts.mass)
 
@@ -164,7 +172,10 @@ def test_edit_mode_of_skin_and_bones_shows_no_error(scene):
 
 def test_total_mass_is_shared_by_bones_without_their_own(scene):
     rig, _body = figure()
-    rig.pose.bones["head"].body_moments.mass_from, rig.pose.bones["head"].body_moments.mass = "MASS", 5.0
+    rig.pose.bones["head"].body_moments.mass_from, rig.pose.bones["head"].body_moments.mass = (
+        "MASS",
+        5.0,
+    )
     rig.body_moments_weight.mass = 70.0
     now = shown(rig)
     assert now.parts.mass == pytest.approx(70.0, rel=1e-9)
@@ -185,7 +196,9 @@ def test_raised_root_has_no_support(scene):
 def test_ground_is_found_where_the_figure_stands(scene):
     rig, _body = figure()
     rig.location.z = 1.3
-    assert shown(rig).support is not None and rig.body_moments_weight.ground == pytest.approx(1.3, abs=1e-4)
+    assert shown(rig).support is not None and rig.body_moments_weight.ground == pytest.approx(
+        1.3, abs=1e-4
+    )
     rig.pose.bones["root"].location = 0, 0, 0.5
     assert shown(rig).support is None
 
@@ -224,7 +237,11 @@ def tower(bones=60, rings=1000, around=100):
     after = np.arange(rings - 1)[:, None] * around + (np.arange(around) + 1) % around
     sides = np.stack([first, after, after + around, first + around], axis=2).reshape(-1, 4).tolist()
     mesh = bpy.data.meshes.new("Tube")
-    mesh.from_pydata(points, [], [*sides, list(range(around))[::-1], list(range((rings - 1) * around, rings * around))])
+    mesh.from_pydata(
+        points,
+        [],
+        [*sides, list(range(around))[::-1], list(range((rings - 1) * around, rings * around))],
+    )
     body = add(mesh, "Tube")
     groups = [body.vertex_groups.new(name=bone.name) for bone in rig.data.bones]
     for ring in range(rings):
@@ -239,7 +256,10 @@ def test_hundred_thousand_vertices_are_weighed_in_a_redraw(scene):
     rig, seconds = tower(), []
     shown(rig)
     for step in range(12):
-        rig.pose.bones[30].rotation_mode, rig.pose.bones[30].rotation_euler = "XYZ", (0.01 * step, 0.0, 0.0)
+        rig.pose.bones[30].rotation_mode, rig.pose.bones[30].rotation_euler = (
+            "XYZ",
+            (0.01 * step, 0.0, 0.0),
+        )
         bpy.context.view_layer.update()
         start = time.thread_time()
         now = character.weight(rig, bpy.context.view_layer.depsgraph)

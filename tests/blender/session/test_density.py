@@ -33,7 +33,10 @@ def measure(*objects):
 
 def stored(obj):
     values = {key: obj[key] for key in properties.DESCRIPTIONS if key in obj}
-    return {key: value.to_list() if hasattr(value, "to_list") else value for key, value in values.items()}
+    return {
+        key: value.to_list() if hasattr(value, "to_list") else value
+        for key, value in values.items()
+    }
 
 
 def assert_as_measured(obj):
@@ -47,7 +50,9 @@ def assert_as_measured(obj):
         if isinstance(value, str):
             assert value == followed[key], key
         elif key != "body_error_bound":
-            assert np.linalg.norm(np.subtract(value, followed[key])) <= 1e-13 * np.linalg.norm(value), key
+            assert np.linalg.norm(np.subtract(value, followed[key])) <= 1e-13 * np.linalg.norm(
+                value
+            ), key
     for bound, least in zip(followed["body_error_bound"], again["body_error_bound"], strict=True):
         assert least * (1.0 - 1e-12) <= bound <= 2.0 * least
 
@@ -75,7 +80,11 @@ def circle():
 
 @pytest.mark.parametrize("kind", [as_set, thin, wall, wire])
 def test_density_and_given_mass_update_results_as_measured(kind):
-    obj = circle() if kind is wire else add(mesh_body(), location=(40, -3, 2), rotation=(1, 2, 3), scale=(1, 2, -3))
+    obj = (
+        circle()
+        if kind is wire
+        else add(mesh_body(), location=(40, -3, 2), rotation=(1, 2, 3), scale=(1, 2, -3))
+    )
     settings = obj.body_moments
     kind(settings)
     measure(obj)
@@ -106,7 +115,10 @@ def test_thousand_density_changes_stay_within_bound():
     now = measured(obj)
     assert reason(obj) is None
     found = np.array(obj["body_principal_moments"])
-    assert np.linalg.norm(found - now.mass_properties.principal.moments) <= 3.0 * obj["body_error_bound"][3]
+    assert (
+        np.linalg.norm(found - now.mass_properties.principal.moments)
+        <= 3.0 * obj["body_error_bound"][3]
+    )
     assert close(obj["body_mass"], now.mass_properties.mass, 1e-15)
 
 
@@ -136,7 +148,9 @@ def test_undo_brings_back_numbers_and_setting_together():
     for step, numbers, density in (("undo", before, 1000.0), ("redo", after, 2500.0)):
         assert getattr(bpy.ops.ed, step)() == {"FINISHED"}
         obj = bpy.data.objects["Body"]
-        assert stored(obj) == numbers and obj.body_moments.density == density and reason(obj) is None
+        assert (
+            stored(obj) == numbers and obj.body_moments.density == density and reason(obj) is None
+        )
 
 
 def edited(obj):
@@ -250,8 +264,12 @@ def test_linked_and_overriding_objects_are_skipped_and_named(tmp_path, reported)
     only(local, linked)
     before = stored(linked)
     assert bpy.ops.object.body_moments_set_material(material="Aluminum 6061") == {"FINISHED"}
-    assert reported.codes.count("failure") == 1 and reported.values("failure")["object"].startswith("Linked")
-    assert stored(linked) == before and local["body_density"] == local.body_moments.density != 1000.0
+    assert reported.codes.count("failure") == 1 and reported.values("failure")["object"].startswith(
+        "Linked"
+    )
+    assert (
+        stored(linked) == before and local["body_density"] == local.body_moments.density != 1000.0
+    )
     assert_as_measured(local)
 
 
@@ -261,7 +279,9 @@ def test_reference_inertia_follows_density_and_not_motion():
     assert bpy.ops.object.body_moments_store_reference() == {"FINISHED"}
     before, mark = obj["body_reference_inertia"].to_list(), obj["body_fingerprint"]
     obj.body_moments.density = 3000.0
-    assert reason(obj) is None and close(obj["body_reference_inertia"].to_list(), np.multiply(before, 3.0), 1e-9)
+    assert reason(obj) is None and close(
+        obj["body_reference_inertia"].to_list(), np.multiply(before, 3.0), 1e-9
+    )
     obj.location.x += 1.0
     assert reason(obj) == Stale.TRANSFORM
     assert_as_measured_after(obj, mark)

@@ -21,10 +21,14 @@ def test_description_is_plain_data_in_the_requested_frame(cube):
     (world,) = body_moments.describe()
     (own,) = body_moments.describe(cube, frame="object", mass=3.0)
     assert json.loads(json.dumps(world)) == world
-    assert world["verdict"] == "exact" and world["numbers"]["center_of_mass"] == pytest.approx([1.0, 2.0, 3.0])
+    assert world["verdict"] == "exact" and world["numbers"]["center_of_mass"] == pytest.approx(
+        [1.0, 2.0, 3.0]
+    )
     assert own["numbers"]["center_of_mass"] == pytest.approx([0.0, 0.0, 0.0], abs=1e-6)
     assert own["numbers"]["inertia"][0] == pytest.approx([2.0, 0.0, 0.0], abs=1e-6)
-    assert [one["code"] for one in world["findings"]] == ["density_defaulted"] and not own["findings"]
+    assert [one["code"] for one in world["findings"]] == ["density_defaulted"] and not own[
+        "findings"
+    ]
 
 
 def test_only_store_changes_the_file(cube):

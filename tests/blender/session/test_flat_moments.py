@@ -27,7 +27,10 @@ def table():
 
     group = bpy.context.scene.body_moments
     text = moments_table.as_csv(
-        moments_table.computed_moments(bpy.context.object), group.moments_of, group.moments_about, group.frame
+        moments_table.computed_moments(bpy.context.object),
+        group.moments_of,
+        group.moments_about,
+        group.frame,
     )
     assert "\r" not in text
     comment, *lines = text.splitlines()
@@ -36,7 +39,9 @@ def table():
 
 def values():
     return {
-        (int(row["p"]), int(row["q"])): tuple(float(row[key]) for key in ("moment", "rounding", "float32"))
+        (int(row["p"]), int(row["q"])): tuple(
+            float(row[key]) for key in ("moment", "rounding", "float32")
+        )
         for row in table()[1]
     }
 
@@ -82,7 +87,12 @@ def test_flat_moments_have_axes_and_origin_of_the_plane():
     foot = -axes.T @ np.array(obj.location)
     found = values()
     centroid = [2.0 * float(truth(1, 0) / truth(0, 0)), 2.0 * float(truth(0, 1) / truth(0, 0))]
-    assert np.abs(np.array([found[1, 0][0], found[0, 1][0]]) / found[0, 0][0] - (centroid - foot)).max() < 1e-5
+    assert (
+        np.abs(
+            np.array([found[1, 0][0], found[0, 1][0]]) / found[0, 0][0] - (centroid - foot)
+        ).max()
+        < 1e-5
+    )
 
 
 def test_circle_moments_are_exact_for_its_curve():
@@ -98,7 +108,9 @@ def test_circle_moments_are_exact_for_its_curve():
         exact = 0.0
         if even:
             i, j = p // 2, q // 2
-            gammas = factorial(p) * factorial(q) / (4.0 ** (i + j) * factorial(i) * factorial(j)) * np.pi
+            gammas = (
+                factorial(p) * factorial(q) / (4.0 ** (i + j) * factorial(i) * factorial(j)) * np.pi
+            )
             exact = 2.0 * gammas / (factorial(i + j) * (p + q + 2)) * 2.0 ** (p + q + 2)
         assert abs(value - exact) <= rounding + moved
         assert rounding + moved <= 1e-5 * 2.0 ** (p + q + 2)
@@ -151,15 +163,23 @@ def test_flat_invariants_are_independent_of_place_and_size():
         settings(moments_of="FLAT", moments_about="INVARIANT")
         compute(6)
         rows = table()[1]
-        found.append({row["invariant"]: complex(float(row["real"]), float(row["imaginary"])) for row in rows})
-        forms.append({row["invariant"]: float(row["rounding"]) + float(row["float32"]) for row in rows})
-    assert list(found[0])[:7] == ["φ1", "φ2", "φ3", "φ4", "φ5", "φ6", "φ7"] and "c42 c12²" in found[0]
+        found.append(
+            {row["invariant"]: complex(float(row["real"]), float(row["imaginary"])) for row in rows}
+        )
+        forms.append(
+            {row["invariant"]: float(row["rounding"]) + float(row["float32"]) for row in rows}
+        )
+    assert (
+        list(found[0])[:7] == ["φ1", "φ2", "φ3", "φ4", "φ5", "φ6", "φ7"] and "c42 c12²" in found[0]
+    )
     for other, bounds in list(zip(found, forms))[1:3]:
         for name, value in found[0].items():
             assert abs(other[name] - value) <= bounds[name] + forms[0][name] + 1e-12
     mirrored = found[3]
     assert close(mirrored["φ7"].real, -found[0]["φ7"].real, rel=1e-5)
-    assert all(close(mirrored[name].real, found[0][name].real, rel=1e-5) for name in ("φ1", "φ4", "φ6"))
+    assert all(
+        close(mirrored[name].real, found[0][name].real, rel=1e-5) for name in ("φ1", "φ4", "φ6")
+    )
     assert close(mirrored["c42 c12²"].imag, -found[0]["c42 c12²"].imag, rel=1e-4)
     settings(moments_about="NORMALIZED")
     assert close(values()[0, 0][0], 1.0, rel=1e-12)
@@ -186,5 +206,12 @@ def test_flat_moments_are_about_foot_of_reference():
     bpy.context.scene.cursor.location = (2.0, -1.0, 5.0)
     degrees, _ = moments_table.current_numbers(obj, bpy.context.scene)
     shown = {name: float(exact) for degree in degrees for name, _, exact in degree.rows}
-    for name, p, q in (("1", 0, 0), ("x", 1, 0), ("y", 0, 1), ("x²", 2, 0), ("xy", 1, 1), ("y²", 0, 2)):
+    for name, p, q in (
+        ("1", 0, 0),
+        ("x", 1, 0),
+        ("y", 0, 1),
+        ("x²", 2, 0),
+        ("xy", 1, 1),
+        ("y²", 0, 2),
+    ):
         assert close(shown[name], float(truth(p, q, (2, -1))), 1e-12), name

@@ -30,7 +30,11 @@ pytestmark = pytest.mark.usefixtures("registered", "scene")
 
 ERRORS = [TypeError("planted"), RecursionError("planted"), NotImplementedError("planted")]
 OPERATORS = {
-    **{name: run for name, run in test_unkeyed.OPERATORS.items() if name not in ("clear", "balance", "setting")},
+    **{
+        name: run
+        for name, run in test_unkeyed.OPERATORS.items()
+        if name not in ("clear", "balance", "setting")
+    },
     "section": lambda: bpy.ops.object.body_moments_measure_section(),
 }
 
@@ -96,14 +100,20 @@ def test_the_error_of_one_object_ends_no_other(name, error, monkeypatch, reporte
     assert (cause["type"], cause["error"]) == (type(error).__name__, "planted")
     assert "b: Internal error: {type}: planted ({where}). Please report it.".format(**cause) in out
     file, _, line = cause["where"].partition(":")  # what has called the planted function
-    assert (Path(body_moments.__file__).parent / file).is_file() and int(line) > 0 and not file.startswith("tests/")
+    assert (
+        (Path(body_moments.__file__).parent / file).is_file()
+        and int(line) > 0
+        and not file.startswith("tests/")
+    )
     assert "Traceback" in err and "in failing" in err
     after = [state(body) for body in bodies]
     assert after[1] == before[1]
     if name not in {"cursor", "similar", "empty"}:
         assert after[2] != before[2] and (name == "match" or after[0] != before[0])
     if name == "empty":
-        assert {one[empties.OBJECT_KEY].name for one in bpy.data.objects if empties.OBJECT_KEY in one} == {"a", "c"}
+        assert {
+            one[empties.OBJECT_KEY].name for one in bpy.data.objects if empties.OBJECT_KEY in one
+        } == {"a", "c"}
 
 
 def test_internal_error_is_kept_for_the_panel(monkeypatch):
@@ -117,7 +127,9 @@ def test_internal_error_is_kept_for_the_panel(monkeypatch):
     assert group.finding.values["error"] == "several lines"
     assert [properties.is_stored(body) for body in bodies] == [False, False, True]
     ((kind, text),) = operator.reports
-    assert kind == "WARNING" and text.startswith("Measured 1 of 3 objects. a: Internal error: TypeError")
+    assert kind == "WARNING" and text.startswith(
+        "Measured 1 of 3 objects. a: Internal error: TypeError"
+    )
     assert finished(*pressed(OBJECT_OT_body_moments_measure)) == {"FINISHED"}
     assert outcome.last() is None
 
@@ -161,12 +173,16 @@ def test_moved_object_is_restored_after_internal_error(name, monkeypatch):
 
     def failing(obj, *args):
         seen.append(obj.name)
-        if obj.name == "b" and seen.count("b") % 2 == 0:  # looked at again, to see whether its shape is the same
+        if (
+            obj.name == "b" and seen.count("b") % 2 == 0
+        ):  # looked at again, to see whether its shape is the same
             raise TypeError("planted")
         return real(obj, *args)
 
     monkeypatch.setattr(reframe, "shape", failing)
-    monkeypatch.setattr(reframe, "reframe_own_meshes", lambda *_: [])  # which reframes them together
+    monkeypatch.setattr(
+        reframe, "reframe_own_meshes", lambda *_: []
+    )  # which reframes them together
     assert OPERATORS[name]() == {"FINISHED"}
     assert seen.count("b") >= 2 and state(bodies[1]) == before
 
@@ -180,8 +196,15 @@ def test_the_command_line_goes_on_tells_it_and_exits_with_70(tmp_path, monkeypat
     (found,) = line.documents
     assert [one["name"] for one in found["objects"]] == ["a", "c"]
     (error,) = found["errors"]
-    assert error["name"] == "b" and error["reason"].startswith("Internal error: RecursionError: planted (")
+    assert error["name"] == "b" and error["reason"].startswith(
+        "Internal error: RecursionError: planted ("
+    )
     assert "Traceback" in capfd.readouterr().err
     with open(os.devnull, "w") as nowhere:
-        assert batch.main(files.in_process("measure", path, "--output", result), channel=nowhere.fileno()) == 70
+        assert (
+            batch.main(
+                files.in_process("measure", path, "--output", result), channel=nowhere.fileno()
+            )
+            == 70
+        )
     assert result.read_text().count("Internal error") == 1

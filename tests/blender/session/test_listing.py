@@ -24,7 +24,11 @@ def shown(sort_by=SortBy.NAME, name="", warnings_first=False):
     scene, layer = bpy.context.scene, bpy.context.view_layer
     listed, lines = listing(scene, layer, name, sort_by, warnings_first)
     assert sorted(lines) == list(range(len(layer.objects)))
-    names = {line: obj.name for obj, is_listed, line in zip(layer.objects, listed, lines, strict=True) if is_listed}
+    names = {
+        line: obj.name
+        for obj, is_listed, line in zip(layer.objects, listed, lines, strict=True)
+        if is_listed
+    }
     return [names[line] for line in sorted(names)]
 
 
@@ -68,7 +72,10 @@ def test_a_linked_object_of_the_same_name_has_its_own_mass(tmp_path):
     (linked,) = target.objects
     bpy.context.scene.collection.objects.link(linked)
     bpy.context.view_layer.update()
-    assert linked.name == light.name and linked["body_mass"] == heavy["body_mass"] != light["body_mass"]
+    assert (
+        linked.name == light.name
+        and linked["body_mass"] == heavy["body_mass"] != light["body_mass"]
+    )
     masses = listed_masses(bpy.context.scene, bpy.context.view_layer)
     assert masses.keys() == {obj.session_uid for obj in (light, heavy, strip, linked)}
     assert masses[linked.session_uid] == masses[heavy.session_uid] != masses[light.session_uid]
@@ -110,7 +117,9 @@ def test_the_total_of_light_bodies_is_one_of_them_all(masses):
         assert total.numbers is None
     else:
         assert close(total.numbers.mass, sum(masses), 1e-15)
-        assert close(total.numbers.center[0], (2.0 * masses[0] + 5.0 * masses[1]) / sum(masses), 1e-15)
+        assert close(
+            total.numbers.center[0], (2.0 * masses[0] + 5.0 * masses[1]) / sum(masses), 1e-15
+        )
 
 
 def test_the_table_has_a_row_for_each_object(capsys):
@@ -121,7 +130,10 @@ def test_the_table_has_a_row_for_each_object(capsys):
     assert [row["name"] for row in table] == sorted(obj.name for obj in objects)
     for row in table:
         obj = bpy.data.objects[row["name"]]
-        assert close(float(row["mass"]), obj["body_mass"], 1e-15) and row["method"] == obj["body_method"]
+        assert (
+            close(float(row["mass"]), obj["body_mass"], 1e-15)
+            and row["method"] == obj["body_method"]
+        )
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".json", ".jsonl", ".CSV"])
@@ -135,7 +147,9 @@ def test_the_file_has_the_numbers_and_is_replaced_as_a_whole(suffix, tmp_path, r
         assert len(list(csv.DictReader(io.StringIO(text)))) == 3
     else:
         document = json.loads(text)
-        assert [entry["name"] for entry in document["objects"]] == sorted(obj.name for obj in objects)
+        assert [entry["name"] for entry in document["objects"]] == sorted(
+            obj.name for obj in objects
+        )
         assert close(document["total"]["mass"], sum(obj["body_mass"] for obj in objects), 1e-14)
         assert document["total"]["warnings"] and document["file"] is None  # it was never saved
     assert "3" in reported.texts[-1] and path.name in reported.texts[-1]

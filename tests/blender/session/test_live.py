@@ -59,7 +59,9 @@ def assert_current(obj, inertia=True, rel=1e-6):
     reach = np.linalg.norm(body.center) + np.linalg.norm(body.radii_of_gyration)
     assert np.linalg.norm(found.center - body.center) <= rel * reach
     if inertia:
-        assert np.abs(found.inertia - body.inertia).max() <= 10.0 * rel * body.principal.moments.max()
+        assert (
+            np.abs(found.inertia - body.inertia).max() <= 10.0 * rel * body.principal.moments.max()
+        )
         assert close(found.moments, body.principal.moments, 10.0 * rel)
 
 
@@ -91,7 +93,10 @@ def test_an_object_that_moves_is_not_measured(unit, given_mass, monkeypatch):
             obj.matrix_world = matrix @ obj.matrix_world
             update()
             assert_current(obj)
-            assert drawn(obj, bpy.context.scene).verdict == Verdict.EXACT and following.lag(obj) == following.Lag.NONE
+            assert (
+                drawn(obj, bpy.context.scene).verdict == Verdict.EXACT
+                and following.lag(obj) == following.Lag.NONE
+            )
             assert tick(patch) is None
         obj.scale = (0.5, -3.0, 2.0)
         update()
@@ -139,11 +144,20 @@ def test_update_beyond_budget_is_late_and_marked(monkeypatch):
     start(*objects)
     following.followed.get(objects[0]).pass_seconds = 10.0
     bpy.context.scene.frame_set(5)
-    assert [following.lag(obj) for obj in objects] == [following.Lag.BEHIND, following.Lag.FIRST_ORDER]
-    assert [drawn(obj, bpy.context.scene).verdict for obj in objects] == [Verdict.OUT_OF_DATE, Verdict.EXACT]
+    assert [following.lag(obj) for obj in objects] == [
+        following.Lag.BEHIND,
+        following.Lag.FIRST_ORDER,
+    ]
+    assert [drawn(obj, bpy.context.scene).verdict for obj in objects] == [
+        Verdict.OUT_OF_DATE,
+        Verdict.EXACT,
+    ]
     for obj in objects:
         following.followed.get(obj).result = following.LiveResult(
-            following.current_numbers(obj).measurement, None, 5.0, following.current_numbers(obj).settings
+            following.current_numbers(obj).measurement,
+            None,
+            5.0,
+            following.current_numbers(obj).settings,
         )
     assert tick(monkeypatch, idle=False) == live.POLL and following.followed[objects[0]].is_pending
     assert tick(monkeypatch) is None
@@ -292,7 +306,12 @@ def test_in_pose_mode_the_armature_stands_for_its_meshes(monkeypatch):
     bpy.ops.object.mode_set(mode="POSE")
     assert armatures.subjects([armature]) == meshes
     assert bpy.ops.object.body_moments_live() == {"FINISHED"}
-    assert [following.is_live(obj) for obj in (*meshes, other, armature)] == [True, True, False, False]
+    assert [following.is_live(obj) for obj in (*meshes, other, armature)] == [
+        True,
+        True,
+        False,
+        False,
+    ]
     with monkeypatch.context() as patch:
         forbid_measuring(patch)
         armature.pose.bones["Bone"].location = (0.0, 1.0, 0.0)
@@ -300,7 +319,9 @@ def test_in_pose_mode_the_armature_stands_for_its_meshes(monkeypatch):
         parts = [measured(mesh) for mesh in meshes]
         shown = displayed(armature, bpy.context.scene).world
         mass = sum(part.mass_properties.mass for part in parts)
-        center = sum(part.mass_properties.mass * part.mass_properties.center for part in parts) / mass
+        center = (
+            sum(part.mass_properties.mass * part.mass_properties.center for part in parts) / mass
+        )
         assert isclose(shown.mass, mass, rel_tol=1e-6)
         assert np.linalg.norm(shown.center - center) <= 1e-6 * np.linalg.norm(center)
         assert drawn(armature, bpy.context.scene).world.center == shown.center
@@ -338,7 +359,9 @@ def test_scaled_wall_is_stale_until_measured(kind, monkeypatch):
     assert measured_so != Verdict.OUT_OF_DATE
     obj.scale.y = 1.7
     update()
-    assert drawn(obj, bpy.context.scene).verdict == (Verdict.OUT_OF_DATE if kind == "SHELL" else measured_so)
+    assert drawn(obj, bpy.context.scene).verdict == (
+        Verdict.OUT_OF_DATE if kind == "SHELL" else measured_so
+    )
     tick(monkeypatch)
     assert_current(obj)
     obj.rotation_euler = (1.0, 2.0, 3.0)
@@ -355,4 +378,6 @@ def test_stretched_grid_keeps_its_given_mass(tmp_path):
     grid.scale.x = 2.0
     update()
     shown = displayed(grid, bpy.context.scene)
-    assert shown.live is not None and close([shown.world.mass, shown.world.center[0]], [5.0, 3.0], 1e-6)
+    assert shown.live is not None and close(
+        [shown.world.mass, shown.world.center[0]], [5.0, 3.0], 1e-6
+    )

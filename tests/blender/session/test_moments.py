@@ -50,12 +50,17 @@ def rows():
 
     group = bpy.context.scene.body_moments
     text = moments_table.as_csv(
-        moments_table.computed_moments(bpy.context.object), group.moments_of, group.moments_about, group.frame
+        moments_table.computed_moments(bpy.context.object),
+        group.moments_of,
+        group.moments_about,
+        group.frame,
     )
     assert text.startswith("# ") and "\r" not in text
     _, *lines = text.splitlines()
     return {
-        tuple(int(row[axis]) for axis in "pqr"): tuple(float(row[key]) for key in ("moment", "rounding", "float32"))
+        tuple(int(row[axis]) for axis in "pqr"): tuple(
+            float(row[key]) for key in ("moment", "rounding", "float32")
+        )
         for row in csv.DictReader(lines)
     }
 

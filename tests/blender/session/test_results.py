@@ -21,7 +21,9 @@ pytestmark = pytest.mark.usefixtures("registered")
 
 
 def part(mass, center, volume, area):
-    return SimpleNamespace(volume=volume, area=area, body=SimpleNamespace(mass=mass, center=np.array(center)))
+    return SimpleNamespace(
+        volume=volume, area=area, body=SimpleNamespace(mass=mass, center=np.array(center))
+    )
 
 
 def measure(*objects):
@@ -67,7 +69,10 @@ def test_total_names_missing_stale_and_doubtful_objects(scene):
 
 def test_assembly_counts_without_its_selected_parts(scene):
     root = add(None, "a root")
-    parts = [box(collection("Parts " + name), (1, 2, 3), (5 * i, 0, 0), name=name) for i, name in enumerate("bc")]
+    parts = [
+        box(collection("Parts " + name), (1, 2, 3), (5 * i, 0, 0), name=name)
+        for i, name in enumerate("bc")
+    ]
     for part in parts:
         part.parent = root
     bpy.context.view_layer.update()
@@ -105,7 +110,10 @@ def test_posed_armature_has_sum_of_measured_meshes(unit, scene):
         for name in ("volume", "area", "mass"):
             assert close(getattr(shown, name), sum(getattr(part, name) for part in parts), 1e-12)
     scene.body_moments.frame = "OBJECT"
-    own, whole = arrays(displayed.displayed(armature, scene).in_frame(scene.body_moments.frame)), arrays(shown)
+    own, whole = (
+        arrays(displayed.displayed(armature, scene).in_frame(scene.body_moments.frame)),
+        arrays(shown),
+    )
     place = np.array(armature.matrix_world, np.float64)
     assert close(place[:3, :3] @ own.center + unit * place[:3, 3], whole.center, 1e-6)
     truth = place[:3, :3].T @ whole.inertia @ place[:3, :3]

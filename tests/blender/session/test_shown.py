@@ -41,13 +41,19 @@ def test_moved_object_is_drawn_in_place_at_once(unit):
     measure(obj)
     assert_shown(obj)
     assert drawn(obj, bpy.context.scene) is drawn(obj, bpy.context.scene)
-    obj.matrix_world = Matrix.Translation((-40, 7, 1)) @ Matrix.Rotation(2.2, 4, (1, 2, -1)) @ obj.matrix_world
+    obj.matrix_world = (
+        Matrix.Translation((-40, 7, 1)) @ Matrix.Rotation(2.2, 4, (1, 2, -1)) @ obj.matrix_world
+    )
     bpy.context.view_layer.update()
     assert_shown(obj)
 
 
 def test_shown_verdict_follows_repair_doubt_and_edit():
-    exact, open_strip, flipped = add(mesh_body()), add(strip_mesh(), "Strip"), add(mesh_body("Flipped"), "Flipped")
+    exact, open_strip, flipped = (
+        add(mesh_body()),
+        add(strip_mesh(), "Strip"),
+        add(mesh_body("Flipped"), "Flipped"),
+    )
     flipped.data.polygons[3].flip()
     flipped.data.update()
     measure(exact, open_strip, flipped)

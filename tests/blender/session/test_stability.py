@@ -27,7 +27,9 @@ def test_faults_are_drawn_in_place_for_instances_too():
     only(member, empty)
     bpy.ops.object.body_moments_measure()
     own, others = faults.of_object(member), faults.of_object(empty)
-    assert len(own.triangles) == len(others.triangles) > 0 and len(own.edges) == len(others.edges) > 0
+    assert (
+        len(own.triangles) == len(others.triangles) > 0 and len(own.edges) == len(others.edges) > 0
+    )
     place = np.array(member.matrix_world, np.float64)
     for name in ("triangles", "edges"):
         of_member, of_empty = getattr(own, name), getattr(others, name)

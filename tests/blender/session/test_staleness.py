@@ -50,7 +50,11 @@ def instancer(name, member):
     bpy.context.scene.collection.children.link(collection)
     collection.objects.link(member)
     empty = link(bpy.data.objects.new(name, None))
-    empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", collection, (0, 20, 0)
+    empty.instance_type, empty.instance_collection, empty.location = (
+        "COLLECTION",
+        collection,
+        (0, 20, 0),
+    )
     return empty
 
 
@@ -110,9 +114,9 @@ def test_reevaluation_without_change_keeps_results_current():
     for objects in evaluated_anew(obj):
         update()
         assert [reason(one) for one in objects] == [None] * len(objects)
-        assert [staleness.stale_reason(one, bpy.context.scene, stamps.of_symmetry) for one in objects] == [None] * len(
-            objects
-        )
+        assert [
+            staleness.stale_reason(one, bpy.context.scene, stamps.of_symmetry) for one in objects
+        ] == [None] * len(objects)
         if len(objects) == 2:
             edit(objects[1]) if objects[1].data != obj.data else bpy.data.objects.remove(objects[1])
     assert reason(bpy.data.objects["Body.001"]) == Stale.GEOMETRY
@@ -195,7 +199,9 @@ def test_a_density_that_lies_on_the_mesh_counts_as_its_geometry(source):
     obj = add(mesh_body())
     obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
     obj.body_moments.density_from, obj.body_moments.density_attribute = source, "rho"
-    obj.data.attributes.new("rho", "FLOAT", "POINT").data.foreach_set("value", [1.0] * len(obj.data.vertices))
+    obj.data.attributes.new("rho", "FLOAT", "POINT").data.foreach_set(
+        "value", [1.0] * len(obj.data.vertices)
+    )
     for density in (1000.0, 2000.0):
         material = bpy.data.materials.new("Of {:g}".format(density))
         material.body_moments.density = density
@@ -233,7 +239,10 @@ def test_measuring_edited_shape_keeps_symmetry_stale():
     measure(obj)
     assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
     bpy.ops.object.body_moments_find_symmetry()
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None and reason(obj) is None
+    assert (
+        staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
+        and reason(obj) is None
+    )
 
 
 @pytest.mark.parametrize("nested", [False, True])
@@ -284,7 +293,12 @@ def test_emitter_is_stale_after_edit_of_particle_object():
     emitter, seed = add(mesh_body(), "Emitter"), add(mesh_body(), "Seed")
     emitter.modifiers.new("Particles", "PARTICLE_SYSTEM")
     settings = emitter.particle_systems[0].settings
-    settings.type, settings.render_type, settings.count, settings.instance_object = "HAIR", "OBJECT", 3, seed
+    settings.type, settings.render_type, settings.count, settings.instance_object = (
+        "HAIR",
+        "OBJECT",
+        3,
+        seed,
+    )
     measure(emitter)
     edit(seed)
     assert reason(emitter) == Stale.GEOMETRY
@@ -352,7 +366,9 @@ def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
     update()
     shown()
     text = text_report.text(text_report.stored_document(bpy.context, [obj, good]))
-    assert (str(finding("no_stored_results")) in text) == (key in ("body_mass", "body_volume", "body_inertia"))
+    assert (str(finding("no_stored_results")) in text) == (
+        key in ("body_mass", "body_volume", "body_inertia")
+    )
 
 
 def test_symmetry_and_moments_of_instancer_become_stale():
@@ -373,7 +389,9 @@ def test_symmetry_and_moments_of_instancer_become_stale():
     )
     edit(member)
     assert staleness.stale_reason(shown, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
-    assert staleness.stale_reason(shown, bpy.context.scene, moments_table.stamp_of) == Stale.GEOMETRY
+    assert (
+        staleness.stale_reason(shown, bpy.context.scene, moments_table.stamp_of) == Stale.GEOMETRY
+    )
 
 
 def test_becoming_a_rigid_body_is_no_change_of_the_shape():

@@ -36,7 +36,9 @@ OPERATORS = {
     "empty": lambda: bpy.ops.object.body_moments_add_empty(),
     "cursor": lambda: bpy.ops.view3d.body_moments_cursor_to_center(),
     "rigid body": lambda: bpy.ops.object.body_moments_set_rigid_body_mass(add=True),
-    "balance": lambda: bpy.ops.object.body_moments_sculpt_balance(target="POINT", point=(1.3, 1.0, 0.36)),
+    "balance": lambda: bpy.ops.object.body_moments_sculpt_balance(
+        target="POINT", point=(1.3, 1.0, 0.36)
+    ),
     "symmetry": lambda: bpy.ops.object.body_moments_find_symmetry(),
     "similar": lambda: bpy.ops.object.body_moments_find_similar(),
     "setting": lambda: setattr(bpy.context.object.body_moments, "density", 500.0),
@@ -92,7 +94,9 @@ def is_right(obj):
     return (
         before
         or np.isclose(obj["body_mass"], now.mass_properties.mass, rtol=1e-6, atol=0)
-        and np.allclose(obj["body_center_of_mass"], now.in_object_frame().center, rtol=1e-5, atol=1e-6)
+        and np.allclose(
+            obj["body_center_of_mass"], now.in_object_frame().center, rtol=1e-5, atol=1e-6
+        )
     )
 
 
@@ -115,14 +119,23 @@ def test_drivers_follow_storing_without_evaluating_geometry():
     obj = add(mesh_body())
     obj["own"] = 0.0
     other = add(None, "Other", select=False)
-    user = add(mesh_body("User"), "User", select=False)  # shown anew with whatever moves its operand
+    user = add(
+        mesh_body("User"), "User", select=False
+    )  # shown anew with whatever moves its operand
     user.modifiers.new("Boolean", "BOOLEAN").object = obj
     child = add(mesh_body("Child"), "Child", select=False)
     child.parent = obj
     only(obj)
     bpy.ops.object.body_moments_measure()
-    for owner, path, source in ((other, "location", '["body_mass"]'), (obj, '["own"]', '["body_center_of_mass"][1]')):
-        driver = owner.driver_add(path, 0).driver if path == "location" else owner.driver_add(path).driver
+    for owner, path, source in (
+        (other, "location", '["body_mass"]'),
+        (obj, '["own"]', '["body_center_of_mass"][1]'),
+    ):
+        driver = (
+            owner.driver_add(path, 0).driver
+            if path == "location"
+            else owner.driver_add(path).driver
+        )
         variable = driver.variables.new()
         driver.expression = variable.name
         variable.targets[0].id, variable.targets[0].data_path = obj, source
@@ -131,7 +144,9 @@ def test_drivers_follow_storing_without_evaluating_geometry():
     told = []
     bpy.app.handlers.depsgraph_update_post.append(
         lambda _scene, graph: told.extend(
-            one.id.name for one in graph.updates if one.is_updated_geometry or one.is_updated_transform
+            one.id.name
+            for one in graph.updates
+            if one.is_updated_geometry or one.is_updated_transform
         )
     )
     try:
@@ -165,13 +180,21 @@ def test_live_keeps_unkeyed_values_and_stops(monkeypatch):
     live._tick()
     bpy.context.view_layer.update()
     assert obj.scale.x == 2.0 and not following.followed[obj].is_pending
-    assert following.current_numbers(obj).measurement.volume == pytest.approx(obj["body_volume"], rel=1e-9)
-    assert following.current_numbers(obj).measurement.volume == pytest.approx(measured(obj).volume, rel=1e-9)
+    assert following.current_numbers(obj).measurement.volume == pytest.approx(
+        obj["body_volume"], rel=1e-9
+    )
+    assert following.current_numbers(obj).measurement.volume == pytest.approx(
+        measured(obj).volume, rel=1e-9
+    )
 
 
 def test_wall_slider_keeps_unkeyed_values():
     obj = keyed("rotation")
-    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.01
+    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = (
+        "SHELL",
+        "INWARD",
+        0.01,
+    )
     change(obj, "rotation", CHANGED)
     only(obj)
     bpy.ops.object.body_moments_measure()
@@ -205,7 +228,9 @@ def test_voxel_sampling_keeps_unkeyed_values_and_frame(monkeypatch, frame, subfr
     finally:
         bpy.app.handlers.frame_change_post.pop()
     bpy.context.view_layer.update()
-    assert fog.modifiers[0].density == 2.0 and cube.modifiers["Solidify"].thickness == np.float32(0.02)
+    assert fog.modifiers[0].density == 2.0 and cube.modifiers["Solidify"].thickness == np.float32(
+        0.02
+    )
     assert (bpy.context.scene.frame_current, bpy.context.scene.frame_subframe) == (frame, subframe)
     assert cube.scale.x == pytest.approx(2.0 + (frame + subframe) / 10.0, rel=1e-6)
     fog.modifiers[0].density = 1.0

@@ -15,18 +15,31 @@ OTHERS = {"STRING": "900 + 2*y", "FLOAT": 0.7, "INT": 3, "BOOLEAN": True}
 def changes(settings):
     """Each setting with another value."""
     for prop in settings.bl_rna.properties:
-        if prop.identifier in ("rna_type", "name") or prop.identifier.startswith("density_") and prop.type == "FLOAT":
+        if (
+            prop.identifier in ("rna_type", "name")
+            or prop.identifier.startswith("density_")
+            and prop.type == "FLOAT"
+        ):
             continue
         if prop.type == "ENUM":
             now = getattr(settings, prop.identifier)
-            yield prop.identifier, next(item.identifier for item in prop.enum_items if item.identifier != now)
+            yield (
+                prop.identifier,
+                next(item.identifier for item in prop.enum_items if item.identifier != now),
+            )
         elif prop.type in OTHERS:
             value = OTHERS[prop.type]
-            yield prop.identifier, [value] * prop.array_length if getattr(prop, "is_array", False) else value
+            yield (
+                prop.identifier,
+                [value] * prop.array_length if getattr(prop, "is_array", False) else value,
+            )
 
 
 def test_copied_settings_keep_set_and_unset_values():
-    source, target = add(mesh_body(), "Source").body_moments, add(mesh_body(), "Target").body_moments
+    source, target = (
+        add(mesh_body(), "Source").body_moments,
+        add(mesh_body(), "Target").body_moments,
+    )
     assert not properties.copy_settings(source, target) and not target.is_property_set("density")
     source.density = source.density  # set, to what it is by default
     assert not properties.copy_settings(source, target) and target.is_property_set("density")
@@ -34,6 +47,8 @@ def test_copied_settings_keep_set_and_unset_values():
         if name in properties.COPIED_PROPERTIES:
             setattr(source, name, other)
             assert properties.copy_settings(source, target), name
-            assert properties._comparable(getattr(target, name)) == properties._comparable(getattr(source, name))
+            assert properties._comparable(getattr(target, name)) == properties._comparable(
+                getattr(source, name)
+            )
             assert not properties.copy_settings(source, target), name
     assert {*GIVEN_PROPERTIES} < {*properties.COPIED_PROPERTIES}

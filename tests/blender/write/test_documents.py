@@ -58,7 +58,11 @@ def test_page_row_has_picture_or_inertia_box(scene):
         assert shown(thumbnail=wrong) == (0, 1)
     for name in ("mass", "principal_moments", "principal_axes"):
         assert shown(thumbnail=None, **{name: None}) == (0, 0)
-    assert shown(thumbnail=None, mass=0.0) == shown(thumbnail=None, principal_moments=[1.0, None, 2.0]) == (0, 0)
+    assert (
+        shown(thumbnail=None, mass=0.0)
+        == shown(thumbnail=None, principal_moments=[1.0, None, 2.0])
+        == (0, 0)
+    )
     assert shown(thumbnail=None, principal_moments=[0.0, 0.0, 0.0]) == (0, 1)
 
 
@@ -71,7 +75,12 @@ def test_a_section_that_somebody_else_has_stored_is_none(scene):
     kept = beam[section.KEY].to_dict()
     assert section.stored(beam) is not None
     for name, length in section.LENGTHS.items():
-        for wrong in ([0.0] * (length + 1), [0.0] * (length - 1) if length > 1 else ["x"], "x" * length, 5.0):
+        for wrong in (
+            [0.0] * (length + 1),
+            [0.0] * (length - 1) if length > 1 else ["x"],
+            "x" * length,
+            5.0,
+        ):
             beam[section.KEY] = {**kept, name: wrong}
             assert section.stored(beam) is None, (name, wrong)
         beam[section.KEY] = {one: value for one, value in kept.items() if one != name}

@@ -69,7 +69,9 @@ def test_reader_gives_plurals_the_last_form(tmp_path):
     forms = ("one", "few", "many")
     for used in (forms[:1], forms):
         lines = [f'msgstr[{index}] "{form}"' for index, form in enumerate(used)]
-        path.write_text("\n".join(['msgid "edge"', 'msgid_plural "edges"', *lines]), encoding="utf-8")
+        path.write_text(
+            "\n".join(['msgid "edge"', 'msgid_plural "edges"', *lines]), encoding="utf-8"
+        )
         assert list(read_po(path)) == [(None, "edge", used[0]), (None, "edges", used[-1])]
 
 
@@ -80,12 +82,17 @@ def test_file_passes_msgfmt_and_reads_alike(path, tmp_path):
         pytest.skip("needs msgfmt")
     output = tmp_path / "messages.mo"
     done = subprocess.run(
-        [msgfmt, "--check", f"--output-file={output}", str(path)], capture_output=True, encoding="utf-8"
+        [msgfmt, "--check", f"--output-file={output}", str(path)],
+        capture_output=True,
+        encoding="utf-8",
     )
     assert done.returncode == 0, done.stderr
     with output.open("rb") as opened:
         catalog = gettext.GNUTranslations(opened)
-    read = [(english, translation, catalog.gettext(english)) for _, english, translation in read_po(path)]
+    read = [
+        (english, translation, catalog.gettext(english))
+        for _, english, translation in read_po(path)
+    ]
     # A plural is not a key of the catalog, which returns it as it is.
     assert not [entry for entry in read if entry[2] not in entry[:2]]
     assert sum(entry[1] == entry[2] for entry in read) > len(read) / 2
@@ -95,9 +102,15 @@ def test_file_passes_msgfmt_and_reads_alike(path, tmp_path):
 def test_file_has_every_plural_form_of_its_language(path):
     header, *blocks = path.read_text(encoding="utf-8").split("\n\n")
     forms = int(re.search(r"nplurals=(\d)", header)[1])
-    plurals = [block for block in blocks if "\nmsgid_plural " in block and not block.startswith("#~")]
+    plurals = [
+        block for block in blocks if "\nmsgid_plural " in block and not block.startswith("#~")
+    ]
     assert plurals
-    assert not [block for block in plurals if len(re.findall(r"^msgstr\[\d\] ", block, re.MULTILINE)) != forms]
+    assert not [
+        block
+        for block in plurals
+        if len(re.findall(r"^msgstr\[\d\] ", block, re.MULTILINE)) != forms
+    ]
 
 
 @pytest.mark.parametrize("path", FILES)
@@ -115,15 +128,21 @@ def test_translation_keeps_placeholders_and_full_stop(path):
 def source_texts():
     """The strings of the product's source."""
     trees = [ast.parse(path.read_text(encoding="utf-8")) for path in MODULES.values()]
-    constants = (node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Constant))
+    constants = (
+        node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Constant)
+    )
     return {constant.value for constant in constants if isinstance(constant.value, str)}
 
 
 @pytest.mark.parametrize("path", FILES)
 def test_source_still_has_every_translated_text(path, source_texts):
     # Blender is given some texts whose {:s} is filled: "Density in {:s}", in each unit.
-    templates = [re.escape(text).replace(r"\{:s\}", ".+") for text in source_texts if "{:s}" in text]
-    filled = re.compile("|".join(template for template in templates if re.search("[a-z]{3}", template)))
+    templates = [
+        re.escape(text).replace(r"\{:s\}", ".+") for text in source_texts if "{:s}" in text
+    ]
+    filled = re.compile(
+        "|".join(template for template in templates if re.search("[a-z]{3}", template))
+    )
     stale = [
         english
         for _, english, _ in read_po(path)

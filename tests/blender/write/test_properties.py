@@ -32,8 +32,15 @@ def test_the_tensor_is_stored_in_one_and_in_two_rows():
     "text",
     [
         *("", "nonsense", "null", "3", "{}", "[1]", '{"code": "no_faces"}', "[" * 100_000),
-        *('[{"code": "no_faces"}]', '[{"code": "no_faces", "values": 1}]', '[{"code": 1, "values": {}}]'),
-        *('[{"code": "of_another_version", "values": {}}]', '[{"code": "holes_capped", "values": {}}]'),
+        *(
+            '[{"code": "no_faces"}]',
+            '[{"code": "no_faces", "values": 1}]',
+            '[{"code": 1, "values": {}}]',
+        ),
+        *(
+            '[{"code": "of_another_version", "values": {}}]',
+            '[{"code": "holes_capped", "values": {}}]',
+        ),
         '[{"code": "no_faces", "values": {"sources": 3}}]',
         '[{"code": "no_faces", "values": {}, "elements": 3}]',
         '[{"code": "hidden_object_measured", "values": {"cause": {"code": "hidden_object_measured", "values": {}}}}]',

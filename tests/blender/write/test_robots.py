@@ -19,7 +19,11 @@ from tests.blender.write.test_documents import of_box
 
 def with_least(mass, moment):
     """An inertial of this mass and this least moment."""
-    return replace(of_box(1.0, (1.0, 2.0, 4.0)), mass=mass, moments=np.array([moment, 2.0 * moment, 3.0 * moment]))
+    return replace(
+        of_box(1.0, (1.0, 2.0, 4.0)),
+        mass=mass,
+        moments=np.array([moment, 2.0 * moment, 3.0 * moment]),
+    )
 
 
 def test_too_small_mujoco_inertials_are_named():
@@ -73,11 +77,15 @@ def test_rounded_largest_moment_is_within_sum_of_others():
 
 def test_names_that_become_one_are_numbered():
     names = ["a b", "a-b", "a_b", "a_b_2", "c"]
-    assert text.unique_names(names, usd.identifier) == dict(zip(names, ["a_b", "a_b_2", "a_b_3", "a_b_2_2", "c"]))
+    assert text.unique_names(names, usd.identifier) == dict(
+        zip(names, ["a_b", "a_b_2", "a_b_3", "a_b_2_2", "c"])
+    )
     assert text.unique_names(["a", "b"], str, ["a", "a_2"]) == {"a": "a_3", "b": "b"}
     files = {("Arm", 0): "arm.stl", ("ARM", 0): "arm_2.stl", ("äb", 0): "_b.stl", ("", 0): "_.stl"}
     files |= {("Arm", 2): "arm_collider_2.stl", ("arm_collider_2", 0): "arm_collider_2_2.stl"}
-    assert stl.mesh_files(files, "My Robot") == {name: "meshes/my_robot/" + file for name, file in files.items()}
+    assert stl.mesh_files(files, "My Robot") == {
+        name: "meshes/my_robot/" + file for name, file in files.items()
+    }
 
 
 GLB = struct.pack("<4s2I", b"glTF", 2, 32)
@@ -107,7 +115,10 @@ def test_binary_gltf_has_aligned_chunks_and_keeps_others(length):
     other = struct.pack("<II", 8, 0x004E4942) + b"12345678"
     data = gltf.to_glb('{"a": 1}')
     data = struct.pack("<III", 0x46546C67, 2, len(data) + len(other)) + data[12:] + other
-    for made, rest in ((gltf.replace_json(data, document), other), (gltf.to_glb(json.dumps(document)), b"")):
+    for made, rest in (
+        (gltf.replace_json(data, document), other),
+        (gltf.to_glb(json.dumps(document)), b""),
+    ):
         magic, version, total, size, kind = struct.unpack_from("<IIIII", made)
         assert (magic, version, total, kind) == (0x46546C67, 2, len(made), 0x4E4F534A)
         text = made[20 : 20 + size]

@@ -23,7 +23,9 @@ def stored(*objects):
     depsgraph = bpy.context.evaluated_depsgraph_get()
     for obj in objects:
         store(obj, measure_object(obj, depsgraph))
-    return text_report.text(text_report.stored_document(bpy.context, list(bpy.context.scene.objects)))
+    return text_report.text(
+        text_report.stored_document(bpy.context, list(bpy.context.scene.objects))
+    )
 
 
 def line(text, label, number=0):
@@ -45,7 +47,10 @@ def test_report_of_typical_file_is_as_reviewed(kept):
     files.add_box("Box").body_moments.density = 500.0
     bpy.ops.mesh.primitive_plane_add(size=2.0)
     lines = text_report.text(document()).splitlines()
-    kept("report.txt", "\n".join(line for line in lines if "at most" not in line and "float32" not in line))
+    kept(
+        "report.txt",
+        "\n".join(line for line in lines if "at most" not in line and "float32" not in line),
+    )
 
 
 @pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])

@@ -46,14 +46,20 @@ class Languages:
 @pytest.fixture
 def languages(registered, monkeypatch):
     stand_in = Languages()
-    monkeypatch.setattr(translations, "bpy", SimpleNamespace(app=SimpleNamespace(translations=stand_in)))
+    monkeypatch.setattr(
+        translations, "bpy", SimpleNamespace(app=SimpleNamespace(translations=stand_in))
+    )
     return stand_in
 
 
 @pytest.mark.usefixtures("registered")
 def test_every_text_has_every_context_of_a_lookup():
     german = translations.read_translations("de_DE")
-    assert german["*", "Principal Axes"] == german["Operator", "Principal Axes"] == "Hauptträgheitsachsen"
+    assert (
+        german["*", "Principal Axes"]
+        == german["Operator", "Principal Axes"]
+        == "Hauptträgheitsachsen"
+    )
     contexts = {context for context, _ in german}
     for group in bpy.types.PropertyGroup.__subclasses__():
         if group.__name__.startswith("BodyMoments"):
@@ -65,7 +71,11 @@ def test_context_of_a_file_keeps_its_text_to_itself(tmp_path, monkeypatch):
     (tmp_path / "pt_BR.po").write_text(text, encoding="utf-8")
     monkeypatch.setattr(translations, "FOLDER", tmp_path)
     texts = translations.read_translations("pt_BR")
-    assert texts == {("*", "Order"): "Ordnung", ("Operator", "Order"): "Ordnen", ("Body Moments", "Order"): "Ordnung"}
+    assert texts == {
+        ("*", "Order"): "Ordnung",
+        ("Operator", "Order"): "Ordnen",
+        ("Body Moments", "Order"): "Ordnung",
+    }
     assert not translations.read_translations("pt_PT")
 
 

@@ -22,7 +22,9 @@ from body_moments.tests.core.nurbs.test_flat_faces import arcs, polygon
 
 BALL = 4.0 / 3.0 * np.pi
 DONUT = 2.0 * np.pi**2 * 0.75 * 0.25**2
-TURN = np.array([[0.0, -1.0, 0.0, 5.0], [0.0, 0.0, -1.0, -3.0], [1.0, 0.0, 0.0, 2.0], [0.0, 0.0, 0.0, 1.0]])
+TURN = np.array(
+    [[0.0, -1.0, 0.0, 5.0], [0.0, 0.0, -1.0, -3.0], [1.0, 0.0, 0.0, 2.0], [0.0, 0.0, 0.0, 1.0]]
+)
 
 
 def volume(file, number=0):
@@ -71,7 +73,9 @@ def test_a_polynomial_body_to_the_last_digit(tmp_path):
     for index, exponents in enumerate([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 0, 0)]):
         truth = float(sum(flux_moment(patch, exponents) for patch in patches))
         moved = found.about_point(np.zeros(3))
-        assert abs(moved.raw[index] - truth) <= 1e-14 * abs(float(flux_moment(patches[0], (0, 0, 0))))
+        assert abs(moved.raw[index] - truth) <= 1e-14 * abs(
+            float(flux_moment(patches[0], (0, 0, 0)))
+        )
 
 
 @pytest.mark.parametrize(
@@ -85,7 +89,9 @@ def test_units_and_the_model_scale(tmp_path, flag, name):
 
 
 def test_transformations_of_transformations_mirrors_and_shears(tmp_path):
-    shear = np.array([[1.0, 0.5, 0.0, 1.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, -3.0, 0.0], [0, 0, 0, 1.0]])
+    shear = np.array(
+        [[1.0, 0.5, 0.0, 1.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, -3.0, 0.0], [0, 0, 0, 1.0]]
+    )
     file = IgesFile()
     outer = file.transformation(TURN)
     inner = file.transformation(shear, matrix=outer)
@@ -115,7 +121,9 @@ def trimmed(file, curves, patch=None, outer=1, holes=()):
     patch = patch or unrolled(sphere())
     base = file.surface(patch, status="00010000")
     pieces = [file.add(kind, fields, status="00010500") for kind, fields in curves]
-    curve = pieces[0] if len(pieces) == 1 else file.add(102, [len(pieces), *pieces], status="00010500")
+    curve = (
+        pieces[0] if len(pieces) == 1 else file.add(102, [len(pieces), *pieces], status="00010500")
+    )
     boundary = file.add(142, [0, base, curve, 0, 1], status="00010000")
     return file.add(144, [base, outer, len(holes), boundary if outer else 0, *holes], label="TRIM")
 
@@ -126,7 +134,9 @@ def line(a, b):
 
 def polyline(*corners, degree=1):
     knots = (
-        [0.0] * degree + [float(i) for i in range(len(corners) - degree + 1)] + [float(len(corners) - degree)] * degree
+        [0.0] * degree
+        + [float(i) for i in range(len(corners) - degree + 1)]
+        + [float(len(corners) - degree)] * degree
     )
     points = [value for x, y in corners for value in (float(x), float(y), 0.0)]
     head = [len(corners) - 1, degree, 1, 0, 1, 0]
@@ -188,11 +198,14 @@ def test_trimming_boundary_is_refused_by_name(tmp_path, curves):
     assert (cause["code"], cause["values"]["names"]) == ("surface_trimmed", ["TRIM"])
     file.surface(unrolled(torus()).transform(np.diag([1, 1, 1, 1]) + np.eye(4, k=3) * 9))
     read = read_surfaces(file.write(tmp_path / "a.igs"))
-    assert refused(read) == {"surface_trimmed": ["TRIM"]} and close(volume(read).total, DONUT, 1e-14)
+    assert refused(read) == {"surface_trimmed": ["TRIM"]} and close(
+        volume(read).total, DONUT, 1e-14
+    )
 
 
 PLATE = Patch(
-    (clamped_space(2, (), -3.0, 3.0),) * 2, np.array([[(x, y, 0.0) for y in (-3, 3)] for x in (-3, 3)], float)
+    (clamped_space(2, (), -3.0, 3.0),) * 2,
+    np.array([[(x, y, 0.0) for y in (-3, 3)] for x in (-3, 3)], float),
 )
 
 
@@ -202,7 +215,18 @@ def chain(file, curves):
     for curve in curves:
         weights = np.ones(len(curve.points)) if curve.weights is None else curve.weights
         numbers = *curve.space.knots, *weights, *curve.points.ravel(), *curve.space.domain
-        fields = [len(curve.points) - 1, curve.space.order - 1, 1, 0, 0, 0, *map(float, numbers), 0.0, 0.0, 1.0]
+        fields = [
+            len(curve.points) - 1,
+            curve.space.order - 1,
+            1,
+            0,
+            0,
+            0,
+            *map(float, numbers),
+            0.0,
+            0.0,
+            1.0,
+        ]
         ids.append(file.add(126, fields, status="00010000"))
     return file.add(102, [len(ids), *ids], status="00010000")
 
@@ -213,7 +237,9 @@ def plate_with(file, loops, outer=1, space=True, flat=True, preferred=3):
     for loop in loops:
         curves = chain(file, loop) if flat else 0, chain(file, loop) if space else 0
         pointers.append(file.add(142, [0, base, *curves, preferred], status="00010000"))
-    return file.add(144, [base, outer, len(loops) - outer, *[0] * (1 - outer), *pointers], label="PLATE")
+    return file.add(
+        144, [base, outer, len(loops) - outer, *[0] * (1 - outer), *pointers], label="PLATE"
+    )
 
 
 def backward(loop):
@@ -229,11 +255,14 @@ def test_plane_within_curves_is_a_face(tmp_path, given, way):
     read = read_surfaces(file.write(tmp_path / "a.igs"), for_blender=False)
     found = [area_moments([face], 0)[0].total for face in read.bodies[0].patches]
     assert read.refused == () and close(found, np.array([3.75 * np.pi, 36.0 - 0.25 * np.pi]), 1e-14)
-    assert refusal(tmp_path / "a.igs").values["causes"][0]["code"] == "surface_trimmed"  # for Blender
+    assert (
+        refusal(tmp_path / "a.igs").values["causes"][0]["code"] == "surface_trimmed"
+    )  # for Blender
 
 
 @pytest.mark.parametrize(
-    "loop", [arcs(1.0)[:3], polygon((0, 0), (2, 2), (2, 0), (0, 2)), [*arcs(1.0)[:3], *arcs(1.0, 0.2)[3:]]]
+    "loop",
+    [arcs(1.0)[:3], polygon((0, 0), (2, 2), (2, 0), (0, 2)), [*arcs(1.0)[:3], *arcs(1.0, 0.2)[3:]]],
 )
 def test_curves_that_bound_no_region_are_refused(tmp_path, loop):
     file = IgesFile()
@@ -251,7 +280,9 @@ def test_a_hole_is_refused(tmp_path):
     outer = file.add(142, [0, base, 0, chain(file, around), 3], status="00010000")
     file.add(144, [base, 1, 1, outer, 1])
     causes = refusal(file.write(tmp_path / "a.igs")).values["causes"]
-    assert [(cause["code"], len(cause["values"]["names"])) for cause in causes] == [("surface_trimmed", 2)]
+    assert [(cause["code"], len(cause["values"]["names"])) for cause in causes] == [
+        ("surface_trimmed", 2)
+    ]
     file.add(144, [base, 1, 0, outer])
     assert len(read_surfaces(file.write(tmp_path / "a.igs")).bodies[0].patches) == 1
 
@@ -277,7 +308,10 @@ def test_other_surface_types_are_refused_and_curves_left_out(tmp_path):
     file.add(110, [0.0] * 6)
     file.add(314, [0.0, 0.0, 0.0], status="00000200")
     seventh = clamped_space(7)
-    file.surface(Patch((seventh, clamped_space(2)), np.random.default_rng(1).uniform(size=(7, 2, 3))), label="HIGH")
+    file.surface(
+        Patch((seventh, clamped_space(2)), np.random.default_rng(1).uniform(size=(7, 2, 3))),
+        label="HIGH",
+    )
     bad = surface_fields(Patch((clamped_space(2), clamped_space(2)), np.zeros((2, 2, 3))))
     file.add(128, bad[:-20], label="SHORT")
     weights = bad.copy()
@@ -285,7 +319,10 @@ def test_other_surface_types_are_refused_and_curves_left_out(tmp_path):
     file.add(128, weights, label="MINUS")
     read = read_surfaces(file.write(tmp_path / "a.igs"))
     assert close(volume(read).total, BALL, 1e-14)
-    assert {note.code: note.values["count"] for note in read.notes} == {"surfaces_hidden": 1, "curves_left_out": 1}
+    assert {note.code: note.values["count"] for note in read.notes} == {
+        "surfaces_hidden": 1,
+        "curves_left_out": 1,
+    }
     names = [(found.code, found.values["kind"], found.values["names"][0]) for found in read.refused]
     assert names == [
         ("surface_unsupported", "Surface of Revolution (120)", "VASE"),
@@ -356,7 +393,10 @@ def test_transformations_of_each_other_end(tmp_path, depth, kept):
 def test_a_boundary_has_up_to_ten_thousand_pieces(tmp_path, count, kept):
     """The curve is a boundary itself; all but four stay in place."""
     file = IgesFile()
-    here, *sides = (file.add(*line(*ends), status="00010500") for ends in ((A, A), (A, B), (B, C), (C, D), (D, A)))
+    here, *sides = (
+        file.add(*line(*ends), status="00010500")
+        for ends in ((A, A), (A, B), (B, C), (C, D), (D, A))
+    )
     curve = file.add(102, [count, *[here] * (count - 4), *sides], status="00010500")
     assert is_kept(file, curve, tmp_path) == kept
 
@@ -364,7 +404,9 @@ def test_a_boundary_has_up_to_ten_thousand_pieces(tmp_path, count, kept):
 def is_kept(file, curve, tmp_path):
     """Return True if the surface bounded by this curve is kept."""
     base = file.surface(unrolled(sphere()), status="00010000")
-    file.add(144, [base, 1, 0, file.add(142, [0, base, curve, 0, 1], status="00010000")], label="TRIM")
+    file.add(
+        144, [base, 1, 0, file.add(142, [0, base, curve, 0, 1], status="00010000")], label="TRIM"
+    )
     beside = unrolled(torus())
     file.surface(beside)
     read = read_surfaces(file.write(tmp_path / "a.igs"))
@@ -375,14 +417,18 @@ def is_kept(file, curve, tmp_path):
 def test_member_in_nested_groups_is_placed_from_inside_outward(tmp_path):
     """The surface's own transformation, the subfigure's, the place and scale of its instance, and the instance's own
     transformation."""
-    patch = Patch((clamped_space(2), clamped_space(2)), np.random.default_rng(4).uniform(-1.0, 1.0, (2, 2, 3)))
+    patch = Patch(
+        (clamped_space(2), clamped_space(2)), np.random.default_rng(4).uniform(-1.0, 1.0, (2, 2, 3))
+    )
     own, inner, outer, last, first = np.tile(np.eye(4), (5, 1, 1))
     for seed, matrix in enumerate((own, inner, outer, last, first)):
         matrix[:3] += np.random.default_rng(seed).uniform(-0.5, 0.5, (3, 4))
     file = IgesFile()
     member = file.surface(patch, matrix=file.transformation(own), status="00010000")
     one = file.add(308, [0, "1HA", 1, member], matrix=file.transformation(inner), status="00000200")
-    place = file.add(408, [one, 1.0, 2.0, -3.0, 0.5], matrix=file.transformation(outer), status="00010000")
+    place = file.add(
+        408, [one, 1.0, 2.0, -3.0, 0.5], matrix=file.transformation(outer), status="00010000"
+    )
     two = file.add(308, [1, "1HB", 1, place], matrix=file.transformation(last), status="00000200")
     file.add(408, [two, -4.0, 0.0, 1.0, 3.0], matrix=file.transformation(first))
     near, far = np.diag([0.5, 0.5, 0.5, 1.0]), np.diag([3.0, 3.0, 3.0, 1.0])
@@ -397,7 +443,9 @@ def test_curves_and_hidden_subfigure_members_are_left_out(tmp_path):
     ball = file.surface(unrolled(sphere()), status="00010000")
     hidden = file.surface(unrolled(torus()), status="01010000")
     curve = file.add(*line(A, B), status="00010000")
-    file.add(408, [file.add(308, [0, "1HA", 3, curve, hidden, ball], status="00000200"), 0.0, 0.0, 0.0])
+    file.add(
+        408, [file.add(308, [0, "1HA", 3, curve, hidden, ball], status="00000200"), 0.0, 0.0, 0.0]
+    )
     read = read_surfaces(file.write(tmp_path / "a.igs"))
     assert read.refused == () and close(volume(read).total, BALL, 1e-14)
 
@@ -482,7 +530,9 @@ def test_damaged_files_are_refused_or_read_and_nothing_else(tmp_path):
         except FileError as error:
             assert error.reason
         else:
-            assert all(np.isfinite(patch.points).all() for body in read.bodies for patch in body.patches)
+            assert all(
+                np.isfinite(patch.points).all() for body in read.bodies for patch in body.patches
+            )
 
 
 def test_a_negative_number_of_members_is_damage(tmp_path):
@@ -499,7 +549,9 @@ def test_all_surfaces_of_the_specification_are_refused_by_name(tmp_path):
     names = "108 Plane|114 Parametric Spline Surface|118 Ruled Surface|120 Surface of Revolution|122 Tabulated Cylinder"
     names += "|140 Offset Surface|143 Bounded Surface|150 Block|152 Wedge|154 Cylinder|156 Cone Frustum|158 Sphere"
     names += "|160 Torus|162 Solid of Revolution|164 Solid of Linear Extrusion|168 Ellipsoid|180 Boolean Tree"
-    names += "|184 Solid Assembly|186 Manifold Solid B-Rep|190 Plane Surface|192 Cylindrical Surface"
+    names += (
+        "|184 Solid Assembly|186 Manifold Solid B-Rep|190 Plane Surface|192 Cylindrical Surface"
+    )
     names += "|194 Conical Surface|196 Spherical Surface|198 Toroidal Surface|412 Rectangular Array|414 Circular Array"
     names += "|416 External Reference|430 Solid Instance|510 Face|514 Shell"
     file = IgesFile()
@@ -565,7 +617,9 @@ def test_a_global_section_or_directory_is_read_or_refused(tmp_path, old, new, sa
     text = "".join(line[:72] for line in lines if line[72] == section)
     assert text.count(old) == 1
     text = text.replace(old, new)
-    changed = ["{:<72}{}{:>7}".format(text[at : at + 72], section, 1) for at in range(0, len(text), 72)]
+    changed = [
+        "{:<72}{}{:>7}".format(text[at : at + 72], section, 1) for at in range(0, len(text), 72)
+    ]
     first = next(number for number, line in enumerate(lines) if line[72] == section)
     rest = [line for line in lines if line[72] != section]
     path.write_text("\n".join([*rest[:first], *changed, *rest[first:]]))
@@ -583,7 +637,9 @@ def test_units_match_the_specification():
     sizes = [0.0254, 1e-3, 0.3048, 1609.344, 1.0, 1e3, 2.54e-5, 1e-6, 1e-2, 2.54e-8]
     assert {1: sizes[0], **dict(zip((2, 4, 5, 6, 7, 8, 9, 10, 11), sizes[1:]))} == UNITS
     assert (
-        dict(zip(("IN", "MM", "FT", "MI", "M", "KM", "MIL", "UM", "CM", "UIN"), sizes)) | {"INCH": 0.0254} == UNIT_NAMES
+        dict(zip(("IN", "MM", "FT", "MI", "M", "KM", "MIL", "UM", "CM", "UIN"), sizes))
+        | {"INCH": 0.0254}
+        == UNIT_NAMES
     )
 
 
@@ -594,7 +650,9 @@ def test_parameters_without_an_end_are_damage(tmp_path):
         file.add(128, [*surface_fields(unrolled(sphere())), *more], label=label)
         file._parameters[-1] = file._parameters[-1].replace(";", " ")
     read = read_surfaces(file.write(tmp_path / "a.igs"))
-    assert close(volume(read).total, BALL, 1e-14) and refused(read) == {"surface_damaged": ["PLAIN", "TEXT"]}
+    assert close(volume(read).total, BALL, 1e-14) and refused(read) == {
+        "surface_damaged": ["PLAIN", "TEXT"]
+    }
 
 
 def test_boundary_with_a_nonpositive_weight_trims(tmp_path):
@@ -617,7 +675,9 @@ def test_transformation_or_surface_lacking_numbers_is_damage(tmp_path):
     file.add(128, [1, *fields[1:]], label="FEW")
     file.add(128, [*fields[:3], 0, *fields[4:]], label="STEPS")
     file.surface(unrolled(sphere()))
-    assert refused(read_surfaces(file.write(tmp_path / "a.igs"))) == {"surface_damaged": ["SHORT", "FEW", "STEPS"]}
+    assert refused(read_surfaces(file.write(tmp_path / "a.igs"))) == {
+        "surface_damaged": ["SHORT", "FEW", "STEPS"]
+    }
 
 
 def test_a_subfigure_in_itself_is_placed_once(tmp_path):

@@ -48,14 +48,20 @@ def refusal(tmp_path, lines):
 
 @pytest.mark.parametrize("section", "GDP")
 def test_file_without_a_section_is_refused(tmp_path, section):
-    assert refusal(tmp_path, [line for line in ball_lines() if line[72] != section]).code == "file_unrecognized"
+    assert (
+        refusal(tmp_path, [line for line in ball_lines() if line[72] != section]).code
+        == "file_unrecognized"
+    )
 
 
 @pytest.mark.parametrize("letter", "BCX")
 def test_letter_of_no_section_keeps_the_form_of_a_begun_file(tmp_path, letter):
     first, *rest = ball_lines()
     assert first[72] == "S"
-    assert refusal(tmp_path, [first, first[:72] + letter + first[73:], *rest]).code == "file_unrecognized"
+    assert (
+        refusal(tmp_path, [first, first[:72] + letter + first[73:], *rest]).code
+        == "file_unrecognized"
+    )
     assert close(total(read(tmp_path, [first, first, *rest])), BALL, 1e-14)
 
 
@@ -68,7 +74,9 @@ def test_parameters_of_another_entity_are_damage_despite_fit(tmp_path):
     assert lines[at].startswith("128,")
     lines[at] = "126," + lines[at][4:]
     found = read(tmp_path, lines)
-    assert [(one.code, one.values["names"]) for one in found.refused] == [("surface_damaged", ["OTHER"])]
+    assert [(one.code, one.values["names"]) for one in found.refused] == [
+        ("surface_damaged", ["OTHER"])
+    ]
     assert close(total(found), DONUT, 1e-14)
 
 
@@ -87,18 +95,24 @@ def test_python_only_number_syntax_is_refused(tmp_path, word):
     file.add(128, [*fields[:-5], word, *fields[-4:]], label="WRONG")
     (tmp_path / "a.igs").write_bytes(file.text().encode("latin-1"))
     found = read_surfaces(tmp_path / "a.igs")
-    assert [(one.code, one.values["names"]) for one in found.refused] == [("surface_damaged", ["WRONG"])]
+    assert [(one.code, one.values["names"]) for one in found.refused] == [
+        ("surface_damaged", ["WRONG"])
+    ]
 
 
 def test_a_boundary_of_no_curves_trims(tmp_path):
     file = IgesFile()
     base = file.surface(unrolled(sphere()), status="00010000")
-    file.add(144, [base, 1, 0, file.add(142, [0, base, file.add(102, [0]), 0, 1], status="00010000")])
+    file.add(
+        144, [base, 1, 0, file.add(142, [0, base, file.add(102, [0]), 0, 1], status="00010000")]
+    )
     cause = refusal(tmp_path, file.text().splitlines()).values["causes"][0]
     assert cause["code"] == "surface_trimmed"
 
 
-@pytest.mark.parametrize("word, code", [("1e38", ""), ("1e39", "surface_points"), ("1e400", "surface_damaged")])
+@pytest.mark.parametrize(
+    "word, code", [("1e38", ""), ("1e39", "surface_points"), ("1e400", "surface_damaged")]
+)
 def test_coordinate_not_a_number_is_damage_and_huge_is_too_far(tmp_path, word, code):
     file, fields = torus_beside()
     file.add(128, [*fields[:-5], word, *fields[-4:]])
@@ -145,8 +159,19 @@ def test_a_surface_of_no_stated_type_is_refused_as_such(tmp_path, line):
 @pytest.mark.parametrize("share, is_kept", [(1e-29, True), (1e-31, False)])
 def test_weights_are_uneven_by_their_shares_of_the_largest(tmp_path, scale, share, is_kept):
     corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]
-    lines = ["v {} {} {} {!r}".format(*corner, scale * w) for corner, w in zip(corners, (1.0, 0.5, share, 1.0))]
-    lines += ["cstype rat bezier", "deg 1 1", "surf 0 1 0 1 1 2 3 4", "parm u 0 1", "parm v 0 1", "end", ""]
+    lines = [
+        "v {} {} {} {!r}".format(*corner, scale * w)
+        for corner, w in zip(corners, (1.0, 0.5, share, 1.0))
+    ]
+    lines += [
+        "cstype rat bezier",
+        "deg 1 1",
+        "surf 0 1 0 1 1 2 3 4",
+        "parm u 0 1",
+        "parm v 0 1",
+        "end",
+        "",
+    ]
     if is_kept:
         assert obj(tmp_path, "\n".join(lines)).refused == ()
         return

@@ -17,7 +17,12 @@ FOLDER = Path(__file__).parent / "kernel"
 GPROP = json.loads((FOLDER / "gprop.json").read_text())
 GPROP_RTOL = 4e-9  # It stops at this accuracy; its inertia of a torus has 2e-6.
 BALL, RING = 4000.0 / 3.0 * np.pi, 1000.0 * np.pi**2
-EXACT = {"box": 8000.0, "cylinder": 3000.0 * np.pi, "cone": 1560.0 * np.pi, "drilled": 8000.0 - 160.0 * np.pi}
+EXACT = {
+    "box": 8000.0,
+    "cylinder": 3000.0 * np.pi,
+    "cone": 1560.0 * np.pi,
+    "drilled": 8000.0 - 160.0 * np.pi,
+}
 EXACT |= {"sphere": BALL, "torus": RING, "sphere_solid": BALL, "drilled_solid": EXACT["drilled"]}
 EXACT["apex_solid"] = 1000.0 * np.pi
 
@@ -38,7 +43,9 @@ def test_body_of_a_kernel_has_its_mass_properties(tmp_path, name):
     assert close(body.volume.total, volume, GPROP_RTOL) and close(body.area.total, area, GPROP_RTOL)
     assert np.abs(body.volume.center - center).max() <= 1e-7
     second = body.volume.about_center().second()
-    assert np.allclose(np.eye(3) * np.trace(second) - second, inertia, rtol=0.0, atol=4e-6 * np.max(inertia))
+    assert np.allclose(
+        np.eye(3) * np.trace(second) - second, inertia, rtol=0.0, atol=4e-6 * np.max(inertia)
+    )
     if name in EXACT:
         bound = body.volume.rounding_error[0] + body.volume.input_error[0]
         assert abs(body.volume.total - EXACT[name]) <= bound <= 1e-7 * volume

@@ -46,7 +46,9 @@ def read_upright(path):
 
 
 def faces_of(mesh):
-    return [mesh.points[part].tolist() for part in np.split(mesh.corners, np.cumsum(mesh.sides)[:-1])]
+    return [
+        mesh.points[part].tolist() for part in np.split(mesh.corners, np.cumsum(mesh.sides)[:-1])
+    ]
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n"])
@@ -70,7 +72,9 @@ def test_one_mesh_is_the_same_in_every_format(tmp_path, name):
     if name in orders:
         data = ply(points, triangles.tolist(), orders[name])
     elif name == "a.obj":
-        data = "".join("v {!r} {!r} {!r}\n".format(x, z, -y) for x, y, z in points.tolist()).encode()
+        data = "".join(
+            "v {!r} {!r} {!r}\n".format(x, z, -y) for x, y, z in points.tolist()
+        ).encode()
         data += "".join("f {} {} {}\n".format(*row) for row in (triangles + 1).tolist()).encode()
     else:
         data = (stl if name == "a.b.stl" else stl_text)((points, triangles))
@@ -85,14 +89,29 @@ def test_one_mesh_is_the_same_in_every_format(tmp_path, name):
 def test_decimals_of_any_form_are_rounded_as_by_float():
     rng = np.random.default_rng(2)
     values = rng.normal(size=2000) * 10.0 ** rng.integers(-30, 30, 2000)
-    words = [form % value for form in ("%g", "%e", "%.17g", "%.3f", "%.20f", "%.25e") for value in values.tolist()]
-    words += [".5", "5.", "+1E+02", "-0.0", "1e-400", "00012", "12345678901234567890", "-9223372036854775808e05"]
+    words = [
+        form % value
+        for form in ("%g", "%e", "%.17g", "%.3f", "%.20f", "%.25e")
+        for value in values.tolist()
+    ]
+    words += [
+        ".5",
+        "5.",
+        "+1E+02",
+        "-0.0",
+        "1e-400",
+        "00012",
+        "12345678901234567890",
+        "-9223372036854775808e05",
+    ]
     text = "vertex " + " Vertex\t".join(words)
     numbers, places, _ = parse_decimals(text.encode())
     truth = np.array([float(word) for word in words])
     assert (np.abs(numbers - truth) <= 4.5e-16 * np.abs(truth)).all()
     is_plain = (np.abs(truth) > 1e-7) & (np.abs(truth) < 1e20)
-    is_short = is_plain & np.array([sum(map(str.isdigit, word.lower().partition("e")[0])) <= 15 for word in words])
+    is_short = is_plain & np.array(
+        [sum(map(str.isdigit, word.lower().partition("e")[0])) <= 15 for word in words]
+    )
     assert np.array_equal(numbers[is_short], truth[is_short]) and is_short.sum() > 1000
     assert [text[place] for place in places] == [word[0] for word in words]
 
@@ -100,7 +119,13 @@ def test_decimals_of_any_form_are_rounded_as_by_float():
 def test_equal_points_become_the_first_of_them():
     points = np.array([(1, 2, 3), (0.0, 0, 0), (1, 2, 3), (-0.0, 0, -0.0), (3, 2, 1)], np.float32)
     merged, index = merge_equal(points)
-    assert merged.tolist() == [[1, 2, 3], [0, 0, 0], [3, 2, 1]] and index.tolist() == [0, 1, 0, 1, 2]
+    assert merged.tolist() == [[1, 2, 3], [0, 0, 0], [3, 2, 1]] and index.tolist() == [
+        0,
+        1,
+        0,
+        1,
+        2,
+    ]
 
 
 def test_ply_strips_edges_and_numbers_are_read(tmp_path):
@@ -116,7 +141,10 @@ def test_ply_strips_edges_and_numbers_are_read(tmp_path):
 
 def test_numbers_that_are_not_finite_and_empty_files_are_refused(tmp_path):
     points = np.array([(0, 0, 0), (1, 0, 0), (0, np.inf, 0)], np.float32)
-    for name, data in (("a.ply", ply(points, [[0, 1, 2]], "<")), ("a.stl", stl((points, np.array([[0, 1, 2]]))))):
+    for name, data in (
+        ("a.ply", ply(points, [[0, 1, 2]], "<")),
+        ("a.stl", stl((points, np.array([[0, 1, 2]])))),
+    ):
         (tmp_path / name).write_bytes(data)
         with refused("non_finite_coordinates", count=1):
             read_meshes(tmp_path / name)

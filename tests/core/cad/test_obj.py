@@ -82,7 +82,10 @@ def test_a_part_of_the_domain(tmp_path):
     text = obj_text([patch]).replace("surf 0.0 1.0 2.0 3.0", "surf 0.25 0.75 2.5 3.0")
     (found,) = read(tmp_path, text).bodies[0].patches
     corners = patch.evaluate_grid([0.25, 0.75], [2.5, 3.0])
-    assert np.abs(found.evaluate_grid(found.spaces[0].domain, found.spaces[1].domain) - corners).max() <= 1e-14
+    assert (
+        np.abs(found.evaluate_grid(found.spaces[0].domain, found.spaces[1].domain) - corners).max()
+        <= 1e-14
+    )
 
 
 @pytest.mark.parametrize("is_rational", [True, False])
@@ -93,10 +96,13 @@ def test_a_vertex_may_lack_its_weight_or_have_a_color(tmp_path, is_rational):
     weights = np.array([[1.0, 0.5], [0.5, 1.0]])
     spaces = clamped_space(2), clamped_space(2)
     lines = [
-        "v {!r} {!r} {!r}{}".format(x, z, -y, last) for (x, y, z), last in zip(points.reshape(-1, 3).tolist(), more)
+        "v {!r} {!r} {!r}{}".format(x, z, -y, last)
+        for (x, y, z), last in zip(points.reshape(-1, 3).tolist(), more)
     ]
     lines += ["cstype {}bezier".format("rat " * is_rational), "deg 1 1", "surf 0 1 0 1 1 3 2 4"]
-    (found,) = read(tmp_path, "\n".join([*lines, "parm u 0 1", "parm v 0 1", "end"])).bodies[0].patches
+    (found,) = (
+        read(tmp_path, "\n".join([*lines, "parm u 0 1", "parm v 0 1", "end"])).bodies[0].patches
+    )
     truth = Patch(spaces, points, weights if is_rational else None)
     at = [0.0, 0.25, 0.75, 1.0]
     assert np.abs(found.evaluate_grid(at, at) - truth.evaluate_grid(at, at)).max() <= 1e-14
@@ -131,9 +137,14 @@ def test_unsupported_statement_is_refused(tmp_path, old, new, code):
 
 
 def test_order_above_six_and_nonpositive_weights_are_refused(tmp_path):
-    seventh = Patch((clamped_space(7), clamped_space(2)), np.random.default_rng(1).uniform(size=(7, 2, 3)))
+    seventh = Patch(
+        (clamped_space(7), clamped_space(2)), np.random.default_rng(1).uniform(size=(7, 2, 3))
+    )
     assert cause(tmp_path, obj_text([seventh])) == "surface_order"
-    bad = [line.rsplit(" ", 1)[0] + " -1" if line.startswith("v ") else line for line in BALL_TEXT.splitlines()]
+    bad = [
+        line.rsplit(" ", 1)[0] + " -1" if line.startswith("v ") else line
+        for line in BALL_TEXT.splitlines()
+    ]
     assert cause(tmp_path, "\n".join(bad)) == "surface_points"
     assert cause(tmp_path, BALL_TEXT.replace("v 1.0", "v inf")) == "surface_points"
 
@@ -152,10 +163,16 @@ def test_surfaces_are_counted_and_refused_one_by_one(tmp_path):
 
 @pytest.mark.parametrize("kind", ["bspline", "bezier", "rat bspline"])
 @pytest.mark.parametrize("count", range(6))
-@pytest.mark.parametrize("u_knots, v_knots", [(2, 4), (3, 4), (2, 2), (1, 3), (0, 1), (6, 1), (4, 2)])
+@pytest.mark.parametrize(
+    "u_knots, v_knots", [(2, 4), (3, 4), (2, 2), (1, 3), (0, 1), (6, 1), (4, 2)]
+)
 def test_knots_not_fitting_the_control_points_are_damage(tmp_path, kind, count, u_knots, v_knots):
     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ncstype {}\ndeg 1 1\nsurf 0 1 0 1 {}\nparm u {}\nparm v {}\nend\n"
-    words = " ".join("1234123"[:count]), " ".join("0011223"[:u_knots]), " ".join("0011223"[:v_knots])
+    words = (
+        " ".join("1234123"[:count]),
+        " ".join("0011223"[:u_knots]),
+        " ".join("0011223"[:v_knots]),
+    )
     if (kind, count, u_knots, v_knots) != ("bezier", 4, 2, 2):
         assert cause(tmp_path, text.format(kind, *words)) == "surface_damaged"
 
@@ -165,7 +182,9 @@ def test_damaged_files_are_refused_or_read_and_nothing_else(tmp_path):
     for _ in range(400):
         damaged = list(BALL_TEXT)
         for _ in range(generator.choice((1, 1, 3, 30))):
-            damaged[generator.randrange(len(damaged))] = generator.choice("0123456789.-+ evpsurf\n\0\\/#\xe4")
+            damaged[generator.randrange(len(damaged))] = generator.choice(
+                "0123456789.-+ evpsurf\n\0\\/#\xe4"
+            )
         if generator.random() < 0.2:
             del damaged[generator.randrange(len(damaged)) :]
         path.write_text("".join(damaged))
@@ -174,12 +193,16 @@ def test_damaged_files_are_refused_or_read_and_nothing_else(tmp_path):
         except FileError as error:
             assert error.reason
         else:
-            assert all(np.isfinite(patch.points).all() for body in found.bodies for patch in body.patches)
+            assert all(
+                np.isfinite(patch.points).all() for body in found.bodies for patch in body.patches
+            )
 
 
 @pytest.mark.parametrize("kind", ["bezier", "bspline"])
 def test_a_degree_beyond_all_memory_is_refused(tmp_path, kind):
-    text = "v 0 0 0\ncstype {}\ndeg 1000000000000 1\nsurf 0 1 0 1 1\nparm u 0 1\nparm v 0 1\nend\n".format(kind)
+    text = "v 0 0 0\ncstype {}\ndeg 1000000000000 1\nsurf 0 1 0 1 1\nparm u 0 1\nparm v 0 1\nend\n".format(
+        kind
+    )
     assert cause(tmp_path, text) == "surface_order"
 
 
@@ -193,7 +216,9 @@ def test_a_statement_of_many_lines_is_read_in_time(tmp_path):
 
 @pytest.mark.parametrize("place", [2.9e38, -2.9e38, 3.1e38, -3.1e38])
 def test_coordinates_up_to_the_float32_limit_are_kept(tmp_path, place):
-    text = "v 0 0 0\nv {!r} 0 0\nv 0 1 0\nv 1 1 0\ncstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\n".format(place)
+    text = "v 0 0 0\nv {!r} 0 0\nv 0 1 0\nv 1 1 0\ncstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\n".format(
+        place
+    )
     text += "parm u 0 1\nparm v 0 1\nend\n"
     if abs(place) < 3e38:
         assert read(tmp_path, text).bodies[0].patches[0].points[1, 0, 0] == place

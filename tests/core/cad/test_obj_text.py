@@ -38,15 +38,42 @@ def changed(line, place, word):
 
 
 # Line and field.
-NUMBER_FIELDS = [(4, 1), (4, 2), (4, 3), (5, 3), (5, 4), (5, 6), (6, 4), (8, 1), (9, 1), (9, 3), (10, 1), (10, 3)]
+NUMBER_FIELDS = [
+    (4, 1),
+    (4, 2),
+    (4, 3),
+    (5, 3),
+    (5, 4),
+    (5, 6),
+    (6, 4),
+    (8, 1),
+    (9, 1),
+    (9, 3),
+    (10, 1),
+    (10, 3),
+]
 NUMBER_FIELDS += [(11, 1), (11, 2), (24, 1), (24, 4), (25, 2), (25, 5), (28, 1), (28, 2)]
 PLACING = {4: {1, 2, 3}, 5: {3}, 24: {1, 4}, 25: {2, 5}, 28: {1, 2}}
-INDEX_FIELDS = [(14, 1), (14, 3), (15, 2), (16, 3), (17, 4), (20, 1), (20, 2), (21, 1), (24, 5), (24, 8), (28, 3)]
+INDEX_FIELDS = [
+    (14, 1),
+    (14, 3),
+    (15, 2),
+    (16, 3),
+    (17, 4),
+    (20, 1),
+    (20, 2),
+    (21, 1),
+    (24, 5),
+    (24, 8),
+    (28, 3),
+]
 
 
 def test_statements_are_read_as_before():
     marked = "\ufeff" + WHOLE
-    joined = WHOLE.replace("v 1 0 0", "v \\\n1 \\\r\n0\\\n0", 1).replace("f 1 2 3\n", "f 1 \\\n2 3\n")
+    joined = WHOLE.replace("v 1 0 0", "v \\\n1 \\\r\n0\\\n0", 1).replace(
+        "f 1 2 3\n", "f 1 \\\n2 3\n"
+    )
     spaces = WHOLE.replace(" ", "\t ").replace("\nv", "\n \t v").replace("\nf", "\n\tf")
     comments = WHOLE.replace("v 0 0 0", "v 0 0 0#1x").replace("f 1 2 3\n", "f 1 2 3 # f 9\n")
     returns = WHOLE.replace("\n", "\r\n")
@@ -73,7 +100,20 @@ def test_word_for_an_index_is_refused(line, place):
         if word != "1/1":
             with misread(line, WHOLE_NUMBER, text=word.split()[-1]):
                 check_obj_text(changed(line, place, word).encode())
-    for word in ("0", "5", "-5", "00", "9" * 30, "1/3", "1/-3", "1/0", "1//2", "1//0", "1/1/-2", "5/1/1"):
+    for word in (
+        "0",
+        "5",
+        "-5",
+        "00",
+        "9" * 30,
+        "1/3",
+        "1/-3",
+        "1/0",
+        "1//2",
+        "1//0",
+        "1/1/-2",
+        "5/1/1",
+    ):
         with misread(line, VERTEX, text=word):
             check_obj_text(changed(line, place, word).encode())
     for word in ("4", "-4", "+1", "01", "1/2", "1/-2", "1//1", "1/2/-1", "1/2/"):
@@ -97,7 +137,10 @@ def test_statement_with_too_few_fields_is_refused(line):
 
 
 def test_index_ahead_of_its_vertex_is_refused():
-    for text, line, word in (("v 0 0 0\nf 1 1 2\nv 1 1 1\n", 2, "2"), ("vt 0\nv 0 0 0\nf 1/2 1 1\nvt 1", 3, "1/2")):
+    for text, line, word in (
+        ("v 0 0 0\nf 1 1 2\nv 1 1 1\n", 2, "2"),
+        ("vt 0\nv 0 0 0\nf 1/2 1 1\nvt 1", 3, "1/2"),
+    ):
         with misread(line, VERTEX, text=word):
             check_obj_text(text.encode())
     check_obj_text(b"v 0 0 0\nf 1/2/9 1//7 1/0\nvt 1\nvn 0 0 1\n")  # no vertices exist yet

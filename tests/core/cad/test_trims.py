@@ -27,7 +27,9 @@ def test_once_around_from_any_corner_in_either_sense(first, way):
     assert trims_nothing(lines(*corners), DOMAIN) and trims_nothing([polyline(*corners)], DOMAIN)
     assert trims_nothing(lines(*corners, *corners[1:]), DOMAIN) is False  # twice
     assert trims_nothing(lines(*corners[:-1]), DOMAIN) is False  # open
-    assert trims_nothing(lines(*corners[:3], corners[1], corners[0]), DOMAIN) is False  # there and back
+    assert (
+        trims_nothing(lines(*corners[:3], corners[1], corners[0]), DOMAIN) is False
+    )  # there and back
     assert trims_nothing(lines(*corners[:2], *corners[:1], *corners[1:]), DOMAIN) is False
 
 
@@ -49,20 +51,30 @@ def test_a_smooth_curve_stays_along_one_side(share, is_near, side):
 @pytest.mark.parametrize("at", [0.0, 0.3])
 def test_seams_and_poles_may_be_anywhere(at):
     """Of a cylinder, cone, sphere and torus that close along s, with a seam at any s."""
-    a, b, c, d = np.array([(1 + 2 * at, -2), (3 + 2 * at, -2), (3 + 2 * at, 6), (1 + 2 * at, 6)], np.float64)
+    a, b, c, d = np.array(
+        [(1 + 2 * at, -2), (3 + 2 * at, -2), (3 + 2 * at, 6), (1 + 2 * at, 6)], np.float64
+    )
     poles, closed = ((False, False), (True, True)), (True, False)
     around = lines(a, b, c, d, a)
-    assert trims_nothing(around, DOMAIN, closed) and trims_nothing(around[::-1], DOMAIN, (True, True))
+    assert trims_nothing(around, DOMAIN, closed) and trims_nothing(
+        around[::-1], DOMAIN, (True, True)
+    )
     assert trims_nothing([around[0], *lines(c, d)], DOMAIN, closed)  # two circles, and no seam
     assert trims_nothing(lines(b, c) + lines(d, a), DOMAIN, closed, poles) and trims_nothing(
         around, DOMAIN, closed, poles
     )
     assert trims_nothing(lines(a, b, c, d, a), DOMAIN, (False, False)) == (at == 0.0)
     assert not trims_nothing(lines(b, c) + lines(d, a), DOMAIN, closed)  # the circles are missing
-    assert not trims_nothing(lines(b, c) + lines(a, d), DOMAIN, closed, poles)  # a seam run twice the same way
-    assert not trims_nothing([around[0], *lines(d, c)], DOMAIN, closed)  # circles that bound no band
+    assert not trims_nothing(
+        lines(b, c) + lines(a, d), DOMAIN, closed, poles
+    )  # a seam run twice the same way
+    assert not trims_nothing(
+        [around[0], *lines(d, c)], DOMAIN, closed
+    )  # circles that bound no band
     middle = np.array([0.0, 1.0])
-    assert not trims_nothing(lines(a, b, b + middle, a + middle, a), DOMAIN, closed, poles)  # a part of it
+    assert not trims_nothing(
+        lines(a, b, b + middle, a + middle, a), DOMAIN, closed, poles
+    )  # a part of it
 
 
 def test_edge_across_the_domain_trims_despite_ends_on_sides():

@@ -20,7 +20,9 @@ from tests.core import bodies
 L_SHAPE = bodies.joined(bodies.box((0, 0, 0), (3, 1, 1)), bodies.box((0, 1, 0), (1, 3, 1)))
 
 LEGS = [bodies.box((x, y, 0), (x + 0.1, y + 0.1, 0.5)) for x in (0.0, 0.4) for y in (0.0, 0.4)]
-CHAIR = bodies.joined(*LEGS, bodies.box((0, 0, 0.5), (0.5, 0.5, 0.55)), bodies.box((0, 0, 0.55), (0.05, 0.5, 1)))
+CHAIR = bodies.joined(
+    *LEGS, bodies.box((0, 0, 0.5), (0.5, 0.5, 0.55)), bodies.box((0, 0, 0.55), (0.05, 0.5, 1))
+)
 
 
 def hull_shape(points):
@@ -41,7 +43,9 @@ def placed(part, scale=1.0, offset=0.0):
 
 
 def effect_of(shapes, body, volume, density=700.0):
-    return effect(body, [replace(s, mass=m) for s, m in zip(shapes, uniform_masses(density, shapes))], volume)
+    return effect(
+        body, [replace(s, mass=m) for s, m in zip(shapes, uniform_masses(density, shapes))], volume
+    )
 
 
 def motion(before, after):
@@ -71,7 +75,9 @@ def test_moved_corners_give_the_mass_properties_of_the_body(scale, offset):
 
 def test_exact_hulls_stay_where_they_are():
     surface, body, _ = placed(L_SHAPE)
-    shapes = [hull_shape(bodies.box(*box)[0]) for box in (((0, 0, 0), (3, 1, 1)), ((0, 1, 0), (1, 3, 1)))]
+    shapes = [
+        hull_shape(bodies.box(*box)[0]) for box in (((0, 0, 0), (3, 1, 1)), ((0, 1, 0), (1, 3, 1)))
+    ]
     assert motion(shapes, correct_vertices(body, shapes, surface, 0.1, 0.1)) < 1e-9
 
 
@@ -81,7 +87,8 @@ def test_no_corner_moves_beyond_the_smaller_tolerance():
     moved = correct_vertices(body, shapes, surface, 0.05, 0.2)
     assert motion(shapes, moved) <= 0.05 + 1e-9
     before, after = (
-        effect_of(these, body, volume, body.mass / sum(uniform_masses(1.0, these))) for these in (shapes, moved)
+        effect_of(these, body, volume, body.mass / sum(uniform_masses(1.0, these)))
+        for these in (shapes, moved)
     )
     assert after.inertia_change < 0.9 * before.inertia_change
 
@@ -104,7 +111,9 @@ def test_primitives_stay_and_hulls_take_their_part():
     turned = two_boxes()[1]
     turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     local = (turned.surface.points - 2.0) @ turn / 2.0
-    placed_hull = Shape("mesh", (2.0, 2.0, 2.0), Pose(np.full(3, 2.0), turn), surface=hull_shape(local).surface)
+    placed_hull = Shape(
+        "mesh", (2.0, 2.0, 2.0), Pose(np.full(3, 2.0), turn), surface=hull_shape(local).surface
+    )
     moved = correct_vertices(body, [box, placed_hull], surface, 0.2, 0.2)
     assert moved[0] is box
     assert effect_of(moved, body, volume).inertia_change < 1e-6
@@ -128,5 +137,9 @@ def test_flat_hull_is_refused():
     line = np.linspace(0.0, 1.0, 4)[:, None] * np.ones(3)
     with pytest.raises(MeasureError):
         correct_vertices(
-            body, [Shape("mesh", surface=Surface(line, np.array([[0, 1, 2], [1, 2, 3]])))], surface, 1.0, 1.0
+            body,
+            [Shape("mesh", surface=Surface(line, np.array([[0, 1, 2], [1, 2, 3]])))],
+            surface,
+            1.0,
+            1.0,
         )

@@ -21,7 +21,9 @@ from body_moments.core.verdict.finding import MeasureError
 def box(sides, place=(0.0, 0.0, 0.0), degrees=0.0):
     c, s = cos(radians(degrees)), sin(radians(degrees))
     return Shape(
-        "box", tuple(sides), Pose(np.array(place, float), np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
+        "box",
+        tuple(sides),
+        Pose(np.array(place, float), np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])),
     )
 
 
@@ -36,7 +38,11 @@ def with_masses(shapes, masses):
 def random_boxes(count, offset=0.0, scale=1.0):
     rng = np.random.default_rng(count)
     return [
-        box(scale * rng.uniform(0.1, 0.4, 3), scale * (rng.uniform(-1.0, 1.0, 3) + offset), rng.uniform(0.0, 90.0))
+        box(
+            scale * rng.uniform(0.1, 0.4, 3),
+            scale * (rng.uniform(-1.0, 1.0, 3) + offset),
+            rng.uniform(0.0, 90.0),
+        )
         for _ in range(count)
     ]
 
@@ -51,7 +57,9 @@ def test_larger_box_has_closed_form_effect(scale, offset):
     result = effect(body, with_masses(collider, uniform_masses(500.0, collider)), volume)
     digits = 1e-12 * (1.0 + offset)
     assert result.volume_ratio == pytest.approx(8.0, rel=digits) == result.mass_ratio
-    assert result.center_shift == pytest.approx((0.1 * scale, -0.2 * scale, 0.3 * scale), rel=digits)
+    assert result.center_shift == pytest.approx(
+        (0.1 * scale, -0.2 * scale, 0.3 * scale), rel=digits
+    )
     assert result.moment_ratios == pytest.approx((32.0,) * 3, rel=digits)
     assert result.axes_turn == pytest.approx(radians(30.0), rel=10.0 * digits)
     json.dumps(result.as_record(), allow_nan=False)
@@ -66,10 +74,15 @@ def test_overlap_counts_twice_as_engines_count_it():
 def test_axes_of_symmetric_bodies_turn_by_their_fixed_axis():
     rod, cube = [box((1.0, 1.0, 3.0))], [box((2.0, 2.0, 2.0))]
     body = body_of(rod, [1.0])
-    assert effect(body, with_masses([box((1.0, 1.0, 3.0), degrees=20.0)], [3.0]), 3.0).axes_turn < 1e-12
+    assert (
+        effect(body, with_masses([box((1.0, 1.0, 3.0), degrees=20.0)], [3.0]), 3.0).axes_turn
+        < 1e-12
+    )
     assert effect(body, with_masses(cube, [8.0]), 3.0).axes_turn == 0.0
     across = replace(
-        rod[0], pose=Pose(rotation=np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])), mass=3.0
+        rod[0],
+        pose=Pose(rotation=np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])),
+        mass=3.0,
     )
     assert effect(body, [across], 3.0).axes_turn == pytest.approx(np.pi / 2.0, rel=1e-12)
 
@@ -99,7 +112,9 @@ def test_four_pieces_match_mass_and_center():
 def test_uniform_body_keeps_uniform_masses():
     shapes = random_boxes(20)
     expected = uniform_masses(800.0, shapes)
-    assert correct_masses(body_of(shapes, [800.0] * 20), shapes) == pytest.approx(expected, rel=1e-9)
+    assert correct_masses(body_of(shapes, [800.0] * 20), shapes) == pytest.approx(
+        expected, rel=1e-9
+    )
 
 
 def test_corrected_masses_are_nearest_to_uniform():
@@ -109,13 +124,18 @@ def test_corrected_masses_are_nearest_to_uniform():
     body = body_of(shapes, [3000.0, 2500.0, 0.0, 10.0, 0.0, 500.0])
     masses = np.array(correct_masses(body, shapes))
     uniform = np.full(6, body.mass / 6.0)
-    sums = rows @ [float(moments_of(s).total) * d for s, d in zip(shapes, (3000.0, 2500.0, 0.0, 10.0, 0.0, 500.0))]
+    sums = rows @ [
+        float(moments_of(s).total) * d
+        for s, d in zip(shapes, (3000.0, 2500.0, 0.0, 10.0, 0.0, 500.0))
+    ]
     least = np.inf
     for size in (3, 4, 5, 6):
         for free in map(list, combinations(range(6), size)):
             trial = np.zeros(6)
             part = rows[:, free]
-            trial[free] = uniform[free] + part.T @ np.linalg.solve(part @ part.T, sums - part @ uniform[free])
+            trial[free] = uniform[free] + part.T @ np.linalg.solve(
+                part @ part.T, sums - part @ uniform[free]
+            )
             if trial.min() >= -1e-9:
                 least = min(least, float(((trial - uniform) ** 2).sum()))
     assert masses.min() == 0.0
@@ -124,7 +144,10 @@ def test_corrected_masses_are_nearest_to_uniform():
 
 
 def test_center_outside_all_pieces_comes_as_near_as_possible():
-    shapes = [Shape("sphere", (0.1,), Pose(np.array(place))) for place in ((0.0, 0, 0), (1.0, 0, 0), (0, 1.0, 0))]
+    shapes = [
+        Shape("sphere", (0.1,), Pose(np.array(place)))
+        for place in ((0.0, 0, 0), (1.0, 0, 0), (0, 1.0, 0))
+    ]
     body = body_of([box((1.0, 1.0, 1.0), (2.0, 2.0, 0.0))], [1000.0])
     masses = correct_masses(body, shapes)
     assert masses == pytest.approx([0.0, 500.0, 500.0], abs=1e-6)

@@ -136,7 +136,9 @@ def test_pieces_of_an_l_are_two_exact_boxes(place, mirror):
     assert sum(volumes(shapes)) == pytest.approx(5.0 * scale**3, rel=1e-5)
 
 
-@pytest.mark.parametrize(("part", "pieces", "most"), [(L_SHAPE, 2, 1.001), (TORUS, 10, 1.1), (TORUS, 4, 1.35)])
+@pytest.mark.parametrize(
+    ("part", "pieces", "most"), [(L_SHAPE, 2, 1.001), (TORUS, 10, 1.1), (TORUS, 4, 1.35)]
+)
 def test_pieces_cover_the_body_and_keep_their_number(part, pieces, most):
     shapes = make(part, "pieces", pieces=pieces, vertices=256)
     assert len(shapes) <= pieces
@@ -148,7 +150,9 @@ def test_pieces_cover_the_body_and_keep_their_number(part, pieces, most):
 
 
 def test_cavity_stays_with_the_body_around_it():
-    part = bodies.joined(bodies.box((0, 0, 0), (3, 3, 3)), bodies.inverted(bodies.box((1, 1, 1), (2, 2, 2))))
+    part = bodies.joined(
+        bodies.box((0, 0, 0), (3, 3, 3)), bodies.inverted(bodies.box((1, 1, 1), (2, 2, 2)))
+    )
     shapes = make(part, "pieces", pieces=8)
     assert depth_outside(points_inside(part, 2_000), shapes).max() < 1e-6
     assert 25.99 < sum(volumes(shapes)) < 27.01
@@ -156,8 +160,13 @@ def test_cavity_stays_with_the_body_around_it():
 
 def test_lids_with_points_of_their_own_close_the_body():
     points, triangles = L_SHAPE
-    lids = np.isin(triangles, np.arange(6)).all(axis=1) | np.isin(triangles, np.arange(6, 12)).all(axis=1)
-    part = np.concatenate([points, points]), np.where(lids[:, None], triangles + len(points), triangles)
+    lids = np.isin(triangles, np.arange(6)).all(axis=1) | np.isin(triangles, np.arange(6, 12)).all(
+        axis=1
+    )
+    part = (
+        np.concatenate([points, points]),
+        np.where(lids[:, None], triangles + len(points), triangles),
+    )
     shapes = make(part, "pieces")
     assert len(shapes) == 2
     assert sum(volumes(shapes)) == pytest.approx(5.0, rel=1e-6)
@@ -165,7 +174,11 @@ def test_lids_with_points_of_their_own_close_the_body():
 
 def test_circumscribed_round_shapes_leave_nothing_outside():
     surface = Surface.from_triangles(*bodies.box((-1, -1, -1), (1, 1, 1)))
-    for shape in (Shape("sphere", (3.0**0.5,)), Shape("cylinder", (2.0**0.5, 2.0)), Shape("capsule", (2.0**0.5, 2.0))):
+    for shape in (
+        Shape("sphere", (3.0**0.5,)),
+        Shape("cylinder", (2.0**0.5, 2.0)),
+        Shape("capsule", (2.0**0.5, 2.0)),
+    ):
         assert distances(surface, [shape])[1] == pytest.approx(0.0, abs=1e-12)
 
 
@@ -179,14 +192,18 @@ def test_distances_of_a_larger_box_are_its_corners():
     outward, inward, bound = distances(surface, [Shape("box", (4.0, 4.0, 4.0))])
     assert outward == pytest.approx(3.0**0.5, abs=bound + 1e-12)
     assert inward == 0.0
-    outward, inward, bound = distances(surface, [Shape("box", (1.0, 2.0, 2.0), Pose(np.array([-0.5, 0.0, 0.0])))])
+    outward, inward, bound = distances(
+        surface, [Shape("box", (1.0, 2.0, 2.0), Pose(np.array([-0.5, 0.0, 0.0])))]
+    )
     assert outward == pytest.approx(0.0, abs=1e-9)
     assert inward == pytest.approx(1.0, abs=bound + 1e-9)
 
 
 def test_points_on_a_line_are_refused():
     line = np.linspace(0.0, 1.0, 4)[:, None] * np.ones(3), np.array([[0, 1, 2], [1, 2, 3]])
-    body = MassProperties.from_moments(polyhedron_moments(Surface.from_triangles(*L_SHAPE))[0], 1000.0)
+    body = MassProperties.from_moments(
+        polyhedron_moments(Surface.from_triangles(*L_SHAPE))[0], 1000.0
+    )
     with pytest.raises(MeasureError):
         run(make_colliders(Surface.from_triangles(*line), body, Wanted("hull", 0.0, 0.0, 4, 16)))
 

@@ -39,14 +39,18 @@ def check(moments, coefficients, axes, relative=1e-13):
         assert off <= relative * float(size) * reach**degree
 
 
-@pytest.mark.parametrize("orders", [(1, 1, 1), (2, 2, 2), (3, 4, 1), (4, 4, 4), (5, 2, 6), (6, 6, 6)])
+@pytest.mark.parametrize(
+    "orders", [(1, 1, 1), (2, 2, 2), (3, 4, 1), (4, 4, 4), (5, 2, 6), (6, 6, 6)]
+)
 @pytest.mark.parametrize("signed", [False, True])
 def test_any_order_and_knots_against_exact_arithmetic(orders, signed):
     coefficients, axes = spline(orders, sum(orders), signed)
     check(density_moments(coefficients, axes, 4), coefficients, axes)
 
 
-@pytest.mark.parametrize("order, signed", [(1, False), (2, False), (3, False), (4, False), (4, True)])
+@pytest.mark.parametrize(
+    "order, signed", [(1, False), (2, False), (3, False), (4, False), (4, True)]
+)
 def test_grid_moments_to_order_20_match_fractions(order, signed):
     rng = np.random.default_rng(order)
     coefficients = rng.integers(-9 if signed else 0, 9, (4, 3, 5)) / 4.0
@@ -55,15 +59,21 @@ def test_grid_moments_to_order_20_match_fractions(order, signed):
     check(moments, coefficients, axes, 1e-12)
     exact = exact_moments(coefficients, axes, 20, moments.about)
     table = monomials(20)
-    for value, bound, truth, powers in zip(moments.raw, moments.rounding_error, exact, table.tolist()):
+    for value, bound, truth, powers in zip(
+        moments.raw, moments.rounding_error, exact, table.tolist()
+    ):
         if not signed and not any(power % 2 for power in powers):  # nothing cancels
             assert abs(Fraction(value) - truth) <= truth / 10**12
-            assert bound <= (1e-11 if sum(powers) < 4 else 1e-2) * float(truth)  # (|t| + w)^l is far from sharp
+            assert bound <= (1e-11 if sum(powers) < 4 else 1e-2) * float(
+                truth
+            )  # (|t| + w)^l is far from sharp
 
 
 @pytest.mark.parametrize("axis", range(3))
 @pytest.mark.parametrize("value, order", [(0.5, 2), (0.5, 3), (5.0, 2)])
-@pytest.mark.parametrize("place, is_near", [(6, False), (7, False), (8, True), (12, True), (13, False)])
+@pytest.mark.parametrize(
+    "place, is_near", [(6, False), (7, False), (8, True), (12, True), (13, False)]
+)
 def test_moments_of_distant_mass_are_about_a_nearby_knot(axis, value, order, place, is_near):
     """A voxel has a variance of 1/12 about its middle: three from the middle of all is 108 of these, two is 48."""
     values = np.zeros(np.roll([21, 1, 1], axis))
@@ -72,7 +82,9 @@ def test_moments_of_distant_mass_are_about_a_nearby_knot(axis, value, order, pla
     found = density_moments(values, axes, order)
     about = np.roll(found.about, -axis)
     assert about[0] == 10.0 if is_near else abs(about[0] - place) == 0.5
-    assert density_moments(values, axes, 1).about.tolist() == np.roll([10.0, 0.0, 0.0], axis).tolist()
+    assert (
+        density_moments(values, axes, 1).about.tolist() == np.roll([10.0, 0.0, 0.0], axis).tolist()
+    )
     check(found, values, axes)
 
 
@@ -83,7 +95,9 @@ def test_bounds_are_not_wild():
     assert moments.rounding_error[[4, 7, 9]].max() < 1e-11 * moments.raw[[4, 7, 9]].min()
 
 
-@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.uint8, np.int16, np.int64, np.bool_, ">f4", ">i2"])
+@pytest.mark.parametrize(
+    "dtype", [np.float32, np.float64, np.uint8, np.int16, np.int64, np.bool_, ">f4", ">i2"]
+)
 @pytest.mark.parametrize("layout", ["C", "F", "reversed", "strided"])
 def test_any_type_and_layout_gives_the_same_numbers(dtype, layout):
     rng = np.random.default_rng(1)
@@ -96,7 +110,9 @@ def test_any_type_and_layout_gives_the_same_numbers(dtype, layout):
         array = np.repeat(np.repeat(array, 2, axis=1), 3, axis=2)[:, ::2, ::3]
     expected = density_moments(values.astype(float), axes)
     found = density_moments(array, axes)
-    assert (np.abs(found.raw - expected.raw) <= found.rounding_error + expected.rounding_error).all()
+    assert (
+        np.abs(found.raw - expected.raw) <= found.rounding_error + expected.rounding_error
+    ).all()
     check(found, values, axes)
 
 
@@ -119,12 +135,16 @@ def test_smoothing_adds_mass_times_k_twelfths_of_spacing_squared(order, scale):
     matrix = np.diag([*spacing, 1.0])
     matrix[:3, 3] = np.array([1e4, -3.0, 0.0]) * scale
     body = MassProperties.from_moments(grid_moments(values, values.shape, matrix, order))
-    index = np.stack(np.meshgrid(*map(np.arange, values.shape), indexing="ij"), axis=-1).reshape(-1, 3)
+    index = np.stack(np.meshgrid(*map(np.arange, values.shape), indexing="ij"), axis=-1).reshape(
+        -1, 3
+    )
     masses = values.reshape(-1) * np.prod(spacing)
     points = index * spacing
     center = masses @ points / masses.sum()
     arms = points - center
-    second = np.einsum("n,ni,nj->ij", masses, arms, arms) + np.diag(masses.sum() * order * spacing**2 / 12)
+    second = np.einsum("n,ni,nj->ij", masses, arms, arms) + np.diag(
+        masses.sum() * order * spacing**2 / 12
+    )
     assert close(body.mass, masses.sum(), rel=1e-14)
     assert close(body.center, center + matrix[:3, 3], rel=1e-13)
     expected = np.trace(second) * np.eye(3) - second
@@ -132,7 +152,9 @@ def test_smoothing_adds_mass_times_k_twelfths_of_spacing_squared(order, scale):
 
 
 def test_a_sheared_and_mirrored_grid_is_a_parallelepiped():
-    matrix = np.array([[-1.0, 0.5, 0.0, 9.0], [0.0, 2.0, 0.25, -4.0], [0.0, 0.0, 3.0, 1.0], [0, 0, 0, 1]])
+    matrix = np.array(
+        [[-1.0, 0.5, 0.0, 9.0], [0.0, 2.0, 0.25, -4.0], [0.0, 0.0, 3.0, 1.0], [0, 0, 0, 1]]
+    )
     found = grid_moments(np.full((4, 4, 4), 5.0), (4, 4, 4), matrix)
     box = SplineAxis.uniform(1, 1, 4.0)
     one = density_moments(np.full((1, 1, 1), 5.0), [box] * 3)
@@ -167,11 +189,15 @@ def test_misfit_shapes_and_transforms_are_refused():
 
 def test_values_are_mapped_before_they_are_summed():
     values = np.arange(27.0).reshape(3, 3, 3)
-    found = grid_moments(values, values.shape, np.eye(4), value=lambda block: np.interp(block, [5, 10], [0, 100]))
+    found = grid_moments(
+        values, values.shape, np.eye(4), value=lambda block: np.interp(block, [5, 10], [0, 100])
+    )
     assert found.total == pytest.approx(np.interp(values, [5, 10], [0, 100]).sum())
 
 
 def test_signaling_nan_samples_are_refused_without_warning():
-    samples = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)  # a damaged file may hold it
+    samples = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(
+        np.float32
+    )  # a damaged file may hold it
     with refused("density_non_finite"):
         grid_moments(samples, samples.shape, np.eye(4))

@@ -87,13 +87,18 @@ def test_boxes_are_exact(low, high):
 def blob(seed=0, count=24):
     """A closed star-shaped surface around (3, 3, 3), not aligned with anything."""
     rng = np.random.default_rng(seed)
-    u, v = np.meshgrid(np.linspace(0, 2 * np.pi, count, endpoint=False), np.linspace(0, np.pi, count), indexing="ij")
+    u, v = np.meshgrid(
+        np.linspace(0, 2 * np.pi, count, endpoint=False),
+        np.linspace(0, np.pi, count),
+        indexing="ij",
+    )
     points = np.stack([np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v)], axis=-1)
     points[:, 1:-1] *= rng.uniform(0.8, 1.2, (count, count - 2, 1))
     points = 2.3 * points + 3.1
     points[:, 0], points[:, -1] = points[0, 0], points[0, -1]
     corners = [
-        (points, np.roll(points, -1, axis=0))[i][:, j : count - 1 + j] for i, j in ((0, 0), (0, 1), (1, 1), (1, 0))
+        (points, np.roll(points, -1, axis=0))[i][:, j : count - 1 + j]
+        for i, j in ((0, 0), (0, 1), (1, 1), (1, 0))
     ]
     quads = np.stack(corners, axis=2).reshape(-1, 4, 3)
     return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
@@ -103,10 +108,15 @@ def test_a_uniform_density_is_the_solid():
     triangles = blob()
     found, volume = inside_moments(triangles, np.full((7, 7, 7), 2.5))
     points = triangles.reshape(-1, 3)
-    solid = polyhedron_moments(Surface(points, np.arange(len(points), dtype=np.int32).reshape(-1, 3)))[0]
+    solid = polyhedron_moments(
+        Surface(points, np.arange(len(points), dtype=np.int32).reshape(-1, 3))
+    )[0]
     expected = 2.5 * solid.about_point(found.about)
     assert volume == pytest.approx(solid.total, rel=1e-12)
-    assert (np.abs(found.raw - expected.raw) <= found.rounding_error + 1e-12 * np.abs(expected.raw).max()).all()
+    assert (
+        np.abs(found.raw - expected.raw)
+        <= found.rounding_error + 1e-12 * np.abs(expected.raw).max()
+    ).all()
     assert found.total == pytest.approx(2.5 * solid.total, rel=1e-12)
 
 
@@ -149,4 +159,6 @@ def test_nonfinite_values_are_refused():
     with refused("density_non_finite"):
         inside_moments(blob(), np.full((7, 7, 7), np.nan))
     with refused("density_non_finite"):
-        inside_moments(blob(), np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32))  # a signaling NaN
+        inside_moments(
+            blob(), np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)
+        )  # a signaling NaN

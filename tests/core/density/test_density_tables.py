@@ -71,7 +71,9 @@ def test_theorem_4_2_is_exact_as_printed(order, power):
         last = knots[i + order]
         middle = (knots[i] + 3 * last) / 4
         for t in (middle, last, knots[i + 1]):
-            assert integral_of_basis(knots, i, order, power, t) == integral(knots, i, order, power, high=t)
+            assert integral_of_basis(knots, i, order, power, t) == integral(
+                knots, i, order, power, high=t
+            )
 
 
 def test_theorem_4_2_with_repeated_knots():
@@ -95,7 +97,9 @@ def test_production_agrees_with_the_theorem(order):
 def test_a_uniform_function_has_variance_k_twelfths(order):
     table = SplineAxis.uniform(1, order, spacing=0.5, origin=7.0).table(4, 7.0)[:, 0]
     k, g = order, 0.5
-    assert close(table, [g, 0.0, g * k * g**2 / 12, 0.0, g * g**4 * k * (5 * k - 2) / 240], rel=1e-14)
+    assert close(
+        table, [g, 0.0, g * k * g**2 / 12, 0.0, g * g**4 * k * (5 * k - 2) / 240], rel=1e-14
+    )
 
 
 @pytest.mark.parametrize(

@@ -28,7 +28,9 @@ Soft Tissue 1.03; Ice 0.92
 """
 TABLE = {
     name: 1000.0 * float(value)
-    for name, _, value in (entry.strip().rpartition(" ") for entry in ROUNDED.replace("\n", " ").split(";"))
+    for name, _, value in (
+        entry.strip().rpartition(" ") for entry in ROUNDED.replace("\n", " ").split(";")
+    )
 }
 
 

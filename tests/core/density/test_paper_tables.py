@@ -27,7 +27,11 @@ NUMBERS = {
     "S5": (2141.546875, (54770.796875,), (54860.02799479166667,)),
     "S6": (17154.859375, (1756491.46875,), (1757206.25455729166667,)),
     "C1": (189.984375, (4108.69921875, 364.7109375), (4116.615234375, 372.626953125)),
-    "C6": (51195.234375, (20609802.24609375, 6543365.7421875), (20611935.380859375, 6545498.876953125)),
+    "C6": (
+        51195.234375,
+        (20609802.24609375, 6543365.7421875),
+        (20611935.380859375, 6545498.876953125),
+    ),
 }
 
 
@@ -45,7 +49,11 @@ def test_every_cell_of_the_paper_is_reproduced(row):
         mass, points, smooth = NUMBERS[row.name]
         assert discrete == (mass, *points)
         assert trivariate == pytest.approx((mass, *smooth), rel=1e-12)
-    for method, values in (("trivariate", trivariate), ("discrete", discrete), ("analytic", row.analytic())):
+    for method, values in (
+        ("trivariate", trivariate),
+        ("discrete", discrete),
+        ("analytic", row.analytic()),
+    ):
         assert tuple(map(as_printed, values, row.printed[method])) == row.printed[method]
 
 

@@ -26,7 +26,9 @@ FAR = (4096.0, -8192.0, 2048.0)
 def sheet(part, density, dtype=np.float64, **more):
     surface = bodies.surface(part, dtype)
     like = measure_solid(surface, shell=True).area
-    return sheet_mass_moments(surface.points, surface.triangles, np.asarray(density, float), like, **more)
+    return sheet_mass_moments(
+        surface.points, surface.triangles, np.asarray(density, float), like, **more
+    )
 
 
 def linear_truth(points, triangles, density, about):
@@ -38,20 +40,28 @@ def linear_truth(points, triangles, density, about):
     root = 10**40
     sums = [Fraction(0)] * 20
     for triangle, rho in zip(triangles, density):
-        corner = [[Fraction(float(v)) - Fraction(float(o)) for v, o in zip(points[i], about)] for i in triangle]
+        corner = [
+            [Fraction(float(v)) - Fraction(float(o)) for v, o in zip(points[i], about)]
+            for i in triangle
+        ]
         u, v = ([b - a for a, b in zip(corner[0], corner[k])] for k in (1, 2))
         normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
         square = sum(n * n for n in normal)
-        double = Fraction(isqrt(square.numerator * square.denominator * root * root), square.denominator * root)
+        double = Fraction(
+            isqrt(square.numerator * square.denominator * root * root), square.denominator * root
+        )
         for at, powers in enumerate(exact.MONOMIALS):
             axes = [axis for axis, n in enumerate(powers) for _ in range(n)]
-            for choice in product(range(3), repeat=len(axes) + 1):  # the corner of each factor and of the density
+            for choice in product(
+                range(3), repeat=len(axes) + 1
+            ):  # the corner of each factor and of the density
                 value = Fraction(float(rho[choice[-1]]))
                 for axis, k in zip(axes, choice):
                     value *= corner[k][axis]
                 counts = [choice.count(k) for k in range(3)]
                 weight = Fraction(
-                    factorial(counts[0]) * factorial(counts[1]) * factorial(counts[2]), factorial(len(choice) + 2)
+                    factorial(counts[0]) * factorial(counts[1]) * factorial(counts[2]),
+                    factorial(len(choice) + 2),
                 )
                 sums[at] += double * weight * value
     return sums
@@ -74,7 +84,11 @@ def test_a_density_linear_on_each_triangle_is_exact(offset, scale):
     found = sheet((points, triangles), density[triangles])
     expected = linear_truth(points, triangles, density[triangles], found.about)
     assert within(found, expected)
-    assert found.rounding_error[0] < 1e-9 * found.total if offset[0] else found.rounding_error[0] < 1e-12 * found.total
+    assert (
+        found.rounding_error[0] < 1e-9 * found.total
+        if offset[0]
+        else found.rounding_error[0] < 1e-12 * found.total
+    )
     assert found.measure == "area" and not found.input_error.any()
 
 
@@ -92,7 +106,9 @@ def test_a_density_constant_on_the_corners_is_one_on_the_faces():
     part = bodies.sphere(2)
     density = np.random.default_rng(2).random(len(part[1])) * 1000.0
     by_face, by_corner = sheet(part, density), sheet(part, np.repeat(density[:, None], 3, axis=1))
-    assert (np.abs(by_face.raw - by_corner.raw) <= by_face.rounding_error + by_corner.rounding_error).all()
+    assert (
+        np.abs(by_face.raw - by_corner.raw) <= by_face.rounding_error + by_corner.rounding_error
+    ).all()
     one = sheet(part, np.ones(len(part[1])))
     plain = measure_solid(bodies.surface(part), shell=True).area
     assert (np.abs(one.raw - plain.raw) <= one.rounding_error + plain.rounding_error).all()
@@ -109,7 +125,9 @@ def test_square_sheet_with_linear_density_matches_closed_form():
     # to third order: ∫ x · x³ = 1/5, ∫ x · x² y = 1/8, ∫ x · x y² = 1/9, ∫ x y³ = 1/8
     about = found.about_point((0, 0, 0))
     assert close(
-        [about[3, 0, 0], about[2, 1, 0], about[1, 2, 0], about[0, 3, 0]], [1 / 5, 1 / 8, 1 / 9, 1 / 8], rel=1e-13
+        [about[3, 0, 0], about[2, 1, 0], about[1, 2, 0], about[0, 3, 0]],
+        [1 / 5, 1 / 8, 1 / 9, 1 / 8],
+        rel=1e-13,
     )
 
 
@@ -118,10 +136,15 @@ def test_float32_storage_error_is_within_the_input_bound():
     points = points / 3.0 + 100.0
     density = np.random.default_rng(3).random(len(points)) * 7.0
     single = points.astype(np.float32), triangles
-    found = sheet(single, density.astype(np.float32).astype(float)[triangles], np.float32, stored=True)
+    found = sheet(
+        single, density.astype(np.float32).astype(float)[triangles], np.float32, stored=True
+    )
     about = found.about
     exactly = sheet((points, triangles), density[triangles]).about_point(about)
-    assert (np.abs(found.raw - exactly.raw) <= found.input_error + found.rounding_error + exactly.rounding_error).all()
+    assert (
+        np.abs(found.raw - exactly.raw)
+        <= found.input_error + found.rounding_error + exactly.rounding_error
+    ).all()
     assert found.input_error[0] < 1e-2 * found.total
 
 
@@ -145,7 +168,9 @@ def test_the_parts_add_up_to_the_whole(offset):
         <= solid.volume.rounding_error + np.sum([one.rounding_error for one in each], axis=0)
     ).all()
     for i, one in enumerate(each):
-        expected = exact.volume_moments(part[0].tolist(), parts.triangles[parts.part == i].tolist(), one.about)
+        expected = exact.volume_moments(
+            part[0].tolist(), parts.triangles[parts.part == i].tolist(), one.about
+        )
         assert within(one, expected)
 
 
@@ -156,7 +181,9 @@ def test_a_density_for_each_part_is_exact():
     found = solid_mass_moments(parts.points, parts.triangles, density[parts.part], solid.volume)
     expected = [0] * 20
     for i, value in enumerate(density):
-        own = exact.volume_moments(PARTS[0].tolist(), parts.triangles[parts.part == i].tolist(), found.about)
+        own = exact.volume_moments(
+            PARTS[0].tolist(), parts.triangles[parts.part == i].tolist(), found.about
+        )
         expected = [a + Fraction(value) * b for a, b in zip(expected, own)]
     assert within(found, expected)
     assert found.rounding_error[0] < 1e-12 * found.total
@@ -170,18 +197,27 @@ def test_a_two_material_dumbbell():
     found = part_densities(parts, np.repeat([7820.0, 680.0], 12))
     assert found.density.tolist() == [7820.0, 680.0] and not found.has_several_materials.any()
     body = MassProperties.from_moments(
-        to_mass_moments(solid_mass_moments(parts.points, parts.triangles, found.density[parts.part], solid.volume))
+        to_mass_moments(
+            solid_mass_moments(
+                parts.points, parts.triangles, found.density[parts.part], solid.volume
+            )
+        )
     )
     assert body.mass == pytest.approx(8500.0, rel=1e-14)
     assert close(body.center, [(7820 * 0.5 + 680 * 4.5) / 8500, 0.5, 0.5], rel=1e-14)
     arm = 7820 * 680 / 8500 * 16.0
-    assert np.diag(body.inertia) == pytest.approx([8500 / 6, 8500 / 6 + arm, 8500 / 6 + arm], rel=1e-13)
+    assert np.diag(body.inertia) == pytest.approx(
+        [8500 / 6, 8500 / 6 + arm, 8500 / 6 + arm], rel=1e-13
+    )
 
 
 def test_a_part_of_several_materials_takes_their_mean_by_area():
     """A box of 1 x 2 x 3 whose two 2 x 3 sides are of another material: 12 of its 22 m²."""
     part = bodies.box((0, 0, 0), (1, 2, 3))
-    normal = np.cross(part[0][part[1][:, 1]] - part[0][part[1][:, 0]], part[0][part[1][:, 2]] - part[0][part[1][:, 0]])
+    normal = np.cross(
+        part[0][part[1][:, 1]] - part[0][part[1][:, 0]],
+        part[0][part[1][:, 2]] - part[0][part[1][:, 0]],
+    )
     faces = np.where(np.abs(normal[:, 0]) > 0.0, 100.0, 1000.0)
     found = part_densities(measure_solid(bodies.surface(part)).parts(), faces)
     assert found.has_several_materials.tolist() == [True] and found.first_face.tolist() == [0]
@@ -195,7 +231,9 @@ def test_caps_have_no_say_in_the_density_and_carry_it():
     assert solid.method == "capped" and (parts.face == -1).any()
     found = part_densities(parts, np.full(12, 500.0))
     assert found.density.tolist() == [500.0] and not found.has_several_materials.any()
-    mass = solid_mass_moments(parts.points, parts.triangles, found.density[parts.part], solid.volume)
+    mass = solid_mass_moments(
+        parts.points, parts.triangles, found.density[parts.part], solid.volume
+    )
     assert mass.total == pytest.approx(500.0, rel=1e-14)
 
 
@@ -203,11 +241,17 @@ def test_no_faces_have_no_moments():
     like = Moments(np.ones(10), np.zeros(3), "area", input_error=np.ones(10))
     for density in (np.zeros(0), np.zeros((0, 3))):
         found = sheet_mass_moments(CORNERS * 1.0, TRIANGLES[:0], density, like)
-        assert not found.raw.any() and not found.rounding_error.any() and not found.input_error.any()
+        assert (
+            not found.raw.any() and not found.rounding_error.any() and not found.input_error.any()
+        )
     none = solid_mass_moments(CORNERS * 1.0, TRIANGLES[:0], np.zeros(0), like)
     assert not none.raw.any() and not none.rounding_error.any() and not none.input_error.any()
     for measure in (solid_mass_moments, sheet_mass_moments):
-        assert close(measure(CORNERS * 1.0, TRIANGLES, np.full(4, 1e-3), like).input_error, np.full(10, 1e-3), rel=0.0)
+        assert close(
+            measure(CORNERS * 1.0, TRIANGLES, np.full(4, 1e-3), like).input_error,
+            np.full(10, 1e-3),
+            rel=0.0,
+        )
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -229,8 +273,13 @@ def test_cavity_removes_the_material_around_it(turned):
         faces = np.repeat([8000.0, one, other, 200.0], [12, 6, 6, 12])
         mixed = part_densities(parts, faces)
         assert mixed.has_foreign_cavity_material.tolist() == [False, foreign, False]
-        assert mixed.density.tolist() == found.density.tolist() and not mixed.has_several_materials.any()
-    mass = solid_mass_moments(parts.points, parts.triangles, found.density[parts.part], solid.volume)
+        assert (
+            mixed.density.tolist() == found.density.tolist()
+            and not mixed.has_several_materials.any()
+        )
+    mass = solid_mass_moments(
+        parts.points, parts.triangles, found.density[parts.part], solid.volume
+    )
     assert mass.total == pytest.approx(8000.0 * (64 - 8) + 200.0, rel=1e-14)
 
 
@@ -252,5 +301,7 @@ def test_parts_of_repaired_bodies_add_up(make):
     solid = measure_solid(make())
     parts = solid.parts()
     total = np.sum([one.raw for one in part_moments(parts, solid.volume)], axis=0)
-    assert np.allclose(total, solid.volume.raw, rtol=1e-12, atol=1e-12 * np.abs(solid.volume.raw).max())
+    assert np.allclose(
+        total, solid.volume.raw, rtol=1e-12, atol=1e-12 * np.abs(solid.volume.raw).max()
+    )
     assert parts.face.max() < 1 + np.unique(parts.face[parts.face >= 0]).size

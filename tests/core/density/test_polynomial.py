@@ -30,7 +30,10 @@ SMALL = st.integers(-5, 5).map(float)
         ("x**0", {(0, 0, 0): 1}),
         ("z/(1 + 1)", {(0, 0, 1): Fraction(1, 2)}),
         ("1000, 0, 0, 20", {(0, 0, 0): 1000, (0, 0, 1): 20}),
-        ("[1, 2, 0, 0, 0, 0, 0, 0, -3/2]", {(0, 0, 0): 1, (1, 0, 0): 2, (0, 1, 1): Fraction(-3, 2)}),
+        (
+            "[1, 2, 0, 0, 0, 0, 0, 0, -3/2]",
+            {(0, 0, 0): 1, (1, 0, 0): 2, (0, 1, 1): Fraction(-3, 2)},
+        ),
         ("x**17", {(17, 0, 0): 1}),
     ],
 )
@@ -97,12 +100,18 @@ def test_anything_else_is_refused_and_the_offending_part_named(text, code, part)
     finding = refusal.value.finding
     assert finding.code in code.split("|")
     assert part is None or finding.values["part"] == part
-    assert finding.values.get("limit", 17) == (4096 if finding.code == "polynomial_too_long" else 17)
+    assert finding.values.get("limit", 17) == (
+        4096 if finding.code == "polynomial_too_long" else 17
+    )
     assert len(str(refusal.value)) < 300
 
 
 @settings(deadline=None)
-@given(st.lists(SMALL, min_size=1, max_size=20), st.tuples(SMALL, SMALL, SMALL), st.tuples(SMALL, SMALL, SMALL))
+@given(
+    st.lists(SMALL, min_size=1, max_size=20),
+    st.tuples(SMALL, SMALL, SMALL),
+    st.tuples(SMALL, SMALL, SMALL),
+)
 def test_a_shift_is_exact(coefficients, point, place):
     """Small integers need no rounding, so the two values are equal to the bit."""
     typed = Polynomial.from_list([*map(Fraction, coefficients)])
@@ -114,7 +123,9 @@ def test_coefficients_come_back():
     values = np.arange(1.0, 21.0)
     found = Polynomial.from_list([*map(Fraction, values)])
     assert np.array_equal(found.coefficients(), values) and found.degree == 3
-    assert parse_polynomial("0").degree == 0 and np.array_equal(parse_polynomial("0").coefficients(), [0.0])
+    assert parse_polynomial("0").degree == 0 and np.array_equal(
+        parse_polynomial("0").coefficients(), [0.0]
+    )
 
 
 @settings(deadline=None)
@@ -133,7 +144,9 @@ def test_polynomial_on_a_box_stays_above_its_bound(coefficients, one, other, see
     assert bound <= typed(np.array([low, high])).min() + 1e-11 * (1.0 + abs(bound))
 
 
-@pytest.mark.parametrize("text", ["x**2 + 0.01", "(x - y)**2 + z + 1.01", "x**4 - x**2 + 0.26", "1000 + 999*z"])
+@pytest.mark.parametrize(
+    "text", ["x**2 + 0.01", "(x - y)**2 + z + 1.01", "x**4 - x**2 + 0.26", "1000 + 999*z"]
+)
 def test_positive_polynomial_is_proven_positive(text):
     assert parse_polynomial(text).lower_bound((-1, -1, -1), (1, 1, 1)) > 0.0
 
@@ -169,4 +182,6 @@ def test_values_beyond_the_range_of_numbers_are_refused():
 def test_the_highest_degree_works():
     typed = parse_polynomial("(1 + x + y + z)**{:d}".format(MAX_DEGREE))
     assert typed([[1, 1, 1]])[0] == pytest.approx(4.0**MAX_DEGREE, rel=1e-13)
-    assert typed.translate((0.5, 0.25, -1.0))([[0.5, 0.75, 2.0]])[0] == pytest.approx(4.0**MAX_DEGREE, rel=1e-13)
+    assert typed.translate((0.5, 0.25, -1.0))([[0.5, 0.75, 2.0]])[0] == pytest.approx(
+        4.0**MAX_DEGREE, rel=1e-13
+    )

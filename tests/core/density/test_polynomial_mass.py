@@ -25,7 +25,14 @@ PRISM = (
     0.5,
     [(0, 1, 2, 3), (0, 3, 4, 5)],
 )
-DENSITIES = ["1000 + 20*z", "7", "3 - x/4 + x*y + z**2/8", "(1 + x + y + z)**4", "x**6 + y**5*z**2 + 1/3", "0"]
+DENSITIES = [
+    "1000 + 20*z",
+    "7",
+    "3 - x/4 + x*y + z**2/8",
+    "(1 + x + y + z)**4",
+    "x**6 + y**5*z**2 + 1/3",
+    "0",
+]
 
 
 def prism(offset=(0.0, 0.0, 0.0)):
@@ -36,8 +43,12 @@ def prism(offset=(0.0, 0.0, 0.0)):
 def moments_of(points, triangles, order, about=None):
     """Moments rounded once from rational ones: half an ulp each, and a bound that says so."""
     about = np.asarray(np.mean(points, axis=0) if about is None else about, float)
-    raw = np.array([float(value) for value in exact.volume_moments(points, triangles, about, order)])
-    return Moments(raw, about, "volume", rounding_error=np.abs(raw) * 2.0**-53, input_error=np.abs(raw) * 1e-9)
+    raw = np.array(
+        [float(value) for value in exact.volume_moments(points, triangles, about, order)]
+    )
+    return Moments(
+        raw, about, "volume", rounding_error=np.abs(raw) * 2.0**-53, input_error=np.abs(raw) * 1e-9
+    )
 
 
 def truth(points, triangles, terms, about):
@@ -45,7 +56,9 @@ def truth(points, triangles, terms, about):
     about = [Fraction(value) for value in np.asarray(about, float).tolist()]
     degree = max((sum(powers) for powers in terms), default=0)
     rows = exact.monomials(3 + degree)
-    volume = dict(zip(rows, exact.volume_moments(points, triangles, [float(a) for a in about], 3 + degree)))
+    volume = dict(
+        zip(rows, exact.volume_moments(points, triangles, [float(a) for a in about], 3 + degree))
+    )
     local = {}
     for powers, value in terms.items():
         for i in range(powers[0] + 1):
@@ -57,7 +70,10 @@ def truth(points, triangles, terms, about):
                         factor *= comb(n, m) * a ** (n - m)
                     local[lower] = local.get(lower, 0) + factor
     return [
-        sum(value * volume[tuple(a + b for a, b in zip(row, powers))] for powers, value in local.items())
+        sum(
+            value * volume[tuple(a + b for a, b in zip(row, powers))]
+            for powers, value in local.items()
+        )
         for row in exact.MONOMIALS
     ]
 
@@ -104,7 +120,9 @@ def test_bounds_hold_for_a_body_with_lost_position(text, step):
     matrix = np.eye(4)
     matrix[:3, 3] = [float(value) for value in far]
     density = parse_polynomial(text)
-    found = polynomial_mass_of_images(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
+    found = polynomial_mass_of_images(
+        moments_of(points, triangles, 3 + density.degree), density, matrix[None]
+    )
     images = [[Fraction(x) + shift for x, shift in zip(point, far)] for point in points]
     assert within(found, truth(images, triangles, density.terms, found.about))
 
@@ -112,7 +130,10 @@ def test_bounds_hold_for_a_body_with_lost_position(text, step):
 def placed(points, matrix):
     """Rational images of points under a map of floats, as floats; the map is chosen so that they need no rounding."""
     rows = [[Fraction(float(value)) for value in row] for row in matrix]
-    images = [[sum(a * Fraction(x) for a, x in zip(row[:3], point)) + row[3] for row in rows[:3]] for point in points]
+    images = [
+        [sum(a * Fraction(x) for a, x in zip(row[:3], point)) + row[3] for row in rows[:3]]
+        for point in points
+    ]
     assert all(Fraction(float(value)) == value for image in images for value in image)
     return [tuple(float(value) for value in image) for image in images]
 
@@ -134,7 +155,9 @@ def test_world_density_stays_in_place_while_the_body_moves(name, text):
     points, triangles = prism()
     matrix = np.array(MAPS[name], float)
     density = parse_polynomial(text)
-    found = polynomial_mass_of_images(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
+    found = polynomial_mass_of_images(
+        moments_of(points, triangles, 3 + density.degree), density, matrix[None]
+    )
     faces = [face[::-1] for face in triangles] if np.linalg.det(matrix) < 0 else triangles
     assert within(found, truth(placed(points, matrix), faces, density.terms, found.about))
 
@@ -152,7 +175,9 @@ def test_the_bound_holds_for_any_density_and_any_map(coefficients, linear, offse
     matrix[:3, :3], matrix[:3, 3] = np.reshape(linear, (3, 3)) / 8.0, offset
     points, triangles = prism()
     density = Polynomial.from_list([*map(Fraction, coefficients)])
-    found = polynomial_mass_of_images(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
+    found = polynomial_mass_of_images(
+        moments_of(points, triangles, 3 + density.degree), density, matrix[None]
+    )
     faces = [face[::-1] for face in triangles] if np.linalg.det(matrix) < 0 else triangles
     assert within(found, truth(placed(points, matrix), faces, density.terms, found.about))
 
@@ -193,9 +218,17 @@ def test_many_images_sum_and_constant_density_is_a_factor():
     ]
     total = np.sum([one.raw for one in each], axis=0)
     bound = together.rounding_error + np.sum([one.rounding_error for one in each], axis=0)
-    assert (np.abs(together.raw - total) <= bound).all() and (bound < 1e-9 * np.abs(total).max()).all()
-    constant, plain = polynomial_mass_of_images(volume, parse_polynomial("7"), maps), sum_of_images(volume, maps)
-    assert (np.abs(constant.raw - 7.0 * plain.raw) <= constant.rounding_error + 7.0 * plain.rounding_error).all()
+    assert (np.abs(together.raw - total) <= bound).all() and (
+        bound < 1e-9 * np.abs(total).max()
+    ).all()
+    constant, plain = (
+        polynomial_mass_of_images(volume, parse_polynomial("7"), maps),
+        sum_of_images(volume, maps),
+    )
+    assert (
+        np.abs(constant.raw - 7.0 * plain.raw)
+        <= constant.rounding_error + 7.0 * plain.rounding_error
+    ).all()
 
 
 def test_the_input_bound_follows_the_density():
@@ -223,7 +256,9 @@ def test_a_cylinder_with_a_linear_density():
     assert body.mass == pytest.approx(area * height * (a + b * height / 2.0), rel=1e-14)
     z = (a * height / 2.0 + b * height**2 / 3.0) / (a + b * height / 2.0)
     assert body.center == pytest.approx([0.0, 0.0, z], abs=1e-14)
-    gyration = radius**2 / 6.0 * (2.0 + np.cos(2.0 * np.pi / n))  # a regular polygon about its center
+    gyration = (
+        radius**2 / 6.0 * (2.0 + np.cos(2.0 * np.pi / n))
+    )  # a regular polygon about its center
     assert body.inertia[2, 2] == pytest.approx(body.mass * gyration, rel=1e-13)
 
 
@@ -235,21 +270,31 @@ def test_a_ball_with_a_radial_density_by_refinement():
         points, triangles = bodies.sphere(level)
         volume = moments_of(points.tolist(), triangles.tolist(), 5, (0, 0, 0))
         body = MassProperties.from_moments(
-            polynomial_mass_of_images(volume, parse_polynomial("x**2 + y**2 + z**2"), np.eye(4)[None])
+            polynomial_mass_of_images(
+                volume, parse_polynomial("x**2 + y**2 + z**2"), np.eye(4)[None]
+            )
         )
-        wrong.append([1.0 - body.mass / (0.8 * np.pi), 1.0 - body.inertia[0, 0] / (8.0 * np.pi / 21.0)])
+        wrong.append(
+            [1.0 - body.mass / (0.8 * np.pi), 1.0 - body.inertia[0, 0] / (8.0 * np.pi / 21.0)]
+        )
     ratio = np.array(wrong[0]) / np.array(wrong[1])
     assert (np.array(wrong) > 0.0).all() and (ratio > 3.6).all() and (ratio < 4.1).all()
 
 
 def test_insufficient_order_is_refused():
     with pytest.raises(ValueError, match="below"):
-        polynomial_mass_of_images(moments_of(*prism(), 3), parse_polynomial("x**4"), np.eye(4)[None])
+        polynomial_mass_of_images(
+            moments_of(*prism(), 3), parse_polynomial("x**4"), np.eye(4)[None]
+        )
 
 
 def test_the_winding_number_tells_inside_from_outside():
     points, triangles = prism()
     points, triangles = np.array(points), np.array(triangles)
     assert winding_number(points, triangles, (0.5, 0.5, 0.0)) == pytest.approx(1.0, abs=1e-12)
-    assert winding_number(points, triangles, (2.0, 2.0, 0.0)) == pytest.approx(0.0, abs=1e-12)  # in the notch
-    assert winding_number(points, triangles[:, ::-1], (0.5, 0.5, 0.0)) == pytest.approx(-1.0, abs=1e-12)
+    assert winding_number(points, triangles, (2.0, 2.0, 0.0)) == pytest.approx(
+        0.0, abs=1e-12
+    )  # in the notch
+    assert winding_number(points, triangles[:, ::-1], (0.5, 0.5, 0.0)) == pytest.approx(
+        -1.0, abs=1e-12
+    )

@@ -90,7 +90,9 @@ def exact_moments(samples, positions, spline_order, order):
 def test_moments_match_rational_arithmetic_within_bounds(spline_order):
     samples = np.random.default_rng(spline_order).integers(0, 9, SHAPE).astype(float)
     order = 6
-    found = grid_moments(samples, SHAPE, np.eye(4), spline_order, order, positions=POSITIONS).about_point(np.zeros(3))
+    found = grid_moments(
+        samples, SHAPE, np.eye(4), spline_order, order, positions=POSITIONS
+    ).about_point(np.zeros(3))
     truth = exact_moments(samples, POSITIONS, spline_order, order)
     for value, bound, exponents in zip(found.raw, found.rounding_error, monomials(order).tolist()):
         exact = truth[tuple(exponents)]
@@ -103,14 +105,18 @@ def test_high_orders_of_moments_and_of_splines():
     samples = np.random.default_rng(7).integers(1, 9, (2, 2, 4)).astype(float)
     positions = (None, np.array([0.0, 3.0]), np.array([-1.0, -0.5, 0.0, 2.0]))
     for spline_order, order in ((1, 20), (2, 20), (4, 20), (16, 2)):
-        found = grid_moments(samples, samples.shape, np.eye(4), spline_order, order, positions=positions)
+        found = grid_moments(
+            samples, samples.shape, np.eye(4), spline_order, order, positions=positions
+        )
         exact = exact_moments(samples, positions, spline_order, 2)
         about = found.about_point(np.zeros(3))
         for exponents in monomials(2).tolist():
             index = int(np.flatnonzero((monomials(order) == exponents).all(axis=1))[0])
             assert close(about.raw[index], float(exact[tuple(exponents)]), 1e-12)
     exact = exact_moments(samples, positions, 4, 12)
-    found = grid_moments(samples, samples.shape, np.eye(4), 4, 12, positions=positions).about_point(np.zeros(3))
+    found = grid_moments(samples, samples.shape, np.eye(4), 4, 12, positions=positions).about_point(
+        np.zeros(3)
+    )
     wrong = [
         abs(Fraction(float(value)) - exact[tuple(exponents)]) > Fraction(float(bound))
         for value, bound, exponents in zip(found.raw, found.rounding_error, monomials(12).tolist())
@@ -123,10 +129,13 @@ def test_even_positions_match_the_uniform_grid(spline_order):
     samples = np.random.default_rng(1).uniform(0, 1, SHAPE)
     plain = grid_moments(samples, SHAPE, np.diag([2.0, 3.0, 0.5, 1.0]), spline_order)
     rows = tuple(np.arange(count) * step for count, step in zip(SHAPE, (2.0, 3.0, 0.5)))
-    found = grid_moments(samples, SHAPE, np.eye(4), spline_order, positions=rows).about_point(plain.about)
+    found = grid_moments(samples, SHAPE, np.eye(4), spline_order, positions=rows).about_point(
+        plain.about
+    )
     assert np.abs(found.raw - plain.raw).max() <= 1e-13 * np.abs(plain.raw).max()
     assert np.array_equal(
-        SplineAxis.at_positions(np.arange(5), spline_order).knots, SplineAxis.uniform(5, spline_order).knots
+        SplineAxis.at_positions(np.arange(5), spline_order).knots,
+        SplineAxis.uniform(5, spline_order).knots,
     )
 
 
@@ -165,8 +174,12 @@ def test_far_away_positions_keep_their_digits():
 
 
 def test_positions_follow_the_axes_directions():
-    turn = np.array([[0.0, -2.0, 0.0, 5.0], [3.0, 0.0, 0.0, 6.0], [0.0, 0.0, -0.5, 7.0], [0.0, 0.0, 0.0, 1.0]])
-    matrix, (x, y, z) = place_samples(turn, (None, np.array([4.0, 5.0]), np.array([1.0, 2.0, 4.0])), 0.5)
+    turn = np.array(
+        [[0.0, -2.0, 0.0, 5.0], [3.0, 0.0, 0.0, 6.0], [0.0, 0.0, -0.5, 7.0], [0.0, 0.0, 0.0, 1.0]]
+    )
+    matrix, (x, y, z) = place_samples(
+        turn, (None, np.array([4.0, 5.0]), np.array([1.0, 2.0, 4.0])), 0.5
+    )
     assert x is None and y.tolist() == [0.0, 1.0] and z.tolist() == [0.0, 1.0, 3.0]
     assert np.array_equal(matrix @ (0, 1, 3, 1), [-2.5, 6.0, -2.0, 1.0])
     assert np.array_equal(matrix @ (1, 0, 0, 1), [-2.0, 9.0, -0.5, 1.0])
@@ -199,14 +212,35 @@ def saved(tmp_path, array, name="z.npy"):
         (np.array([0.0, -2.0, 1.0]), "positions_not_ascending", {"axis": "z", "place": 1}),
         (np.array([0.0, np.nan, np.nan]), "positions_not_ascending", {"axis": "z", "place": 1}),
         (np.array([0.0, 1.0, np.inf]), "positions_not_ascending", {"axis": "z", "place": 2}),
-        (np.array([0.0, 1.0]), "positions_count", {"axis": "z", "array": "2 float64", "samples": 3}),
-        (np.zeros((3, 1)), "positions_count", {"axis": "z", "array": "3 x 1 float64", "samples": 3}),
-        (np.array(["0", "1", "2"]), "positions_count", {"axis": "z", "array": "3 <U1", "samples": 3}),
-        (np.array([0.0, 1.0, 2j]), "positions_count", {"axis": "z", "array": "3 complex128", "samples": 3}),
+        (
+            np.array([0.0, 1.0]),
+            "positions_count",
+            {"axis": "z", "array": "2 float64", "samples": 3},
+        ),
+        (
+            np.zeros((3, 1)),
+            "positions_count",
+            {"axis": "z", "array": "3 x 1 float64", "samples": 3},
+        ),
+        (
+            np.array(["0", "1", "2"]),
+            "positions_count",
+            {"axis": "z", "array": "3 <U1", "samples": 3},
+        ),
+        (
+            np.array([0.0, 1.0, 2j]),
+            "positions_count",
+            {"axis": "z", "array": "3 complex128", "samples": 3},
+        ),
         (
             np.array([0, 1, 2], object),
             "file_damaged",
-            {"cause": {"code": "damage_incomplete", "values": {"kind": "NumPy array", "error": "ValueError"}}},
+            {
+                "cause": {
+                    "code": "damage_incomplete",
+                    "values": {"kind": "NumPy array", "error": "ValueError"},
+                }
+            },
         ),
     ],
 )
@@ -214,11 +248,18 @@ def test_wrong_position_files_are_refused(tmp_path, array, code, values):
     path = saved(tmp_path, array)
     with pytest.raises(FileError) as caught:
         read_positions(path, "z", 3)
-    assert caught.value.finding == finding(code, file="z.npy", **values) and caught.value.reason.endswith(".")
+    assert caught.value.finding == finding(
+        code, file="z.npy", **values
+    ) and caught.value.reason.endswith(".")
 
 
 def test_missing_text_and_damaged_files_are_refused(tmp_path):
-    for name, content in (("a.npy", None), ("b.npy", b"0 1 2\n"), ("c.npy", b""), ("d.npy", b"\x93NUMPY\1\0")):
+    for name, content in (
+        ("a.npy", None),
+        ("b.npy", b"0 1 2\n"),
+        ("c.npy", b""),
+        ("d.npy", b"\x93NUMPY\1\0"),
+    ):
         if content is not None:
             (tmp_path / name).write_bytes(content)
         with pytest.raises(FileError) as caught:
@@ -237,7 +278,10 @@ def test_whole_numbers_two_samples_and_one(tmp_path):
         rows = read_all_positions({axis: path}, (3, 3, 3))
         assert rows["xyz".index(axis)].tolist() == [0.0, 1.0, 5.0] and rows[other] is None
         assert sum(row is None for row in rows) == 2
-    assert read_positions(saved(tmp_path, np.array([1.0, 4.0]), "two.npy"), "x", 2).tolist() == [1.0, 4.0]
+    assert read_positions(saved(tmp_path, np.array([1.0, 4.0]), "two.npy"), "x", 2).tolist() == [
+        1.0,
+        4.0,
+    ]
     with pytest.raises(FileError) as caught:
         read_positions(saved(tmp_path, np.array([1.0]), "one.npy"), "x", 1)
     assert caught.value.finding.code == "positions_count"

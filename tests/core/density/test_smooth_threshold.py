@@ -37,7 +37,9 @@ def _evaluate(knots, order, coefficients, t):
     """De Boor's recursion at points that each lie in a span of full support."""
     result = np.empty(len(t))
     for n, x in enumerate(t):
-        k = int(np.clip(np.searchsorted(knots, x, side="right") - 1, order - 1, len(coefficients) - 1))
+        k = int(
+            np.clip(np.searchsorted(knots, x, side="right") - 1, order - 1, len(coefficients) - 1)
+        )
         d = [coefficients[j + k - order + 1] for j in range(order)]
         for r in range(1, order):
             for j in range(order - 1, r - 1, -1):
@@ -79,6 +81,8 @@ def test_the_background_goes_on_around_the_grid(order):
     samples = np.random.default_rng(order).uniform(1.0, 2.0, (3, 4, 3))
     margin = (order + 1) // 2
     found = smooth_threshold_body(samples, 0.5, order, order=1, background=-3.0)
-    padded = smooth_threshold_body(np.pad(samples, margin, constant_values=-3.0), 0.5, order, order=1)
+    padded = smooth_threshold_body(
+        np.pad(samples, margin, constant_values=-3.0), 0.5, order, order=1
+    )
     assert close(found.volume.total, padded.volume.total, rel=1e-13) and not found.clipped
     assert close(found.volume.center, padded.volume.center - margin, rel=1e-12)

@@ -48,7 +48,10 @@ WEIGHTS = 0.1 * 0.25 * np.pi * np.cosh(_T) / np.cosh(0.5 * np.pi * np.sinh(_T)) 
 def between(roots):
     """Nodes and weights over [0, 1] between roots (…, k)."""
     inside = np.where((roots > 0.0) & (roots < 1.0), roots, 0.0)
-    edges = np.sort(np.concatenate([np.zeros_like(roots[..., :1]), inside, np.ones_like(roots[..., :1])], -1), -1)
+    edges = np.sort(
+        np.concatenate([np.zeros_like(roots[..., :1]), inside, np.ones_like(roots[..., :1])], -1),
+        -1,
+    )
     start, length = edges[..., :-1, None], np.diff(edges)[..., None]
     nodes, weights = start + length * NODES, length * WEIGHTS
     return nodes.reshape(*nodes.shape[:-2], -1), weights.reshape(*weights.shape[:-2], -1)
@@ -65,7 +68,11 @@ def cell_moments(corners, origin, order):
             first = np.polynomial.Polynomial([low[i, 0], step[i, 0]])
             slope = np.polynomial.Polynomial([low[j, 1] - low[j, 0], step[j, 1] - step[j, 0]])
             both = both + sign * first * slope
-        crossing = [root.real for root in both.trim().roots() if abs(root.imag) < 1e-9] if both.trim().degree() else []
+        crossing = (
+            [root.real for root in both.trim().roots() if abs(root.imag) < 1e-9]
+            if both.trim().degree()
+            else []
+        )
         z, weight_z = between(np.nan_to_num(np.array([*edges, *crossing])))
         line = low + z[:, None, None] * step  # z, x, y
         y, weight = between(np.nan_to_num(line[:, :, 0] / (line[:, :, 0] - line[:, :, 1])))
@@ -138,10 +145,16 @@ def test_a_half_space_is_exact_with_its_density_and_its_face(axis, sign):
     assert close(found.volume.total, 12.0 * (high - low), rel=1e-14)
     assert close(found.area.total, 12.0, rel=1e-14)
     assert close(found.mass.total, sign * 6.0 * (high**2 - low**2), rel=1e-14)
-    assert (found.volume.measure, found.area.measure, found.mass.measure) == ("volume", "area", "mass")
+    assert (found.volume.measure, found.area.measure, found.mass.measure) == (
+        "volume",
+        "area",
+        "mass",
+    )
     assert close(found.volume.center[axis], (low + high) / 2.0, rel=1e-14)
     assert close(found.area.center[axis], 2.25, rel=1e-14)
-    assert close(found.mass.center[axis], 2.0 / 3.0 * (high**3 - low**3) / (high**2 - low**2), rel=1e-14)
+    assert close(
+        found.mass.center[axis], 2.0 / 3.0 * (high**3 - low**3) / (high**2 - low**2), rel=1e-14
+    )
     # with its density to third order: ∫ x³ x
     powers = [0, 0, 0]
     powers[axis] = 3
@@ -185,10 +198,14 @@ def test_the_area_is_the_derivative_of_the_volume():
 def test_the_size_of_the_numbers_changes_nothing(exponent):
     """Powers of two are exact, so every number stays; squares of these leave the range."""
     samples, scale = np.random.default_rng(9).normal(size=(5, 6, 4)), 2.0**exponent
-    found, scaled = (threshold_body(samples * s, 0.1 * s, order=2, with_density=True) for s in (1.0, scale))
+    found, scaled = (
+        threshold_body(samples * s, 0.1 * s, order=2, with_density=True) for s in (1.0, scale)
+    )
     for measure in ("volume", "area"):
         assert np.array_equal(getattr(scaled, measure).raw, getattr(found, measure).raw)
-        assert np.array_equal(getattr(scaled, measure).rounding_error, getattr(found, measure).rounding_error)
+        assert np.array_equal(
+            getattr(scaled, measure).rounding_error, getattr(found, measure).rounding_error
+        )
     assert np.array_equal(scaled.mass.raw, found.mass.raw * scale)
 
 
@@ -206,17 +223,31 @@ def test_turned_and_mirrored_samples_turn_and_mirror_the_body():
 def test_sheared_grid_has_area_and_moments_of_the_sheared_body():
     """A plane's piece with known corners in the image of the grid; a volume and a center under the map."""
     matrix = np.array(
-        [[0.02, 0.003, 0.0, 5.0], [0.0, -0.05, 0.01, 6.0], [0.004, 0.0, 0.003, -7.0], [0.0, 0.0, 0.0, 1.0]]
+        [
+            [0.02, 0.003, 0.0, 5.0],
+            [0.0, -0.05, 0.01, 6.0],
+            [0.004, 0.0, 0.003, -7.0],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
     )
     x, y, z = np.meshgrid(*[np.arange(8.0)] * 3, indexing="ij")
     samples = -(x + 2 * y + 3 * z)
-    plain, mapped = threshold_body(samples, -5.3), threshold_body(samples, -5.3, matrix=matrix, with_density=True)
-    corners = (matrix @ np.array([[5.3, 0, 0, 1], [0, 2.65, 0, 1], [0, 0, 5.3 / 3.0, 1]]).T).T[:, :3]
+    plain, mapped = (
+        threshold_body(samples, -5.3),
+        threshold_body(samples, -5.3, matrix=matrix, with_density=True),
+    )
+    corners = (matrix @ np.array([[5.3, 0, 0, 1], [0, 2.65, 0, 1], [0, 0, 5.3 / 3.0, 1]]).T).T[
+        :, :3
+    ]
     area = np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0])) / 2.0
     assert close(mapped.area.total, area, rel=1e-10)
     assert close(mapped.area.center, corners.mean(axis=0), rel=1e-10)
-    assert close(mapped.volume.total, plain.volume.total * abs(np.linalg.det(matrix[:3, :3])), rel=1e-12)
-    assert close(mapped.volume.center, matrix[:3, :3] @ plain.volume.center + matrix[:3, 3], rel=1e-13)
+    assert close(
+        mapped.volume.total, plain.volume.total * abs(np.linalg.det(matrix[:3, :3])), rel=1e-12
+    )
+    assert close(
+        mapped.volume.center, matrix[:3, :3] @ plain.volume.center + matrix[:3, 3], rel=1e-13
+    )
     assert mapped.mass.total < 0.0  # these densities are negative
     far = np.eye(4)
     far[1, 3] = np.inf
@@ -253,20 +284,27 @@ def test_grid_surroundings_are_empty_or_background():
 
 def test_a_preview_is_near_and_claims_nothing():
     samples = torus(24)
-    exact, preview = (threshold_body(samples, 0.05, order=1, preview=quick) for quick in (False, True))
+    exact, preview = (
+        threshold_body(samples, 0.05, order=1, preview=quick) for quick in (False, True)
+    )
     assert close(preview.volume.total, exact.volume.total, rel=1e-6)
     assert abs(preview.volume.total - exact.volume.total) > 0.0
 
 
 def test_empty_full_and_bad_samples_are_handled():
     samples = RNG.uniform(size=(3, 4, 5))
-    assert threshold_body(samples, 2.0).volume.total == 0.0 and not threshold_body(samples, 2.0).clipped
+    assert (
+        threshold_body(samples, 2.0).volume.total == 0.0
+        and not threshold_body(samples, 2.0).clipped
+    )
     assert close(threshold_body(samples, -1.0).volume.total, 24.0, rel=1e-14)
     samples[1, 1, 1] = np.nan
     with pytest.raises(MeasureError) as refused:
         threshold_body(samples, 0.5)
     assert refused.value.finding.code == "density_non_finite"
-    signaling = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)  # a damaged file may hold it
+    signaling = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(
+        np.float32
+    )  # a damaged file may hold it
     with pytest.raises(MeasureError):
         threshold_body(signaling, 0.5)
     with pytest.raises(ValueError, match="two samples per axis"):
@@ -283,10 +321,13 @@ def test_surface_area_is_exact_along_a_constant_axis(axis, level):
     found = threshold_body(np.moveaxis(corner, 0, axis), level)
     assert close(found.volume.total, 1.0 - level + level * math.log(level), rel=1e-11)
     length = mpmath.quad(
-        lambda z: mpmath.sqrt(1 + level**2 / z**4), [level, 2 * level, 1] if level < 0.5 else [level, 1]
+        lambda z: mpmath.sqrt(1 + level**2 / z**4),
+        [level, 2 * level, 1] if level < 0.5 else [level, 1],
     )
     assert close(found.area.total, float(length), rel=1e-8)
-    assert close(found.volume.center[axis], 0.5, rel=1e-11) and close(found.area.center[axis], 0.5, rel=1e-9)
+    assert close(found.volume.center[axis], 0.5, rel=1e-11) and close(
+        found.area.center[axis], 0.5, rel=1e-9
+    )
 
 
 @pytest.mark.parametrize("order", [0, 1, 2, 3, 4, 5])
@@ -300,13 +341,18 @@ def test_inner_parts_of_cells_are_integrated_exactly(order):
 
     def mean(at, start, slope, power):
         """Integrate (start + slope u) (at + size u)^power over u from 0 to 1."""
-        line = np.polynomial.Polynomial([start, slope]) * np.polynomial.Polynomial([at, size]) ** power
+        line = (
+            np.polynomial.Polynomial([start, slope]) * np.polynomial.Polynomial([at, size]) ** power
+        )
         return line.integ()(1.0)
 
     volume, mass = np.zeros((2, len(monomials(order))))
     for number, powers in enumerate(monomials(order).tolist()):
         plain = [mean(at, 1.0, 0.0, power) for at, power in zip(origin, powers)]
-        rising = [mean(at, *line, power) for at, line, power in zip(origin, ((1, 1), (2, -1), (1, 3)), powers)]
+        rising = [
+            mean(at, *line, power)
+            for at, line, power in zip(origin, ((1, 1), (2, -1), (1, 3)), powers)
+        ]
         volume[number] = size**3 * np.prod(plain)
         mass[number] = size**3 * (3.0 * np.prod(plain) + np.prod(rising))
     for found, truth, measure in ((sums.volume, volume, "volume"), (sums.mass, mass, "mass")):

@@ -16,7 +16,13 @@ def test_pairs_are_parted_by_commas_semicolons_and_lines():
         values, densities = parse_table(text)
         assert values.tolist() == [-5.0, 0.5, 7.0] and densities.tolist() == [0.0, 1000.0, 2.0]
     values, densities = parse_table(CT_DENSITIES)
-    assert np.interp([-2000, -1000, 14, 1600, 4000], values, densities).tolist() == [1.21, 1.21, 1030, 1964.2, 2800]
+    assert np.interp([-2000, -1000, 14, 1600, 4000], values, densities).tolist() == [
+        1.21,
+        1.21,
+        1030,
+        1964.2,
+        2800,
+    ]
 
 
 @pytest.mark.parametrize(
@@ -40,7 +46,12 @@ def test_malformed_table_is_refused(text, code, values):
 
 
 def test_units_have_their_sizes_and_follow_the_scene():
-    sizes = {"KG_M3": 1.0, "G_CM3": 1000.0, "LB_IN3": 27679.904710203125, "LB_FT3": 16.01846337396014}  # NIST SP 811
+    sizes = {
+        "KG_M3": 1.0,
+        "G_CM3": 1000.0,
+        "LB_IN3": 27679.904710203125,
+        "LB_FT3": 16.01846337396014,
+    }  # NIST SP 811
     assert DENSITY_UNITS.keys() == sizes.keys()
     assert all(close(DENSITY_UNITS[name][0], size, 1e-14) for name, size in sizes.items())
     shown = {"METRIC": "KG_M3", "IMPERIAL": "LB_FT3", "NONE": "KG_M3"}

@@ -32,18 +32,24 @@ def rectangle(x, y, width, height):
 def shape(*outlines):
     """(points, loops)"""
     starts = np.cumsum([0] + [len(one) for one in outlines])
-    return np.array([p for one in outlines for p in one], float), [np.arange(a, b) for a, b in zip(starts, starts[1:])]
+    return np.array([p for one in outlines for p in one], float), [
+        np.arange(a, b) for a, b in zip(starts, starts[1:])
+    ]
 
 
 STAR = [(0, 0), (3, 1), (6, 0), (5, 3), (6, 6), (3, 5), (0, 6), (1, 3)]
 HOLED = shape(STAR, rectangle(2, 2, 1, 2)[::-1])
 
 
-@pytest.mark.parametrize("scale, offset", [(1.0, (0, 0)), (2.0**-30, (1.0, 2.0)), (0.7, (1e4, -3e4)), (1e6, (5, 5))])
+@pytest.mark.parametrize(
+    "scale, offset", [(1.0, (0, 0)), (2.0**-30, (1.0, 2.0)), (0.7, (1e4, -3e4)), (1e6, (5, 5))]
+)
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_star_with_a_hole_has_moments_within_bounds(scale, offset, mirrored):
     points, loops = HOLED
-    points = (points * [-1 if mirrored else 1, 1]) @ np.array([[1.0, 0.3], [-0.2, 1.1]]).T * scale + offset
+    points = (points * [-1 if mirrored else 1, 1]) @ np.array(
+        [[1.0, 0.3], [-0.2, 1.1]]
+    ).T * scale + offset
     loops = [loop[::-1] if mirrored else loop for loop in loops]
     found = area_moments(points, directed_edges(loops), 8)
     exactly, about = rational.fractions(points), tuple(Fraction(x) for x in found.about)
@@ -87,26 +93,37 @@ def test_an_open_outline_is_refused():
 
 @pytest.mark.parametrize("turned", range(8))
 def test_loops_of_any_direction_nest_as_holes_and_islands(turned):
-    points, loops = shape(rectangle(0, 0, 6, 6), rectangle(1, 1, 4, 4), rectangle(2, 2, 2, 2), rectangle(8, 0, 1, 1))
+    points, loops = shape(
+        rectangle(0, 0, 6, 6), rectangle(1, 1, 4, 4), rectangle(2, 2, 2, 2), rectangle(8, 0, 1, 1)
+    )
     loops = [loop[::-1] if turned >> i & 1 else loop for i, loop in enumerate(loops)]
     edges = orient_loops(points, loops)
     assert area_moments(points, edges, 0).raw[0] == 36 - 16 + 4 + 1
     assert sorted(outline_areas(points, edges)) == [-16, 1, 4, 36]
-    assert find_defects(points, edges).crossings == 0 and not find_defects(points, edges).overlapping
+    assert (
+        find_defects(points, edges).crossings == 0 and not find_defects(points, edges).overlapping
+    )
 
 
 @pytest.mark.parametrize("first", range(4))
 def test_crossing_outlines_are_not_holes(first):
     """None is in the other, whichever of its edges begins in there."""
     low, high = rectangle(0, 0, 4, 4), rectangle(1, 1, 5, 5)
-    for other in (high, [(-x, y) for x, y in low], [(x, -y) for x, y in high], [(-x, -y) for x, y in high]):
+    for other in (
+        high,
+        [(-x, y) for x, y in low],
+        [(x, -y) for x, y in high],
+        [(-x, -y) for x, y in high],
+    ):
         points, loops = shape(np.roll(low, first, axis=0), np.roll(other, first, axis=0))
         areas = outline_areas(points, orient_loops(points, loops))
         assert (areas > 0.0).all()
 
 
 def test_outlines_touching_along_edges_and_corners_are_no_flaw():
-    points, loops = shape(rectangle(0, 0, 4, 4), rectangle(4, 1, 2, 2), rectangle(6, 3, 1, 1), rectangle(4, 3, 1, 1))
+    points, loops = shape(
+        rectangle(0, 0, 4, 4), rectangle(4, 1, 2, 2), rectangle(6, 3, 1, 1), rectangle(4, 3, 1, 1)
+    )
     edges = orient_loops(points, loops)
     assert area_moments(points, edges, 0).raw[0] == 16 + 4 + 1 + 1
     found = find_defects(points, edges)
@@ -152,7 +169,9 @@ def test_crossing_outlines_are_found(outlines, crossings, offset):
 
 def test_stacked_regions_without_crossings_are_found():
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(1, 1, 1, 1))
-    assert find_defects(points, directed_edges(loops)) == find_defects(points, directed_edges(loops)[::-1])
+    assert find_defects(points, directed_edges(loops)) == find_defects(
+        points, directed_edges(loops)[::-1]
+    )
     assert (
         find_defects(points, directed_edges(loops)).overlapping
         and not find_defects(points, directed_edges(loops)).crossings
@@ -163,7 +182,9 @@ def test_stacked_regions_without_crossings_are_found():
         and find_defects(points, directed_edges(loops[1:])).overlapping
     )
     # Through a corner of the other, so that no edge crosses another in its inside.
-    points, loops = shape([(0, 0), (4, 0), (4, 2), (4, 4), (0, 4)], [(2, 2), (4, 2), (6, 0), (6, 4)])
+    points, loops = shape(
+        [(0, 0), (4, 0), (4, 2), (4, 4), (0, 4)], [(2, 2), (4, 2), (6, 0), (6, 4)]
+    )
     assert find_defects(points, directed_edges(loops)).overlapping
 
 
@@ -176,7 +197,9 @@ def test_repeated_points_are_no_flaw(offset, away):
         points = np.array([(math.cos(turn + k), math.sin(turn + k)) for k in range(6)]) + offset
         step = float(np.spacing(np.float32(offset + 1.0)))
         points = np.insert(points, 3, points[2] + away * step * rng.uniform(-1.0, 1.0, 2), axis=0)
-        assert find_defects(points, directed_edges([np.arange(7)]), error=step) == OutlineDefects(0, False, False)
+        assert find_defects(points, directed_edges([np.arange(7)]), error=step) == OutlineDefects(
+            0, False, False
+        )
         assert find_defects(points, directed_edges([np.arange(7)[::-1]]), error=step).negative
 
 
@@ -201,8 +224,13 @@ def test_reversed_outline_counts_negative():
 )
 def test_shared_length_of_outlines_is_measured(outlines, shared, turn, offset):
     points, loops = shape(*outlines)
-    points = points @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]]) + offset
-    assert find_defects(points, orient_loops(points, loops)).shared_length == pytest.approx(shared, abs=1e-11)
+    points = (
+        points @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
+        + offset
+    )
+    assert find_defects(points, orient_loops(points, loops)).shared_length == pytest.approx(
+        shared, abs=1e-11
+    )
 
 
 def test_outlines_on_one_another_are_refused():
@@ -213,14 +241,27 @@ def test_outlines_on_one_another_are_refused():
 
 def test_winding_number_is_whole_inside_and_half_on_an_edge():
     points, loops = HOLED
-    at = np.array([[1.5, 3.0], [2.5, 3.0], [50.0, 0.0], (points[0] + points[1]) / 2, (points[8] + points[9]) / 2])
-    assert winding_numbers(points, directed_edges(loops), at) == pytest.approx([1, 0, 0, 0.5, 0.5], abs=1e-12)
+    at = np.array(
+        [
+            [1.5, 3.0],
+            [2.5, 3.0],
+            [50.0, 0.0],
+            (points[0] + points[1]) / 2,
+            (points[8] + points[9]) / 2,
+        ]
+    )
+    assert winding_numbers(points, directed_edges(loops), at) == pytest.approx(
+        [1, 0, 0, 0.5, 0.5], abs=1e-12
+    )
 
 
 @pytest.mark.parametrize(
     ("triangles", "sides"),
     [
-        ([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]], [(0, 1), (1, 2), (2, 5), (3, 0), (4, 3), (5, 4)]),
+        (
+            [[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]],
+            [(0, 1), (1, 2), (2, 5), (3, 0), (4, 3), (5, 4)],
+        ),
         ([[0, 1, 2], [0, 1, 2]], [(0, 1), (0, 1), (1, 2), (1, 2), (2, 0), (2, 0)]),
         ([[3, 3, 4], [0, 1, 2], [2, 1, 0], [4, 5, 4]], []),
         ([], []),
@@ -274,7 +315,9 @@ def exact_defects(points, edges):
                 shared += max(0, min(along[0], one @ one) - max(along[1], 0)) / math.sqrt(one @ one)
     middles = np.array([(points[a] + points[b]) / 2.0 for a, b in edges])
     left = np.array([(points[a] - points[b])[::-1] * (1, -1) for a, b in edges]) * 1e-4
-    left, right = (np.round(winding_numbers(points, np.array(edges), middles + side)) for side in (left, -left))
+    left, right = (
+        np.round(winding_numbers(points, np.array(edges), middles + side)) for side in (left, -left)
+    )
     negative = bool((right < 0).any())
     overlapping = negative or bool((left < right).any() or (left > 1).any())
     return OutlineDefects(crossings, False, overlapping, negative, shared)
@@ -284,21 +327,28 @@ def turn(a, b):
     return int(a[0] * b[1] - a[1] * b[0])
 
 
-@pytest.mark.parametrize("scale", [(1, 1), (2.0**-20, 2.0**-20), (2.0**9, 2.0**9), (4, 1), (0.5, 2)])
+@pytest.mark.parametrize(
+    "scale", [(1, 1), (2.0**-20, 2.0**-20), (2.0**9, 2.0**9), (4, 1), (0.5, 2)]
+)
 @pytest.mark.parametrize("offset", [(0, 0), (-40, 25)])
 def test_findings_of_random_regions_match_exact_arithmetic(scale, offset):
     """Edges on a lattice, of both senses, with points that are there twice."""
     rng = np.random.default_rng(12)
     kinds = set()
     for _ in range(25):
-        outlines = [lattice_polygon(rng, 5)[:: 1 if rng.random() < 0.8 else -1] for _ in range(int(rng.integers(1, 4)))]
+        outlines = [
+            lattice_polygon(rng, 5)[:: 1 if rng.random() < 0.8 else -1]
+            for _ in range(int(rng.integers(1, 4)))
+        ]
         outlines = [np.insert(one, 1, one[0], axis=0) for one in outlines]
         points, loops = shape(*outlines)
         points, edges = points * scale + np.multiply(offset, scale), directed_edges(loops)
         truth, found = exact_defects(points / min(scale), edges), find_defects(points, edges)
         assert close(found.shared_length, min(scale) * truth.shared_length, 1e-12)
         assert replace(found, shared_length=0.0) == replace(truth, shared_length=0.0)
-        kinds.add((min(found.crossings, 1), found.overlapping, found.negative, found.shared_length > 0.0))
+        kinds.add(
+            (min(found.crossings, 1), found.overlapping, found.negative, found.shared_length > 0.0)
+        )
     assert len(kinds) >= 7
 
 

@@ -8,32 +8,51 @@ import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
 from body_moments.core.flat.polygon import plane_positions
-from body_moments.core.moments.complex_form import complex_moments, flusser_invariants, hu_invariants, normalize
+from body_moments.core.moments.complex_form import (
+    complex_moments,
+    flusser_invariants,
+    hu_invariants,
+    normalize,
+)
 from body_moments.core.moments.exponents import monomials
 from body_moments.core.polyhedron.n_dimensions import multi_indices
 
 from tests.core import rational
 from tests.core.findings import refused
 
-POINTS = np.array([(0, 0), (3, 0.25), (2.5, 1), (1, 1), (1.25, 2.5), (0, 2), (0.25, 0.5), (0.25, 1), (0.75, 0.5)])
+POINTS = np.array(
+    [(0, 0), (3, 0.25), (2.5, 1), (1, 1), (1.25, 2.5), (0, 2), (0.25, 0.5), (0.25, 1), (0.75, 0.5)]
+)
 EDGES = directed_edges([range(6), range(6, 9)])
 
 
 def truths(points, about, order):
     exactly, center = rational.fractions(points), [Fraction(float(x)) for x in about[:2]]
-    return [rational.enclosed(exactly, EDGES.tolist(), row, center) for row in multi_indices(2, order).tolist()]
+    return [
+        rational.enclosed(exactly, EDGES.tolist(), row, center)
+        for row in multi_indices(2, order).tolist()
+    ]
 
 
-@pytest.mark.parametrize("scale, offset", [(1.0, (0, 0)), (2.0**-40, (3, 4)), (1e5, (-7, 2)), (1.0, (1e5, 0))])
+@pytest.mark.parametrize(
+    "scale, offset", [(1.0, (0, 0)), (2.0**-40, (3, 4)), (1e5, (-7, 2)), (1.0, (1e5, 0))]
+)
 def test_central_moments_are_within_tight_bounds(scale, offset):
     points = POINTS * scale + np.array(offset, float) * scale
     found, order = region_moments(points, EDGES, 9), 9
     size = region_moments(np.abs(POINTS - POINTS.mean(axis=0)) * scale, EDGES, 0).rounding_error[0]
     reach = np.abs(points - found.about[:2]).max()
-    for i, truth, (p, q) in zip(plane_positions(order), truths(points, found.about, order), multi_indices(2, order)):
+    for i, truth, (p, q) in zip(
+        plane_positions(order), truths(points, found.about, order), multi_indices(2, order)
+    ):
         assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.rounding_error[i])
-        assert found.rounding_error[i] <= 1e-12 * found.raw[0] * reach ** float(p + q) and size > 0.0
-    assert np.abs(found.raw[1:3]).max() <= (1e-14 + 1e-15 * np.abs(offset).max()) * found.raw[0] * reach
+        assert (
+            found.rounding_error[i] <= 1e-12 * found.raw[0] * reach ** float(p + q) and size > 0.0
+        )
+    assert (
+        np.abs(found.raw[1:3]).max()
+        <= (1e-14 + 1e-15 * np.abs(offset).max()) * found.raw[0] * reach
+    )
     assert (np.delete(found.raw, plane_positions(order)) == 0.0).all()
 
 
@@ -48,13 +67,16 @@ def test_moved_points_change_moments_up_to_the_bound(step):
         assert (off <= known.rounding_error[positions]).all()
         worst = max(worst, off[0] / known.rounding_error[0])
     assert worst > 0.1
-    assert (region_moments(POINTS, EDGES, 5, about, stored=step).input_error[positions] >= 0.9 * off).all()
+    assert (
+        region_moments(POINTS, EDGES, 5, about, stored=step).input_error[positions] >= 0.9 * off
+    ).all()
 
 
 @pytest.mark.parametrize("scale", [2.0**-20, 2.0**15])
 def test_region_scaled_by_a_power_of_two_scales_exactly(scale):
     found, large = (
-        region_moments(POINTS * size, EDGES, 4, rounded=1e-6 * size, stored=1e-5 * size) for size in (1.0, scale)
+        region_moments(POINTS * size, EDGES, 4, rounded=1e-6 * size, stored=1e-5 * size)
+        for size in (1.0, scale)
     )
     powers = scale ** (monomials(4).sum(axis=1) + 2.0)
     assert large.about.tolist() == (found.about * scale).tolist() and found.about[2] == 0.0
@@ -67,7 +89,9 @@ def test_region_within_its_coordinate_error_is_refused(rounded, is_certain):
     """A unit square: 4 w (1 + 2 w) of it with w = √2 times what coordinates are off, which is 1 for w = 0.18301."""
     square = [(3, 5), (4, 5), (4, 6), (3, 6)]
     if is_certain:
-        assert region_moments(square, directed_edges([range(4)]), 2, rounded=rounded).about.tolist() == [3.5, 5.5, 0.0]
+        assert region_moments(
+            square, directed_edges([range(4)]), 2, rounded=rounded
+        ).about.tolist() == [3.5, 5.5, 0.0]
         return
     with refused("section_encloses_nothing"):
         region_moments(square, directed_edges([range(4)]), 2, rounded=rounded)
@@ -91,7 +115,10 @@ def test_complex_moments_match_their_definition_within_bounds():
                     product[key] = old[0] + c, old[1] + d
             terms = product
         true = [sum(real[key] * value[part] for key, value in terms.items()) for part in (0, 1)]
-        off = [abs(Fraction(value) - part) for value, part in zip((entry.value.real, entry.value.imag), true)]
+        off = [
+            abs(Fraction(value) - part)
+            for value, part in zip((entry.value.real, entry.value.imag), true)
+        ]
         assert off[0] ** 2 + off[1] ** 2 <= Fraction(entry.bound) ** 2
         assert entry.bound <= 1e-12 * 3.0 ** (p + q) * 5.0
 
@@ -105,7 +132,9 @@ def test_invariants_of_turned_and_mirrored_shapes_agree():
     turn = np.array([[0.6, -0.8], [0.8, 0.6]])
     for first, second in zip((hu, flusser), found(POINTS @ turn.T)):
         for a, b in zip(first, second):
-            assert a.name == b.name and abs(a.value - b.value) <= a.rounding_error + b.rounding_error
+            assert (
+                a.name == b.name and abs(a.value - b.value) <= a.rounding_error + b.rounding_error
+            )
             assert a.rounding_error < 1e-10
     mirrored = found(POINTS * [1.0, -1.0], EDGES[:, ::-1])
     assert abs(hu[6].value + mirrored[0][6].value) < 1e-13 and abs(hu[6].value) > 1e-6

@@ -8,7 +8,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.flat.polygon import OutlineDefects, directed_edges, find_defects, orient_loops
+from body_moments.core.flat.polygon import (
+    OutlineDefects,
+    directed_edges,
+    find_defects,
+    orient_loops,
+)
 from body_moments.core.flat.section import fit_plane, measure_section, region
 from body_moments.core.flat.section_properties import Plane
 from body_moments.core.verdict.finding import MeasureError
@@ -37,7 +42,20 @@ def measured(*outlines, offset=(0.0, 0.0)):
 def i_beam(b=0.1, h=0.2, web=0.0056, flange=0.0085):
     """An I section without fillets, its centroid at the origin."""
     w, t, x, y = web / 2, h / 2 - flange, b / 2, h / 2
-    return [(-x, -y), (x, -y), (x, -t), (w, -t), (w, t), (x, t), (x, y), (-x, y), (-x, t), (-w, t), (-w, -t), (-x, -t)]
+    return [
+        (-x, -y),
+        (x, -y),
+        (x, -t),
+        (w, -t),
+        (w, t),
+        (x, t),
+        (x, y),
+        (-x, y),
+        (-x, t),
+        (-w, t),
+        (-w, -t),
+        (-x, -t),
+    ]
 
 
 OFFSETS = [(0.0, 0.0), (3.0, -7.0), (1e4, 2e4)]
@@ -53,7 +71,9 @@ def test_rectangle_section_matches_closed_form(offset):
     section = measured(rectangle(0, 0, 3, 8), offset=offset)
     assert near(section.area, 24) and near(section.perimeter, 22)
     assert close(section.centroid, np.add((1.5, 4), offset), rel=1e-14)
-    assert near(section.second[0], 3 * 8**3 / 12, offset) and near(section.second[1], 8 * 3**3 / 12, offset)
+    assert near(section.second[0], 3 * 8**3 / 12, offset) and near(
+        section.second[1], 8 * 3**3 / 12, offset
+    )
     assert abs(section.second[2]) <= section.rounding_error["second"]
     assert close(section.principal, (128, 18), rel=1e-14) and section.angle == 0.0
     assert near(section.polar, 146, offset)
@@ -76,7 +96,9 @@ def test_rectangle_with_eccentric_hole_matches_closed_form(offset):
     assert section.second == pytest.approx(truth, rel=1e-13 + 1e-15 * max(map(abs, offset)))
     mean, radius = (truth[0] + truth[1]) / 2, math.hypot((truth[0] - truth[1]) / 2, truth[2])
     assert section.principal == pytest.approx((mean + radius, mean - radius), rel=1e-12)
-    assert math.tan(2 * section.angle) == pytest.approx(-2 * truth[2] / (truth[0] - truth[1]), rel=1e-9)
+    assert math.tan(2 * section.angle) == pytest.approx(
+        -2 * truth[2] / (truth[0] - truth[1]), rel=1e-9
+    )
 
 
 def test_an_equal_angle_has_its_strong_axis_at_minus_45_degrees():
@@ -131,7 +153,9 @@ def test_bounds_hold_against_rationals(size, offset):
     edges = orient_loops(points, loops)
     section = measure_section(LEVEL, lifted(points), edges)
     exactly = rational.fractions(points)
-    area, *first = (rational.enclosed(exactly, edges.tolist(), row) for row in ((0, 0), (1, 0), (0, 1)))
+    area, *first = (
+        rational.enclosed(exactly, edges.tolist(), row) for row in ((0, 0), (1, 0), (0, 1))
+    )
     center = [value / area for value in first]
     central = [tuple(x - c for x, c in zip(p, center)) for p in exactly]
     second = [rational.enclosed(central, edges.tolist(), row) for row in ((0, 2), (2, 0), (1, 1))]
@@ -152,7 +176,9 @@ def test_float32_coordinates_move_a_section_within_its_bound():
     step = 1e-7
     section = measure_section(LEVEL, lifted(points), edges, error=step)
     for _ in range(50):
-        moved = measure_section(LEVEL, lifted(points + rng.choice([-step, step], size=points.shape)), edges)
+        moved = measure_section(
+            LEVEL, lifted(points + rng.choice([-step, step], size=points.shape)), edges
+        )
         assert abs(moved.area - section.area) <= section.input_error["area"]
         assert np.hypot(*(moved.centroid - section.centroid)) <= section.input_error["centroid"]
         assert np.abs(moved.second - section.second).max() <= section.input_error["second"]
@@ -182,10 +208,14 @@ def test_section_in_any_plane_keeps_its_flat_properties(seed):
 
 def test_plane_faces_as_most_faces_and_near_preferred_axes():
     points, triangles = SQUARE
-    assert fit_plane(points, triangles, np.eye(3), np.zeros(3)).axes[:, 2] == pytest.approx([0, 0, 1])
+    assert fit_plane(points, triangles, np.eye(3), np.zeros(3)).axes[:, 2] == pytest.approx(
+        [0, 0, 1]
+    )
     down = fit_plane(points, triangles[:, ::-1], np.eye(3), np.zeros(3))
     assert down.axes == pytest.approx(np.diag([1.0, -1.0, -1.0])) and down.x_axis_name == "X"
-    upright = fit_plane(points[:, [2, 0, 1]], triangles, np.eye(3), np.array([9.0, 1.0, 1.0]))  # in the plane of y, z
+    upright = fit_plane(
+        points[:, [2, 0, 1]], triangles, np.eye(3), np.array([9.0, 1.0, 1.0])
+    )  # in the plane of y, z
     assert upright.x_axis_name == "Y" and upright.axes[:, 0] == pytest.approx([0, 1, 0])
     assert upright.origin == pytest.approx([0, 1, 1])
 
@@ -200,10 +230,18 @@ def test_points_off_the_plane_are_refused_relative_to_size(size, place):
     bent[2, 2] = 1e-3
     with pytest.raises(MeasureError) as refusal:
         fit_plane((bent + place) * size, triangles, np.eye(3), np.zeros(3))
-    (code, share), normal = (refusal.value.finding.code, refusal.value.finding.values["share"]), [-1e-3, -1e-3, 2.0]
+    (code, share), normal = (
+        (refusal.value.finding.code, refusal.value.finding.values["share"]),
+        [-1e-3, -1e-3, 2.0],
+    )
     heights = bent @ normal / np.linalg.norm(normal)
-    assert code == "section_not_flat" and close(share, np.ptp(heights) / 2.0 / np.sqrt(2.0 + 1e-6), rel=1e-9)
-    assert fit_plane(bent * size, triangles, np.eye(3), np.zeros(3), error=1e-3 * size).out_of_plane > 0.0
+    assert code == "section_not_flat" and close(
+        share, np.ptp(heights) / 2.0 / np.sqrt(2.0 + 1e-6), rel=1e-9
+    )
+    assert (
+        fit_plane(bent * size, triangles, np.eye(3), np.zeros(3), error=1e-3 * size).out_of_plane
+        > 0.0
+    )
 
 
 def test_section_without_area_is_refused():
@@ -214,9 +252,14 @@ def test_section_without_area_is_refused():
     for edges in ([[0, 1], [1, 0]], np.zeros((0, 2), np.intp)):
         with refused("section_encloses_nothing"):
             measure_section(LEVEL, points, np.array(edges))
-    for outline in ([(0, 0), (1, 1), (3, 3)], [(0, 0), (0, 2), (2, 2), (2, 0)]):  # flat, and an outside
+    for outline in (
+        [(0, 0), (1, 1), (3, 3)],
+        [(0, 0), (0, 2), (2, 2), (2, 0)],
+    ):  # flat, and an outside
         with refused("section_encloses_nothing"):
-            measure_section(LEVEL, lifted(np.array(outline, float)), directed_edges([range(len(outline))]))
+            measure_section(
+                LEVEL, lifted(np.array(outline, float)), directed_edges([range(len(outline))])
+            )
 
 
 @pytest.mark.parametrize("error, turned", [(0.0, 1), (1e-7, 0)])
@@ -229,17 +272,34 @@ def test_slivers_have_no_side_to_look_to(error, turned):
 @pytest.mark.parametrize("scale", [2.0**-20, 2.0**15])
 def test_section_scaled_by_a_power_of_two_scales_exactly(scale):
     points, loops = shape([(3, 1), (9, 1), (9, 3), (5, 4), (4, 8), (3, 8)], rectangle(4, 2, 1, 1))
-    points, edges = np.column_stack([points, np.full(len(points), 2.0)]), orient_loops(points, loops)
+    points, edges = (
+        np.column_stack([points, np.full(len(points), 2.0)]),
+        orient_loops(points, loops),
+    )
     plane = Plane(np.array([0.0, 0.5, 2.0]), np.eye(3), 0.0, "X")
     one, other = (
-        measure_section(replace(plane, origin=plane.origin * size), points * size, edges, 1e-5 * size, 0.25 * size)
+        measure_section(
+            replace(plane, origin=plane.origin * size),
+            points * size,
+            edges,
+            1e-5 * size,
+            0.25 * size,
+        )
         for size in (1.0, scale)
     )
-    for name, power in (("area", 2), ("perimeter", 1), ("centroid", 1), ("second", 4), ("reach", 1)):
+    for name, power in (
+        ("area", 2),
+        ("perimeter", 1),
+        ("centroid", 1),
+        ("second", 4),
+        ("reach", 1),
+    ):
         assert np.array_equal(getattr(other, name), getattr(one, name) * scale**power), name
     for name, power in (("area", 2), ("perimeter", 1), ("centroid", 1), ("second", 4)):
         for bound in ("rounding_error", "input_error"):
-            assert close(getattr(other, bound)[name], getattr(one, bound)[name] * scale**power, 1e-13), name
+            assert close(
+                getattr(other, bound)[name], getattr(one, bound)[name] * scale**power, 1e-13
+            ), name
     assert other.angle == one.angle != 0.0
 
 
@@ -259,16 +319,26 @@ def test_plane_lies_amid_its_points_for_any_facing(facing, turned, size):
     points, triangles, normal = tilted_strip(1e-5)
     points, triangles = points * size, triangles[:, ::-1] if turned else triangles
     origin = np.array([3.0, -2.0, 7.0]) * size
-    plane = fit_plane(points, triangles, np.eye(3), origin, facing=None if facing is None else np.array(facing))
+    plane = fit_plane(
+        points, triangles, np.eye(3), origin, facing=None if facing is None else np.array(facing)
+    )
     sign = (-1.0 if turned else 1.0) if facing is None else np.sign(normal @ facing)
     found = plane.axes[:, 2]
     assert close(found, sign * normal, 1e-4)
     heights = (points[:5] - origin) @ found
     assert close(plane.out_of_plane, np.ptp(heights) / 2.0, 1e-6)
-    assert np.abs(plane.origin - origin - found * (heights.min() + heights.max()) / 2.0).max() <= 1e-13 * size
-    assert np.abs(plane.axes.T @ plane.axes - np.eye(3)).max() <= 1e-14 and np.linalg.det(plane.axes) > 0.0
+    assert (
+        np.abs(plane.origin - origin - found * (heights.min() + heights.max()) / 2.0).max()
+        <= 1e-13 * size
+    )
+    assert (
+        np.abs(plane.axes.T @ plane.axes - np.eye(3)).max() <= 1e-14
+        and np.linalg.det(plane.axes) > 0.0
+    )
     assert plane.x_axis_name == "X" and plane.axes[0, 0] > 0.0
-    assert abs(np.cross(found, [1.0, 0.0, 0.0]) @ plane.axes[:, 0]) <= 1e-14  # in the plane of the normal and X
+    assert (
+        abs(np.cross(found, [1.0, 0.0, 0.0]) @ plane.axes[:, 0]) <= 1e-14
+    )  # in the plane of the normal and X
 
 
 @pytest.mark.parametrize("more", [[], [[0, 0, 1], [0, 1, 0]]])
@@ -286,5 +356,7 @@ def test_section_with_unknown_centroid_keeps_second_moments():
     points = far + step * np.array(rectangle(0, 0, 301, 501), float)
     section = measure_section(LEVEL, lifted(points), directed_edges([range(4)]))
     assert close(section.area, 301.0 * 501.0 * step**2, 1e-14)
-    assert close(section.second[:2], np.array([301.0 * 501.0**3, 501.0 * 301.0**3]) / 12.0 * step**4, 1e-12)
+    assert close(
+        section.second[:2], np.array([301.0 * 501.0**3, 501.0 * 301.0**3]) / 12.0 * step**4, 1e-12
+    )
     assert abs(section.second[2]) <= 1e-12 * section.second[0]

@@ -8,7 +8,11 @@ import numpy as np
 import pytest
 from body_moments.core.fourier import grid as fourier_grid
 from body_moments.core.fourier.grid import GridTransform, Spreading, aliasing
-from body_moments.core.fourier.transform import run_to_completion, solid_transform, surface_transform
+from body_moments.core.fourier.transform import (
+    run_to_completion,
+    solid_transform,
+    surface_transform,
+)
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.numerics.quadrature import triangle_rule
 from body_moments.core.polyhedron import integration
@@ -16,7 +20,9 @@ from body_moments.core.polyhedron import integration
 from tests.core import bodies
 from tests.core.findings import refused
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # open faces count as given
+polyhedron_moments = partial(
+    integration.polyhedron_moments, allow_open=True
+)  # open faces count as given
 
 
 def half_grid(half):
@@ -38,7 +44,9 @@ def test_the_fast_sums_are_within_the_bound_of_their_aliasing(width):
     for found, strength in zip(spreading.sums(), strengths):
         error = np.abs(found.reshape(-1) - waves @ strength)
         assert (error <= 1.01 * share * np.abs(strength).sum()).all()
-        assert error.max() >= 1e-3 * share.max() * np.abs(strength).sum()  # the bound says something
+        assert (
+            error.max() >= 1e-3 * share.max() * np.abs(strength).sum()
+        )  # the bound says something
 
 
 LOPSIDED = bodies.moved(bodies.torus(36, 16), [[1, 0.2, 0], [0, 0.7, 0], [0.1, 0, 1.5]], (3, -2, 5))
@@ -63,7 +71,10 @@ def test_large_and_small_triangles_go_together():
     grid = FrequencyGrid(22, 9.0)
     transform = GridTransform(bodies.surface(part), grid, "volume", 1e-4)
     found = run_to_completion(transform)
-    assert len(transform.direct.triangles) == 12 and sum(len(rows) for _, rows in transform.fine) == 512
+    assert (
+        len(transform.direct.triangles) == 12
+        and sum(len(rows) for _, rows in transform.fine) == 512
+    )
     exact = solid_transform(bodies.surface(part), grid)
     assert np.abs(found.values - exact.values).max() <= 1e-4
 
@@ -72,17 +83,24 @@ def test_few_triangles_take_the_closed_form():
     surface = bodies.surface(bodies.box())
     found = run_to_completion(GridTransform(surface, FrequencyGrid(12, 200.0), "volume", 1e-7))
     assert found.method == "exact"
-    assert np.abs(found.values - solid_transform(surface, FrequencyGrid(12, 200.0)).values).max() <= 1e-14
+    assert (
+        np.abs(found.values - solid_transform(surface, FrequencyGrid(12, 200.0)).values).max()
+        <= 1e-14
+    )
 
 
 def test_unreachable_tolerance_is_refused():
     with pytest.raises(ValueError, match="tolerance"):
         GridTransform(bodies.surface(bodies.sphere(3)), FrequencyGrid(20, 20.0), "volume", 1e-16)
     with refused("fourier_of_open_surface"):
-        GridTransform(bodies.surface(bodies.without(LOPSIDED, 1)), FrequencyGrid(20, 20.0), "volume", 1e-6)
+        GridTransform(
+            bodies.surface(bodies.without(LOPSIDED, 1)), FrequencyGrid(20, 20.0), "volume", 1e-6
+        )
 
 
-@pytest.mark.parametrize("count, largest", [(1, 1.0), (0, 1.0), (8, 0.0), (8, -1.0), (8, np.nan), (8, np.inf)])
+@pytest.mark.parametrize(
+    "count, largest", [(1, 1.0), (0, 1.0), (8, 0.0), (8, -1.0), (8, np.nan), (8, np.inf)]
+)
 def test_invalid_frequency_grid_is_refused(count, largest):
     with refused("frequency_count", "frequency_range"):
         FrequencyGrid(count, largest)

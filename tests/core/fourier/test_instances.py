@@ -5,7 +5,11 @@
 import numpy as np
 import pytest
 from body_moments.core.fourier.instances import BodyTransform
-from body_moments.core.fourier.transform import run_to_completion, solid_transform, surface_transform
+from body_moments.core.fourier.transform import (
+    run_to_completion,
+    solid_transform,
+    surface_transform,
+)
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 
 from tests.close import close
@@ -39,13 +43,17 @@ MAPS = places(
 @pytest.mark.parametrize("q", [Q, FrequencyGrid(5, 4.0)], ids=["list", "grid"])
 def test_copies_under_any_map_are_the_mapped_bodies(of, alone, q):
     box = bodies.box((0, 0, 0), (1, 1.5, 0.7))
-    transform = BodyTransform([(bodies.surface(PART), MAPS), (bodies.surface(box), MAPS[2:4])], q, of, 1.0)
+    transform = BodyTransform(
+        [(bodies.surface(PART), MAPS), (bodies.surface(box), MAPS[2:4])], q, of, 1.0
+    )
     found = run_to_completion(transform)
     true = 0.0
     for part, matrices in ((PART, MAPS), (box, MAPS[2:4])):
         for matrix in matrices:
             mirror = np.linalg.det(matrix[:3, :3]) < 0.0
-            image = bodies.moved(bodies.inverted(part) if mirror else part, matrix[:3, :3], matrix[:3, 3])
+            image = bodies.moved(
+                bodies.inverted(part) if mirror else part, matrix[:3, :3], matrix[:3, 3]
+            )
             true = true + alone(bodies.surface(image), q).values
     # rounding of mapped corners, 70 from the origin, times the surface's area
     assert np.abs(found.values - true).max() <= 150.0 * 4 * 2.0**-47
@@ -53,7 +61,9 @@ def test_copies_under_any_map_are_the_mapped_bodies(of, alone, q):
 
 
 def test_a_map_of_the_body_is_a_map_of_the_frequencies():
-    found = run_to_completion(BodyTransform([(bodies.surface(PART), MAPS[2:3])], Q, "volume", 1.0)).values
+    found = run_to_completion(
+        BodyTransform([(bodies.surface(PART), MAPS[2:3])], Q, "volume", 1.0)
+    ).values
     plain = solid_transform(bodies.surface(PART), Q @ SHEARED).values
     expected = np.linalg.det(SHEARED) * np.exp(-1j * (Q @ MAPS[2, :3, 3])) * plain
     assert np.abs(found - expected).max() <= 1e-12
@@ -78,7 +88,9 @@ def test_the_shape_of_a_far_body_loses_no_digits(place):
     turn, q = np.eye(4), np.random.default_rng(5).normal(size=(20, 3))
     turn[:3, :3] = bodies.rotation(7)
     near, far = (
-        run_to_completion(BodyTransform([(bodies.surface(part), turn[None])], q, "volume", 1.0)).values
+        run_to_completion(
+            BodyTransform([(bodies.surface(part), turn[None])], q, "volume", 1.0)
+        ).values
         for part in (
             bodies.box((0, 0, 0), (1, 2, 4)),
             bodies.moved(bodies.box((0, 0, 0), (1, 2, 4)), None, place),

@@ -50,17 +50,29 @@ def test_a_rectangle_has_its_closed_form_at_zero_and_everywhere():
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
 def test_imaginary_part_near_zero_matches_first_moments(scale):
     """Two rectangles side by side, 3 by 1 and 1 by 2: an L with a center beside that of its box."""
-    corners = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [3.0, 2.0], [3.0, 1.0], [0.0, 1.0]]) - (5.0, 2.0)
+    corners = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [3.0, 2.0], [3.0, 1.0], [0.0, 1.0]]) - (
+        5.0,
+        2.0,
+    )
     q = np.array([[1e-25, 0.0], [0.0, -1e-25], [2e-26, 3e-26]]) / scale
     found = polygon_transform([corners * scale], q).values / scale**2
-    first = np.array([3.0 * (1.5 - 5.0) + 2.0 * (3.5 - 5.0), 3.0 * (0.5 - 2.0) + 2.0 * (1.0 - 2.0)]) * scale
-    assert np.abs(found.real - 5.0).max() <= 1e-14 and np.abs(found.imag / -(q @ first) - 1.0).max() <= 1e-13
+    first = (
+        np.array([3.0 * (1.5 - 5.0) + 2.0 * (3.5 - 5.0), 3.0 * (0.5 - 2.0) + 2.0 * (1.0 - 2.0)])
+        * scale
+    )
+    assert (
+        np.abs(found.real - 5.0).max() <= 1e-14
+        and np.abs(found.imag / -(q @ first) - 1.0).max() <= 1e-13
+    )
 
 
 def test_corners_in_line_and_repeated_ones_change_nothing():
     q = np.random.default_rng(0).normal(size=(60, 2)) * np.logspace(-15, 3, 60)[:, None]
     more = np.insert(OUTLINE, 1, [[1, 0], [1, 0], [2, 0]], axis=0)
-    assert np.abs(polygon_transform([more], q).values - polygon_transform([OUTLINE], q).values).max() <= 1e-14
+    assert (
+        np.abs(polygon_transform([more], q).values - polygon_transform([OUTLINE], q).values).max()
+        <= 1e-14
+    )
 
 
 def test_opposite_frequencies_are_conjugate_and_lists_split():
@@ -107,7 +119,10 @@ def test_grid_matches_its_wave_vectors_and_bounds_hold():
         grid = FrequencyGrid(count, 5.0, 2)
         found = transformed(points, grid)
         assert found.q.shape == (count**2, 2) and np.array_equal(found.q, grid.vectors())
-        assert np.abs(found.values - polygon_transform([OUTLINE, HOLE], grid.vectors()).values).max() <= 1e-14
+        assert (
+            np.abs(found.values - polygon_transform([OUTLINE, HOLE], grid.vectors()).values).max()
+            <= 1e-14
+        )
     step, worst = 1e-6, 0.0
     known = transformed(points, grid, rounded=step, stored=step)
     for seed in range(20):

@@ -15,10 +15,17 @@ def spectrum(method="exact"):
 
 
 def test_spectra_add_with_bounds_and_take_the_worst_exactness():
-    for methods, together in ((("exact", "exact"), "exact"), (("exact", "approximate"), "approximate")):
+    for methods, together in (
+        (("exact", "exact"), "exact"),
+        (("exact", "approximate"), "approximate"),
+    ):
         for one, other in (map(spectrum, methods), map(spectrum, methods[::-1])):
             both = one + other
-            assert both.q is Q and (both.values == one.values + other.values).all() and both.method == together
+            assert (
+                both.q is Q
+                and (both.values == one.values + other.values).all()
+                and both.method == together
+            )
             assert (both.error == one.error + other.error).all()
             assert both.input_error == one.input_error + other.input_error
     twice = spectrum("approximate") + spectrum("approximate")

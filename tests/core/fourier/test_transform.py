@@ -17,7 +17,9 @@ from tests.close import close
 from tests.core import bodies, exact
 from tests.core.findings import refused
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # open faces count as given
+polyhedron_moments = partial(
+    integration.polyhedron_moments, allow_open=True
+)  # open faces count as given
 
 TETRAHEDRON = (
     np.array([[0, 0, 0], [1, 0, 0], [0.5, 0.75**0.5, 0], [0.5, 0.75**0.5 / 3, (2 / 3) ** 0.5]]),
@@ -70,7 +72,9 @@ def test_a_body_is_right_to_1e_14_of_its_volume_at_any_frequency(name, truth):
     assert found.error.max() <= 2e-13 * bodies.volume(part)
 
 
-@pytest.mark.parametrize("squash", [(1, 1, 1e-3), (1, 1, 1e-6), (1, 1, 1e-9), (1e-6, 1, 1e-7), (1e-9, 1, 1e-9)])
+@pytest.mark.parametrize(
+    "squash", [(1, 1, 1e-3), (1, 1, 1e-6), (1, 1, 1e-9), (1e-6, 1, 1e-7), (1e-9, 1, 1e-9)]
+)
 def test_slivers_are_right_to_1e_15_of_area_times_length(squash, truth):
     for part in (TETRAHEDRON, BOX):
         part = bodies.moved((part[0] * squash, part[1]), bodies.rotation(3))
@@ -104,8 +108,14 @@ def test_a_mesh_with_needles_and_corners_in_line_is_right(truth):
 
 
 def test_surface_transform_is_right_to_1e_14_of_its_area(truth):
-    for part in (TETRAHEDRON, bodies.without(BODIES["box off center"], *bodies.TOP), bodies.grid(2)):
-        q = np.concatenate([[[0, 0, 0]], *(directions(part) * size / length(part) for size in SIZES[::3])])
+    for part in (
+        TETRAHEDRON,
+        bodies.without(BODIES["box off center"], *bodies.TOP),
+        bodies.grid(2),
+    ):
+        q = np.concatenate(
+            [[[0, 0, 0]], *(directions(part) * size / length(part) for size in SIZES[::3])]
+        )
         found = surface_transform(bodies.surface(part), q)
         error = np.abs(found.values - [truth.area(*part, row) for row in q])
         total = polyhedron_moments(bodies.surface(part), area_order=0)[1].total
@@ -137,14 +147,19 @@ def test_grid_matches_the_list_of_its_vectors():
 
 
 def test_the_taylor_coefficients_are_the_moments():
-    part = bodies.moved(bodies.sphere(2), [[1, 0.2, 0], [0, 0.8, 0.1], [0.3, 0, 1.1]], (0.2, -0.1, 0.4))
+    part = bodies.moved(
+        bodies.sphere(2), [[1, 0.2, 0], [0, 0.8, 0.1], [0.3, 0, 1.1]], (0.2, -0.1, 0.4)
+    )
     raw = dict(zip(exact.MONOMIALS, map(float, exact.volume_moments(*part))))
     q = np.random.default_rng(6).normal(size=(30, 3))
     q *= 1e-3 / np.linalg.norm(q, axis=1)[:, None]
     found = solid_transform(bodies.surface(part), q).values
     order = [
         sum(
-            (-1j) ** n * np.prod(q ** np.array(m), axis=1) / np.prod([math.factorial(k) for k in m]) * raw[m]
+            (-1j) ** n
+            * np.prod(q ** np.array(m), axis=1)
+            / np.prod([math.factorial(k) for k in m])
+            * raw[m]
             for m in exact.MONOMIALS
             if sum(m) == n
         )
@@ -171,7 +186,9 @@ def test_tiny_and_huge_bodies_are_the_same_problem(power):
     scale = 2.0**power
     points, triangles = bodies.moved(BOX, None, (1, 2, 3))
     q = np.random.default_rng(2).normal(size=(20, 3)) * np.logspace(-3, 2, 20)[:, None]
-    plain, scaled = (solid_transform(Surface(points * s, triangles), q / s).values for s in (1.0, scale))
+    plain, scaled = (
+        solid_transform(Surface(points * s, triangles), q / s).values for s in (1.0, scale)
+    )
     assert np.array_equal(plain * scale**3, scaled)
 
 
@@ -182,16 +199,22 @@ def test_unused_points_cost_no_digits():
     assert np.abs(found - box_spectrum((0, 0, 0), (1, 1.5, 0.7), q)).max() <= 1e-14
     part[0][-1] = (9.0, -4.0, 5.0)
     found = solid_transform(Surface(*part), q * 1e-23).values
-    assert close(found.real, 1.05, rel=1e-14) and close(found.imag, -1.05e-23 * (q @ (0.5, 0.75, 0.35)), rel=1e-12)
+    assert close(found.real, 1.05, rel=1e-14) and close(
+        found.imag, -1.05e-23 * (q @ (0.5, 0.75, 0.35)), rel=1e-12
+    )
 
 
 def test_quads_are_cut_as_for_the_moments():
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0.5], [0, 1, 0], [0.5, 0.5, -1]], np.float32)
     surface = Surface(
-        points, triangles=np.array([[1, 0, 4], [2, 1, 4], [3, 2, 4], [0, 3, 4]]), quads=np.array([[0, 1, 2, 3]])
+        points,
+        triangles=np.array([[1, 0, 4], [2, 1, 4], [3, 2, 4], [0, 3, 4]]),
+        quads=np.array([[0, 1, 2, 3]]),
     )
     assert close(
-        solid_transform(surface, [[0.0, 0.0, 1e-9]]).values[0].real, polyhedron_moments(surface)[0].total, rel=1e-14
+        solid_transform(surface, [[0.0, 0.0, 1e-9]]).values[0].real,
+        polyhedron_moments(surface)[0].total,
+        rel=1e-14,
     )
 
 
@@ -199,7 +222,9 @@ def test_the_shells_of_one_surface_add():
     inner = bodies.inverted(bodies.box((0.2, 0.2, 0.2), (0.5, 0.9, 0.4)))
     q = np.random.default_rng(3).normal(size=(30, 3)) * 5
     found = solid_transform(bodies.surface(bodies.joined(BOX, inner)), q).values
-    true = box_spectrum((0, 0, 0), (1, 1.5, 0.7), q) - box_spectrum((0.2, 0.2, 0.2), (0.5, 0.9, 0.4), q)
+    true = box_spectrum((0, 0, 0), (1, 1.5, 0.7), q) - box_spectrum(
+        (0.2, 0.2, 0.2), (0.5, 0.9, 0.4), q
+    )
     assert np.abs(found - true).max() <= 1e-14
 
 
@@ -227,7 +252,9 @@ def test_an_open_surface_is_refused_and_an_unwelded_one_is_not():
     with refused("fourier_of_open_surface"):
         solid_transform(bodies.surface(tube), [[1.0, 0.0, 0.0]])
     q = [[1.0, 2.0, 3.0]]
-    apart, whole = (solid_transform(bodies.surface(part), q).values[0] for part in (bodies.soup(sphere), sphere))
+    apart, whole = (
+        solid_transform(bodies.surface(part), q).values[0] for part in (bodies.soup(sphere), sphere)
+    )
     assert abs(apart - whole) <= 1e-14
 
 
@@ -271,7 +298,13 @@ def test_invalid_wave_vectors_are_refused(q):
 
 
 @pytest.mark.parametrize(
-    "part", [(BOX[0], BOX[1] + 3), (BOX[0], -BOX[1] - 1), (BOX[0] * [1, np.nan, 1], BOX[1]), (BOX[0], BOX[1][:0])]
+    "part",
+    [
+        (BOX[0], BOX[1] + 3),
+        (BOX[0], -BOX[1] - 1),
+        (BOX[0] * [1, np.nan, 1], BOX[1]),
+        (BOX[0], BOX[1][:0]),
+    ],
 )
 def test_broken_surfaces_are_refused(part):
     for transform in (solid_transform, surface_transform):
@@ -302,7 +335,9 @@ def test_transform_is_as_exact_as_libformfactor(truth):
         q = directions(part) * size
         true = np.array([truth.solid(*part, -row) for row in q])
         ours = np.abs(solid_transform(bodies.surface(part), -q).values - true).max()
-        peer = np.abs([complex(body.formfactorAtBottom(bornagain.C3(*row))) for row in q.tolist()] - true).max()
+        peer = np.abs(
+            [complex(body.formfactorAtBottom(bornagain.C3(*row))) for row in q.tolist()] - true
+        ).max()
         assert ours <= max(peer, 1e-15 * bodies.volume(part))
 
 
@@ -325,7 +360,9 @@ def test_unrepresentable_transform_is_refused():
         with refused("frequency_range"):
             FrequencyGrid(8, size)
         with refused("wave_vectors_range"):
-            solid_transform(Surface.from_triangles(points, triangles), np.array([[0.0, -size, 0.0]]))
+            solid_transform(
+                Surface.from_triangles(points, triangles), np.array([[0.0, -size, 0.0]])
+            )
     assert FrequencyGrid(8, 1e100).largest == 1e100
     found = solid_transform(Surface.from_triangles(points, triangles), np.full((1, 3), 1e100))
     assert abs(found.values[0]) <= found.error[0] < 1e-13

@@ -19,7 +19,9 @@ from tests.core.recursion import moments
 
 
 def harmonics_of(part, center, frame, area=False, **more):
-    return axial_harmonics([Surface.from_triangles(*part)], np.asarray(center, float), frame, area=area, **more)
+    return axial_harmonics(
+        [Surface.from_triangles(*part)], np.asarray(center, float), frame, area=area, **more
+    )
 
 
 def exact_mean(corners, m, k):
@@ -30,7 +32,9 @@ def exact_mean(corners, m, k):
 
     def walk(i, uses, real, imaginary):
         if i == len(factors):
-            weight = Fraction(math.prod(math.factorial(use) for use in uses) * math.factorial(count - 1))
+            weight = Fraction(
+                math.prod(math.factorial(use) for use in uses) * math.factorial(count - 1)
+            )
             weight /= math.factorial(len(factors) + count - 1)
             total[0] += weight * real
             total[1] += weight * imaginary
@@ -59,12 +63,17 @@ def test_harmonics_match_exact_arithmetic(area):
     reach, height = math.hypot(3, 1), 3.0
     pieces = [[corners[i] for i in triangle] for triangle in part[1]] if area else [corners]
     sizes = [
-        np.linalg.norm(np.cross(*(np.subtract(piece[k], piece[0]) for k in (1, 2)))) if area else 1.0
+        np.linalg.norm(np.cross(*(np.subtract(piece[k], piece[0]) for k in (1, 2))))
+        if area
+        else 1.0
         for piece in pieces
     ]
     for k in (0, 1):
         for m in range(1, 6):
-            exact = [exact_mean([tuple(map(Fraction, corner)) for corner in piece], m, k) for piece in pieces]
+            exact = [
+                exact_mean([tuple(map(Fraction, corner)) for corner in piece], m, k)
+                for piece in pieces
+            ]
             mean = np.dot(exact, sizes) / sum(sizes) / (reach**m * height**k)
             assert abs(found.values[k, m] - mean) < 1e-14
 
@@ -79,7 +88,9 @@ def test_harmonics_in_another_frame_match_a_direct_computation():
             first.in_frame(frame).values, harmonics_of(part, (0, 0, 0), frame).values, atol=1e-14
         )
     image = -part[0], part[1][:, ::-1]
-    np.testing.assert_allclose(first.inverted().values, harmonics_of(image, (0, 0, 0), base).values, atol=1e-14)
+    np.testing.assert_allclose(
+        first.inverted().values, harmonics_of(image, (0, 0, 0), base).values, atol=1e-14
+    )
 
 
 def posed(part):

@@ -74,7 +74,9 @@ def test_symmetric_body_is_flagged_and_maps_onto_itself(name):
         points = placed(image, matrix)
         assert frame.symmetry == first.symmetry
         gap = np.linalg.norm(points[:, None] - wanted[None], axis=2).min(axis=1)
-        assert gap.max() < 1e-9 * size(part)  # a corner on each corner, though not always on its own
+        assert gap.max() < 1e-9 * size(
+            part
+        )  # a corner on each corner, though not always on its own
 
 
 @pytest.mark.parametrize("name", shapes.SYMMETRIC)
@@ -85,12 +87,16 @@ def test_equal_frames_resolve_to_the_nearest_preferred_axes(name):
     for seed in range(5):
         prefer = bodies.rotation(seed)
         axes = nearest_frame(equivalent_frames(found), prefer)
-        assert np.trace(prefer.T @ axes) == pytest.approx(max(np.trace(prefer.T @ frame) for frame in frames))
+        assert np.trace(prefer.T @ axes) == pytest.approx(
+            max(np.trace(prefer.T @ frame) for frame in frames)
+        )
         again = principal_frame(found.truncate(3), axes, higher=lambda: found)
         assert np.allclose(again.axes, axes, atol=1e-9)
 
 
-@pytest.mark.parametrize("part, tolerance", [(bodies.box((-1, -1, -1), (1, 1, 1)), 1e-12), (bodies.sphere(0), 1e-9)])
+@pytest.mark.parametrize(
+    "part, tolerance", [(bodies.box((-1, -1, -1), (1, 1, 1)), 1e-12), (bodies.sphere(0), 1e-9)]
+)
 def test_turned_cube_or_octahedron_gets_its_own_axes(part, tolerance):
     turn = bodies.rotation(3)
     frame, _ = pose(bodies.moved(part, turn))
@@ -102,7 +108,9 @@ def test_turned_cube_or_octahedron_gets_its_own_axes(part, tolerance):
 @pytest.mark.parametrize("noise", [1e-5, 1e-2, 0.2])
 def test_cube_has_its_own_axes_at_any_noise(noise):
     turn = bodies.rotation(3)
-    found = equivalent_frames(moments(bodies.moved(bodies.box((-1, -1, -1), (1, 1, 1)), turn), 6), noise)
+    found = equivalent_frames(
+        moments(bodies.moved(bodies.box((-1, -1, -1), (1, 1, 1)), turn), 6), noise
+    )
     cosines = np.sort(np.abs(turn.T @ found.frames), axis=1)
     assert len(found.frames) == 24 and np.abs(cosines - [[0], [0], [1]]).max() < 1e-10
 
@@ -117,7 +125,11 @@ def test_a_square_prism_gets_the_directions_of_its_sides():
 
 
 def test_float32_and_float64_have_one_frame():
-    for part in (shapes.SYMMETRIC["cube"][0], shapes.SYMMETRIC["icosahedron"][0], shapes.THREE_BOXES):
+    for part in (
+        shapes.SYMMETRIC["cube"][0],
+        shapes.SYMMETRIC["icosahedron"][0],
+        shapes.THREE_BOXES,
+    ):
         image = bodies.moved(part, bodies.rotation(7), (3, 2, 1))
         exact, _ = pose(image)
         rounded, _ = pose((image[0].astype(np.float32).astype(float), image[1]), prefer=exact.axes)
@@ -164,7 +176,9 @@ def test_the_image_in_a_point_has_odd_moments_of_the_other_sign():
     found = moments(part, 5)
     image = moments((2 * found.about - part[0], part[1][:, ::-1]), 5)
     assert np.allclose(
-        invert_through_point(found).raw, image.about_point(found.about).raw, atol=1e-12 * abs(found.raw).max()
+        invert_through_point(found).raw,
+        image.about_point(found.about).raw,
+        atol=1e-12 * abs(found.raw).max(),
     )
 
 
@@ -188,16 +202,27 @@ def test_strict_rule_refuses_ambiguous_bodies(name):
 def test_a_ball_takes_the_preferred_axes():
     raw = np.zeros(84)
 
-    raw[0], raw[[monomial_index(2, 0, 0), monomial_index(0, 2, 0), monomial_index(0, 0, 2)]] = 1.0, 0.2
+    raw[0], raw[[monomial_index(2, 0, 0), monomial_index(0, 2, 0), monomial_index(0, 0, 2)]] = (
+        1.0,
+        0.2,
+    )
     for even, value in (((4, 0, 0), 3 / 35), ((2, 2, 0), 1 / 35)):
-        for powers in {(even[i], even[j], even[k]) for i, j, k in ((0, 1, 2), (2, 0, 1), (1, 2, 0))}:
+        for powers in {
+            (even[i], even[j], even[k]) for i, j, k in ((0, 1, 2), (2, 0, 1), (1, 2, 0))
+        }:
             raw[monomial_index(*powers)] = value
     for even, value in (((6, 0, 0), 15), ((4, 2, 0), 3), ((4, 0, 2), 3), ((2, 2, 2), 1)):
-        for powers in {(even[i], even[j], even[k]) for i, j, k in ((0, 1, 2), (2, 0, 1), (1, 2, 0))}:
+        for powers in {
+            (even[i], even[j], even[k]) for i, j, k in ((0, 1, 2), (2, 0, 1), (1, 2, 0))
+        }:
             raw[monomial_index(*powers)] = value / 315
     ball, prefer = Moments(raw, np.zeros(3)), bodies.rotation(5)
     frame = principal_frame(ball.truncate(3), prefer, higher=lambda: ball)
-    assert np.array_equal(frame.axes, prefer) and not frame.is_unique and frame.finding.code == "axes_free"
+    assert (
+        np.array_equal(frame.axes, prefer)
+        and not frame.is_unique
+        and frame.finding.code == "axes_free"
+    )
 
 
 @pytest.mark.parametrize("higher", [False, True])
@@ -210,7 +235,18 @@ def test_storage_noise_never_flips_a_nearly_free_frame(name, higher):
         end = np.stack([np.cos(angle), 0.8 * np.sin(angle), 0.0 * angle], axis=1)
         part = (
             np.concatenate([end, end + [0.0, 0.0, np.sqrt(1.5) * (1.0 + 1.5e-6)]]),
-            np.array([[0, 2, 1], [3, 4, 5], [0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 0, 3], [2, 3, 5]]),
+            np.array(
+                [
+                    [0, 2, 1],
+                    [3, 4, 5],
+                    [0, 1, 4],
+                    [0, 4, 3],
+                    [1, 2, 5],
+                    [1, 5, 4],
+                    [2, 0, 3],
+                    [2, 3, 5],
+                ]
+            ),
         )
     elif name == "ball":
         part = bodies.moved(bodies.sphere(2), np.diag([1.0, 1.0, 1.0005]))
@@ -233,5 +269,8 @@ def test_storage_noise_never_flips_a_nearly_free_frame(name, higher):
 
 def cloud(*parts):
     """The moments to sixth order of points with weights: (weight, (n, 3) points) each, the weight that of all n."""
-    raw = sum(weight * np.prod(points[:, None] ** monomials(6), axis=2).mean(axis=0) for weight, points in parts)
+    raw = sum(
+        weight * np.prod(points[:, None] ** monomials(6), axis=2).mean(axis=0)
+        for weight, points in parts
+    )
     return Moments(raw, np.zeros(3))

@@ -31,18 +31,28 @@ def test_l_prism_has_its_closed_form_and_product_sign():
     body = MassProperties.from_moments(L_PRISM, 1.0)
     assert close(body.mass, 5.0, rel=1e-14)
     assert close(body.center, (1.1, 1.1, 0.5), rel=1e-14)
-    assert np.allclose(body.inertia, [[121 / 30, 1.8, 0], [1.8, 121 / 30, 0], [0, 0, 217 / 30]], rtol=1e-14, atol=1e-14)
+    assert np.allclose(
+        body.inertia,
+        [[121 / 30, 1.8, 0], [1.8, 121 / 30, 0], [0, 0, 217 / 30]],
+        rtol=1e-14,
+        atol=1e-14,
+    )
     assert close(body.principal.moments, (67 / 30, 175 / 30, 217 / 30), rel=1e-14)
 
 
 def test_its_bounds_are_python_s_own_numbers():
     """The bounds go into JSON and ID properties."""
     body = MassProperties.from_moments(L_PRISM, 1.0)
-    assert {type(value) for bound in (body.rounding_error, body.input_error) for value in bound.values()} == {float}
+    assert {
+        type(value) for bound in (body.rounding_error, body.input_error) for value in bound.values()
+    } == {float}
 
 
 def test_density_scales_mass_and_inertia_and_leaves_the_center():
-    light, heavy = MassProperties.from_moments(L_PRISM, 1.0), MassProperties.from_moments(L_PRISM, 7850.0)
+    light, heavy = (
+        MassProperties.from_moments(L_PRISM, 1.0),
+        MassProperties.from_moments(L_PRISM, 7850.0),
+    )
     assert heavy.mass == pytest.approx(7850 * light.mass)
     assert np.allclose(heavy.inertia, 7850 * light.inertia)
     assert np.allclose(heavy.center, light.center)
@@ -55,7 +65,8 @@ def test_the_parallel_axis_theorem_holds():
     # About its corner: I_xx = m (b² + c²) / 3, I_xy = -m a b / 4.
     assert np.allclose(
         body.inertia_about((0, 0, 0)),
-        12 * np.array([[13 / 3, -2 / 4, -3 / 4], [-2 / 4, 10 / 3, -6 / 4], [-3 / 4, -6 / 4, 5 / 3]]),
+        12
+        * np.array([[13 / 3, -2 / 4, -3 / 4], [-2 / 4, 10 / 3, -6 / 4], [-3 / 4, -6 / 4, 5 / 3]]),
     )
 
 
@@ -95,7 +106,9 @@ def test_lamina_keeps_the_triangle_inequality_at_any_density():
     rng, flat = np.random.default_rng(1), monomials(3)[:, 2] == 0
     for _ in range(200):
         lamina = Moments(box((0, 0, 0), (*rng.uniform(0.1, 10.0, 2), 1.0)).raw * flat, np.zeros(3))
-        a, b, c = MassProperties.from_moments(lamina, density=rng.uniform(1.0, 1e4)).principal.moments
+        a, b, c = MassProperties.from_moments(
+            lamina, density=rng.uniform(1.0, 1e4)
+        ).principal.moments
         assert a + b >= c > b
 
 
@@ -111,18 +124,25 @@ def test_the_bounds_hold_against_rationals_for_perturbed_moments():
     second = {(0, 0): 4, (0, 1): 5, (0, 2): 6, (1, 1): 7, (1, 2): 8, (2, 2): 9}
     central = {key: truth[k] - center[key[0]] * center[key[1]] * mass for key, k in second.items()}
     inertia = {
-        (i, j): (sum(central[k, k] for k in range(3)) - central[i, i]) if i == j else -central[i, j] for i, j in central
+        (i, j): (sum(central[k, k] for k in range(3)) - central[i, i]) if i == j else -central[i, j]
+        for i, j in central
     }
     for _ in range(200):
         delta = np.array([float(x) for x in truth]) * rng.uniform(0, 1e-6, 20)
         off = delta * rng.uniform(-1, 1, 20)
         body = MassProperties.from_moments(
-            Moments(np.array([float(x) for x in truth]) + off, np.zeros(3), rounding_error=np.abs(delta))
+            Moments(
+                np.array([float(x) for x in truth]) + off, np.zeros(3), rounding_error=np.abs(delta)
+            )
         )
         assert abs(body.mass - float(mass)) <= body.rounding_error["mass"]
-        assert np.linalg.norm(body.center - [float(x) for x in center]) <= body.rounding_error["center"]
+        assert (
+            np.linalg.norm(body.center - [float(x) for x in center])
+            <= body.rounding_error["center"]
+        )
         assert all(
-            abs(body.inertia[key] - float(value)) <= body.rounding_error["inertia"] for key, value in inertia.items()
+            abs(body.inertia[key] - float(value)) <= body.rounding_error["inertia"]
+            for key, value in inertia.items()
         )
         assert body.rounding_error["inertia"] < 1e-3 * np.trace(body.inertia)
 
@@ -130,9 +150,13 @@ def test_the_bounds_hold_against_rationals_for_perturbed_moments():
 @pytest.mark.parametrize("exponent", [-190, -100, 100, 160])
 def test_the_bounds_hold_at_any_size(exponent):
     """Squares of inertias of tiny bodies vanish, and those of huge ones are no numbers."""
-    points = np.ldexp(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]) + np.array([0.3, 0.7, 0.1]), exponent)
+    points = np.ldexp(
+        np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]) + np.array([0.3, 0.7, 0.1]), exponent
+    )
     triangles = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    body = MassProperties.from_moments(measure_solid(Surface.from_triangles(points, triangles)).volume)
+    body = MassProperties.from_moments(
+        measure_solid(Surface.from_triangles(points, triangles)).volume
+    )
     raw = exact.volume_moments(points, triangles)
     center = [x / raw[0] for x in raw[1:4]]
     product, moment = (
@@ -143,7 +167,8 @@ def test_the_bounds_hold_at_any_size(exponent):
     assert abs(Fraction(body.inertia[0, 0]) - moment) <= Fraction(body.rounding_error["inertia"])
     assert abs(Fraction(body.inertia[0, 1]) + product) <= Fraction(body.rounding_error["inertia"])
     assert all(
-        abs(Fraction(a) - b) <= Fraction(body.rounding_error["center"]) for a, b in zip(body.center.tolist(), center)
+        abs(Fraction(a) - b) <= Fraction(body.rounding_error["center"])
+        for a, b in zip(body.center.tolist(), center)
     )
 
 

@@ -43,7 +43,9 @@ def tetrahedron():
 
 UNIQUE = {
     "tetrahedron": tetrahedron(),
-    "three boxes": sum_moments([box((0, 0, 0), (4, 1, 1)), box((0, 1, 0), (1, 3, 1)), box((0, 0, 1), (1, 1, 2.5))]),
+    "three boxes": sum_moments(
+        [box((0, 0, 0), (4, 1, 1)), box((0, 1, 0), (1, 3, 1)), box((0, 0, 1), (1, 1, 2.5))]
+    ),
     "unequal L prism": sum_moments([box((0, 0, 0), (3, 1, 1)), box((0, 1, 0), (1, 4, 1))]),
 }
 
@@ -75,7 +77,10 @@ def test_underflowing_second_moments_are_refused_as_too_small(place, size, code)
 def test_impossible_moments_are_refused(far):
     """Distant mass counts with the opposite sign: along one axis, or along all of them."""
     far = 20.0 * np.array(far)
-    parts = [box((-1, -1, -1), (1, 1, 1)), *(box(side * far - 0.5, side * far + 0.5) * -1.0 for side in (-1, 1))]
+    parts = [
+        box((-1, -1, -1), (1, 1, 1)),
+        *(box(side * far - 0.5, side * far + 0.5) * -1.0 for side in (-1, 1)),
+    ]
     with refused("negative_inertia"):
         principal_frame(sum_moments(parts))
 
@@ -89,12 +94,19 @@ def test_frame_is_right_handed_ascending_and_diagonal():
         assert (np.diff(frame.moments) > 0).all()
         central = image.about_center().second()
         tensor = np.trace(central) * np.eye(3) - central
-        assert np.allclose(frame.axes.T @ tensor @ frame.axes, np.diag(frame.moments), atol=1e-12 * frame.moments.max())
+        assert np.allclose(
+            frame.axes.T @ tensor @ frame.axes,
+            np.diag(frame.moments),
+            atol=1e-12 * frame.moments.max(),
+        )
 
 
 def test_mirror_images_have_right_handed_mirrored_frames():
     body = UNIQUE["tetrahedron"]
-    frame, mirrored = principal_frame(body), principal_frame(body.transform(np.diag([-1.0, 1.0, 1.0, 1.0])))
+    frame, mirrored = (
+        principal_frame(body),
+        principal_frame(body.transform(np.diag([-1.0, 1.0, 1.0, 1.0]))),
+    )
     reflected = np.diag([-1.0, 1.0, 1.0]) @ frame.axes
     same = [np.allclose(mirrored.axes[:, i], reflected[:, i], atol=1e-9) for i in range(3)]
     assert sum(same) == 2  # the weakest axis gives way to handedness
@@ -115,12 +127,16 @@ def test_a_cube_takes_the_preferred_axes():
     rng = np.random.default_rng(0)
     prefer = random_motion(rng)[:3, :3]
     frame = principal_frame(box((0, 0, 0), (1, 1, 1)), prefer)
-    assert frame.symmetry == "isotropic" and not frame.is_unique and frame.finding.code == "axes_free"
+    assert (
+        frame.symmetry == "isotropic" and not frame.is_unique and frame.finding.code == "axes_free"
+    )
     assert np.allclose(frame.axes, prefer)
     assert np.allclose(frame.moments, 1 / 6)
 
 
-@pytest.mark.parametrize("size, symmetry, distinct", [((1, 1, 2), "prolate", 0), ((2, 2, 1), "oblate", 2)])
+@pytest.mark.parametrize(
+    "size, symmetry, distinct", [((1, 1, 2), "prolate", 0), ((2, 2, 1), "oblate", 2)]
+)
 def test_free_axes_stay_nearest_to_the_preferred_ones(size, symmetry, distinct):
     rng = np.random.default_rng(0)
     for _ in range(20):
@@ -139,7 +155,11 @@ def test_free_axes_stay_nearest_to_the_preferred_ones(size, symmetry, distinct):
 def test_a_box_has_four_equal_poses_and_takes_the_nearest():
     body = box((0, 0, 0), (3, 2, 1))
     frame = principal_frame(body)
-    assert frame.symmetry == "asymmetric" and not frame.is_unique and frame.finding.code == "axes_ambiguous"
+    assert (
+        frame.symmetry == "asymmetric"
+        and not frame.is_unique
+        and frame.finding.code == "axes_ambiguous"
+    )
     assert np.allclose(frame.axes, np.eye(3))
     turned = principal_frame(body, preferred_axes=np.diag([-1.0, -1.0, 1.0]))
     assert np.allclose(turned.axes, np.diag([-1.0, -1.0, 1.0]))

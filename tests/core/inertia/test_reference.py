@@ -21,8 +21,12 @@ def refer(reference, properties):
     names = ("volume", "mass"), ("center_of_mass", "center"), ("inertia", "inertia")
     errors = properties.rounding_error, properties.input_error
     bound, inputs = ({key: error[name] for key, name in names} for error in errors)
-    referred = reference.refer(PlainBody.of_body(properties, 1.0, 0.0, 0.0, {**bound, "input": inputs}))
-    return replace(referred, center=np.array(referred.center)), np.array(tensor_rows(referred.inertia))
+    referred = reference.refer(
+        PlainBody.of_body(properties, 1.0, 0.0, 0.0, {**bound, "input": inputs})
+    )
+    return replace(referred, center=np.array(referred.center)), np.array(
+        tensor_rows(referred.inertia)
+    )
 
 
 def box(size, center, mass=1):
@@ -34,9 +38,13 @@ def box(size, center, mass=1):
 
     def tensor(point):
         arm = [c - Fraction(p) for c, p in zip(center, point)]
-        whole = [[second[i][j] + Fraction(mass) * arm[i] * arm[j] for j in range(3)] for i in range(3)]
+        whole = [
+            [second[i][j] + Fraction(mass) * arm[i] * arm[j] for j in range(3)] for i in range(3)
+        ]
         trace = sum(whole[i][i] for i in range(3))
-        return np.array([[float((trace if i == j else 0) - whole[i][j]) for j in range(3)] for i in range(3)])
+        return np.array(
+            [[float((trace if i == j else 0) - whole[i][j]) for j in range(3)] for i in range(3)]
+        )
 
     raw = np.zeros(20)
     for k, (p, q, r) in enumerate(monomials(3).tolist()):
@@ -85,10 +93,14 @@ def test_axes_turn_the_tensor():
 
 def test_float32_coordinates_move_with_the_arm():
     moments, _ = box((1, 2, 4), (8, -3, 5), 3)
-    moved = Moments(moments.raw, moments.about, Measure.MASS, moments.rounding_error, np.abs(moments.raw) * 1e-6)
+    moved = Moments(
+        moments.raw, moments.about, Measure.MASS, moments.rounding_error, np.abs(moments.raw) * 1e-6
+    )
     near, far = Reference(moments.about), Reference(moments.about + [1000.0, 0.0, 0.0])
     properties = MassProperties.from_moments(moved)
-    small, large = (refer(reference, properties)[0].input_error["inertia"] for reference in (near, far))
+    small, large = (
+        refer(reference, properties)[0].input_error["inertia"] for reference in (near, far)
+    )
     assert large > 1e5 * small > 0.0
 
 
@@ -109,14 +121,22 @@ def test_an_axis_through_two_points():
             Reference.through_points((1, 1, 1), second)
 
 
-@pytest.mark.parametrize("length, mass", [(2.0**-20, 1.0), (2.0**20, 1.0), (1.0, 2.0**-30), (2.0**7, 2.0**30)])
+@pytest.mark.parametrize(
+    "length, mass", [(2.0**-20, 1.0), (2.0**20, 1.0), (1.0, 2.0**-30), (2.0**7, 2.0**30)]
+)
 def test_inertia_and_its_bounds_scale_with_length_and_mass(length, mass):
     axes = np.array([[2, -1, 2], [2, 2, -1], [-1, 2, 2]]) / 3.0
     raw = box((1, 2, 4), (3, 5, -1), 5)[0].about_point((2.5, 4.0, 1.0)).raw
     powers = mass * length ** monomials(3).sum(axis=1).astype(float)
 
     def of(share, about, origin):
-        moments = Moments(raw * share, about, Measure.MASS, np.abs(raw) * share * 1e-15, np.abs(raw) * share * 1e-6)
+        moments = Moments(
+            raw * share,
+            about,
+            Measure.MASS,
+            np.abs(raw) * share * 1e-15,
+            np.abs(raw) * share * 1e-6,
+        )
         return refer(Reference(origin, axes.T.tolist()), MassProperties.from_moments(moments))
 
     about, origin = np.array([2.5, 4.0, 1.0]), np.array([-1.0, 7.0, 2.0])
@@ -127,4 +147,7 @@ def test_inertia_and_its_bounds_scale_with_length_and_mass(length, mass):
     assert close(other_inertia, inertia * mass * length**2, 1e-13)
     for bound in ("rounding_error", "input_error"):
         for name, factor in (("mass", mass), ("center", length), ("inertia", mass * length**2)):
-            assert close(getattr(other, bound)[name], getattr(one, bound)[name] * factor, 1e-9), (bound, name)
+            assert close(getattr(other, bound)[name], getattr(one, bound)[name] * factor, 1e-9), (
+                bound,
+                name,
+            )

@@ -21,8 +21,12 @@ def copies(part, count=12, turned=True, noise=0.0):
     made = []
     for seed in range(count):
         turn = bodies.rotation(seed) if turned else np.eye(3)
-        points, triangles = bodies.moved(part, turn * 10.0 ** rng.uniform(-1, 1), rng.normal(size=3))
-        points = points + noise * np.ptp(points, axis=0).max() * rng.uniform(-1.0, 1.0, points.shape)
+        points, triangles = bodies.moved(
+            part, turn * 10.0 ** rng.uniform(-1, 1), rng.normal(size=3)
+        )
+        points = points + noise * np.ptp(points, axis=0).max() * rng.uniform(
+            -1.0, 1.0, points.shape
+        )
         made.append(moments((points, triangles), 6))
     return stack_moments(made)
 
@@ -37,7 +41,11 @@ def parts():
 def same_frames(found, expected):
     """Return True if the two sets of frames are equal up to their order."""
     gaps = np.abs(found[:, None] - expected[None]).max(axis=(2, 3))
-    return len(found) == len(expected) and gaps.min(axis=1).max() < 1e-9 and gaps.min(axis=0).max() < 1e-9
+    return (
+        len(found) == len(expected)
+        and gaps.min(axis=1).max() < 1e-9
+        and gaps.min(axis=0).max() < 1e-9
+    )
 
 
 @pytest.mark.parametrize("name", parts())
@@ -79,7 +87,9 @@ def test_body_of_core_and_far_pieces_keeps_its_single_axes(small, far):
     points, triangles = bodies.box((-1, -1, -1), (1, 1, 1))
     centers = np.concatenate([np.zeros((1, 3)), far * np.eye(3), -far * np.eye(3)])
     sizes = [1.0, *[small] * 6]
-    whole = np.concatenate([center + size * np.asarray(points) for center, size in zip(centers, sizes)])
+    whole = np.concatenate(
+        [center + size * np.asarray(points) for center, size in zip(centers, sizes)]
+    )
     faces = np.concatenate([np.asarray(triangles) + i * len(points) for i in range(7)])
     stack = stack_moments([moments((whole @ bodies.rotation(3).T, faces), 6)])
     fixed = third_moment_frames(stack)

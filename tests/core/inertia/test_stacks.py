@@ -25,7 +25,9 @@ def placed(count):
     """Similar maps, every third one mirrored; far away, tiny and huge."""
     matrices = np.tile(np.eye(4), (count, 1, 1))
     for i, matrix in enumerate(matrices):
-        matrix[:3, :3] = bodies.rotation(i) * 10.0 ** RNG.uniform(-4, 4) * (-1.0 if i % 3 == 2 else 1.0)
+        matrix[:3, :3] = (
+            bodies.rotation(i) * 10.0 ** RNG.uniform(-4, 4) * (-1.0 if i % 3 == 2 else 1.0)
+        )
         matrix[:3, 3] = RNG.normal(size=3) * 10.0 ** RNG.uniform(-3, 5)
     return matrices
 
@@ -43,7 +45,9 @@ def test_stacked_moments_match_single_bodies():
     points, factors = RNG.normal(size=(len(parts), 3)), RNG.uniform(0.1, 9.0, len(parts))
     images, shifted, scaled = stack.transform(matrices), stack.about_point(points), stack * factors
     turned = stack.in_frame(np.array([bodies.rotation(i) for i in range(len(parts))]), points)
-    assert stack.order == 3 and (images.total == [images.at(i).total for i in range(len(parts))]).all()
+    assert (
+        stack.order == 3 and (images.total == [images.at(i).total for i in range(len(parts))]).all()
+    )
     for i, part in enumerate(parts):
         same(images, i, part.transform(matrices[i]))
         same(shifted, i, part.about_point(points[i]))
@@ -81,11 +85,17 @@ def test_stacked_frames_match_single_bodies():
         )
         found = stack.at(i)
         for name in ("mass", "center", "inertia"):
-            assert np.abs(getattr(found, name) - getattr(alone, name)).max() <= alone.rounding_error[name]
+            assert (
+                np.abs(getattr(found, name) - getattr(alone, name)).max()
+                <= alone.rounding_error[name]
+            )
         for bound in ("rounding_error", "input_error"):
             for name, value in getattr(alone, bound).items():
                 assert close(getattr(found, bound)[name], value, 1e-9), name
-        assert np.abs(found.principal.moments - alone.principal.moments).max() <= alone.rounding_error["inertia"]
+        assert (
+            np.abs(found.principal.moments - alone.principal.moments).max()
+            <= alone.rounding_error["inertia"]
+        )
         assert np.abs(found.principal.axes - alone.principal.axes).max() < 1e-12
         for name in ("symmetry", "is_unique", "finding", "undetermined_axes"):
             assert getattr(found.principal, name) == getattr(alone.principal, name)
@@ -99,7 +109,9 @@ def test_one_body_or_some_are_taken_out_of_a_stack():
     )
     some, one = stack.at([2, 0]), stack.at(2)
     assert (
-        some.mass.tolist() == [stack.mass[2], stack.mass[0]] and type(one.mass) is float and one.mass == stack.mass[2]
+        some.mass.tolist() == [stack.mass[2], stack.mass[0]]
+        and type(one.mass) is float
+        and one.mass == stack.mass[2]
     )
     assert (some.center == stack.center[[2, 0]]).all() and (one.center == stack.center[2]).all()
     assert (some.inertia == stack.inertia[[2, 0]]).all() and (one.inertia == stack.inertia[2]).all()
@@ -110,7 +122,11 @@ def test_one_body_or_some_are_taken_out_of_a_stack():
     frames, alone = some.principal, one.principal
     assert frames.is_unique.tolist() == [False, True] and alone.is_unique is False
     assert frames.symmetry.tolist() == ["isotropic", "asymmetric"] and alone.symmetry == "isotropic"
-    assert frames.undetermined_axes.tolist() == [(0, 1, 2), ()] and alone.undetermined_axes == (0, 1, 2)
+    assert frames.undetermined_axes.tolist() == [(0, 1, 2), ()] and alone.undetermined_axes == (
+        0,
+        1,
+        2,
+    )
     assert [found and found.code for found in frames.finding] == ["axes_free", None]
     assert alone.finding.code == "axes_free"
     for entry in ("moments", "axes"):
@@ -125,15 +141,21 @@ def test_copies_share_the_axes_of_their_shape(name):
     mirrored = np.linalg.det(matrices[:, :3, :3]) < 0.0
     scale = np.cbrt(np.linalg.det(matrices[:, :3, :3]))
     rotation = matrices[:, :3, :3] / scale[:, None, None]
-    known = OwnMoments(stack_moments([shape, invert_through_point(shape)]), mirrored.astype(int), rotation)
+    known = OwnMoments(
+        stack_moments([shape, invert_through_point(shape)]), mirrored.astype(int), rotation
+    )
     third = stack_moments([shape.truncate(3).transform(matrix) for matrix in matrices])
 
     def higher(which):
         return OwnMoments(known.moments, known.shape[which], known.rotation[which])
 
-    stack = MassProperties.of_stack(third, np.ones(6), rotation, third_moment_frames(third), higher).principal
+    stack = MassProperties.of_stack(
+        third, np.ones(6), rotation, third_moment_frames(third), higher
+    ).principal
     for i, matrix in enumerate(matrices):
-        alone = principal_frame(third.at(i), rotation[i], higher=lambda matrix=matrix: shape.transform(matrix))
+        alone = principal_frame(
+            third.at(i), rotation[i], higher=lambda matrix=matrix: shape.transform(matrix)
+        )
         assert stack.finding[i] == alone.finding and stack.symmetry[i] == alone.symmetry
         assert np.abs(stack.axes[i] - alone.axes).max() < 1e-7
         if not alone.is_unique:

@@ -17,8 +17,12 @@ def test_turned_brick_has_its_closed_forms(size):
     brick = moved(box((0.0, 0.0, 0.0), np.array([1.0, 2.0, 3.0]) * size), turn, place)
     body = mass_properties(*brick, density=2.0)
     found, mass = body.mass_properties, 12.0 * size**3
-    assert str(body.method) == "exact" and body.findings == () and close(found.mass, mass, rel=1e-12)
-    np.testing.assert_allclose(found.center, turn @ (np.array([0.5, 1.0, 1.5]) * size) + place, rtol=1e-12)
+    assert (
+        str(body.method) == "exact" and body.findings == () and close(found.mass, mass, rel=1e-12)
+    )
+    np.testing.assert_allclose(
+        found.center, turn @ (np.array([0.5, 1.0, 1.5]) * size) + place, rtol=1e-12
+    )
     squares = np.array([1.0, 4.0, 9.0]) * size**2
     inertia = turn @ np.diag(squares.sum() - squares) @ turn.T * mass / 12.0
     np.testing.assert_allclose(found.inertia, inertia, atol=1e-10 * inertia.max())
@@ -28,13 +32,17 @@ def test_turned_brick_has_its_closed_forms(size):
 
 def test_open_box_is_capped_and_says_so():
     body = mass_properties(*without(box(), 2, 3), density=1.0)
-    assert str(body.method) == "capped" and [str(found.code) for found in body.findings] == ["holes_capped"]
+    assert str(body.method) == "capped" and [str(found.code) for found in body.findings] == [
+        "holes_capped"
+    ]
     assert close(body.mass_properties.mass, 1.0, rel=1e-12)
 
 
 def test_float32_far_away_warns_or_is_refused():
     """Half an ulp is 3e-5 there: the center of a cube of 10 cm is uncertain, and the volume of a plate of 1 mm."""
-    cube, plate = (box((1e3, 1e3, 1e3), (1e3 + thick, 1e3 + 0.1, 1e3 + 0.1)) for thick in (0.1, 1e-3))
+    cube, plate = (
+        box((1e3, 1e3, 1e3), (1e3 + thick, 1e3 + 0.1, 1e3 + 0.1)) for thick in (0.1, 1e-3)
+    )
     (found,) = mass_properties(cube[0].astype(np.float32), cube[1], density=1.0).findings
     assert found.code == "large_bound" and found.values["quantity"] == "center of mass"
     with refused("no_certain_volume"):

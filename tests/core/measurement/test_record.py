@@ -34,7 +34,9 @@ QUARTER_TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])  #
 
 def box_moment(low, high, powers):
     """∫ x^p y^q z^r over a box with its sides along the axes."""
-    return math.prod((h ** (n + 1) - l ** (n + 1)) / (n + 1) for l, h, n in zip(low, high, powers, strict=True))
+    return math.prod(
+        (h ** (n + 1) - l ** (n + 1)) / (n + 1) for l, h, n in zip(low, high, powers, strict=True)
+    )
 
 
 def box(
@@ -63,7 +65,10 @@ def box(
         area_moments=Moments(np.array([2.0 * (a * b + b * c + c * a)]), np.zeros(3), "area"),
         mass_moments=(moments, density),
         health=SimpleNamespace(as_record=lambda: dict(HEALTH)),
-        findings=(finding("flipped_faces", np.array([4, 7]), count=2), finding("hidden_object_measured", **CAUSE)),
+        findings=(
+            finding("flipped_faces", np.array([4, 7]), count=2),
+            finding("hidden_object_measured", **CAUSE),
+        ),
         rotation=np.asarray(rotation, float),
         location=np.asarray(location, float),
         error_bound={"volume": 1e-15, "input": {"volume": 1e-7}},
@@ -89,14 +94,18 @@ def test_a_box_of_one_by_two_by_three_has_its_closed_form():
     ixx, iyy, izz = 6000 / 12 * (4 + 9), 6000 / 12 * (1 + 9), 6000 / 12 * (1 + 4)
     np.testing.assert_allclose(entry["inertia"], np.diag([ixx, iyy, izz]), rtol=1e-14, atol=1e-11)
     np.testing.assert_allclose(entry["principal_moments"], [izz, iyy, ixx], rtol=1e-14)
-    np.testing.assert_allclose(np.abs(entry["principal_axes"]), [[0, 0, 1], [0, 1, 0], [1, 0, 0]], atol=1e-15)
+    np.testing.assert_allclose(
+        np.abs(entry["principal_axes"]), [[0, 0, 1], [0, 1, 0], [1, 0, 0]], atol=1e-15
+    )
     assert entry["symmetry"] == "asymmetric"
     assert entry["health"] == HEALTH
     assert entry["error_bound"] == {"volume": 1e-15, "input": {"volume": 1e-7}}
 
 
 def test_findings_are_data_with_their_messages():
-    slightly = finding("patch_holes_capped", slight=True, flat=np.int64(1), curved=0, share=math.nan)
+    slightly = finding(
+        "patch_holes_capped", slight=True, flat=np.int64(1), curved=0, share=math.nan
+    )
     one = replace(box(), findings=(*box().findings, slightly))
     entry = record.record(one)
     first, _, last = entry["findings"]
@@ -108,7 +117,12 @@ def test_findings_are_data_with_their_messages():
         "elements": [4, 7],
     }
     assert first["message"].startswith("2 flipped faces measured as reversed: 4, 7.")
-    assert last["severity"] == "note" and last["values"] == {"flat": 1, "curved": 0, "share": None, "slight": True}
+    assert last["severity"] == "note" and last["values"] == {
+        "flat": 1,
+        "curved": 0,
+        "share": None,
+        "slight": True,
+    }
     notes = [told["message"] for told in entry["findings"] if told["severity"] == "note"]
     assert entry["notes"] == notes and last["message"] in notes and len(entry["findings"]) == 3
     assert len(entry["warnings"]) + len(notes) == 3
@@ -120,7 +134,11 @@ def test_refusal_in_a_record_is_a_warning_told_once():
     entry = record.record(replace(box(), findings=(refusal,)))
     record.add_findings(entry, [refusal, finding("flat_surface")])
     assert [told["code"] for told in entry["findings"]] == ["shape_of_open_surface", "flat_surface"]
-    assert entry["findings"][0]["severity"] == "error" and len(entry["warnings"]) == 2 and entry["notes"] == []
+    assert (
+        entry["findings"][0]["severity"] == "error"
+        and len(entry["warnings"]) == 2
+        and entry["notes"] == []
+    )
 
 
 def test_element_lists_are_limited_to_a_thousand():
@@ -137,7 +155,9 @@ def test_the_axes_are_the_columns_of_the_principal_axes():
     entry = record.record(body)
     axes, inertia = np.array(entry["principal_axes"]), np.array(entry["inertia"])
     for number, moment in enumerate(entry["principal_moments"]):
-        np.testing.assert_allclose(inertia @ axes[:, number], moment * axes[:, number], rtol=1e-12, atol=1e-9)
+        np.testing.assert_allclose(
+            inertia @ axes[:, number], moment * axes[:, number], rtol=1e-12, atol=1e-9
+        )
     assert np.linalg.det(axes) == pytest.approx(1.0)
 
 
@@ -145,7 +165,9 @@ def test_object_frame_changes_only_directed_values():
     body = box(rotation=QUARTER_TURN, location=(10, 0, 0))
     world, own = record.record(body), record.record(body, "object")
     assert close(own["center_of_mass"], [1.0, 9.5, 1.5], rel=1e-14)  # x' = y, y' = 10 - x
-    np.testing.assert_allclose(np.diag(own["inertia"]), np.diag(world["inertia"])[[1, 0, 2]], rtol=1e-14)
+    np.testing.assert_allclose(
+        np.diag(own["inertia"]), np.diag(world["inertia"])[[1, 0, 2]], rtol=1e-14
+    )
     for name in ("mass", "volume", "area", "density", "principal_moments", "health"):
         assert own[name] == world[name]
 
@@ -156,7 +178,9 @@ def test_moments_are_about_the_worlds_origin(order):
     assert entry["order"] == order and entry["about"] == [0, 0, 0]
     assert set(entry) == {"order", "about", "volume", "mass", "error", "input"}
     assert set(entry["error"]) == set(entry["input"]) == {"volume", "mass"}
-    assert entry["error"]["volume"].keys() == entry["input"]["mass"].keys() == entry["volume"].keys()
+    assert (
+        entry["error"]["volume"].keys() == entry["input"]["mass"].keys() == entry["volume"].keys()
+    )
     assert list(entry["volume"]) == [",".join(map(str, powers)) for powers in monomials(order)]
     for powers in monomials(order):
         key = ",".join(map(str, powers))
@@ -188,11 +212,17 @@ def test_the_total_weighs_each_object_by_its_own_density():
 def test_the_total_of_nothing_has_no_center():
     total = record.total([])
     assert total["mass"] == total["volume"] == total["area"] == 0
-    assert total["center_of_mass"] is None and total["inertia"] is None and total["principal_axes"] is None
+    assert (
+        total["center_of_mass"] is None
+        and total["inertia"] is None
+        and total["principal_axes"] is None
+    )
 
 
 def test_nonfinite_number_is_null():
-    body = replace(box(), density=math.nan, error_bound={"volume": math.inf, "input": {"volume": -math.inf}})
+    body = replace(
+        box(), density=math.nan, error_bound={"volume": math.inf, "input": {"volume": -math.inf}}
+    )
     text = "".join(documents.to_json([one_document(body)]))
     entry = json.loads(text, parse_constant=lambda word: pytest.fail(word))["objects"][0]
     assert entry["density"] is None and entry["error_bound"] == {
@@ -228,12 +258,20 @@ def test_csv_has_one_row_an_object_under_one_header():
     assert [row["name"] for row in table] == ["a", 'b, "quoted"\nline', "c"]
     row, entry = table[0], both[0]["objects"][0]
     assert row["file"] == "part.stl" and row["kind"] == "solid" and row["method"] == "exact"
-    assert float(row["mass"]) == entry["mass"] and float(row["center_of_mass_z"]) == entry["center_of_mass"][2]
-    assert float(row["inertia_xy"]) == entry["inertia"][0][1] and float(row["inertia_zz"]) == entry["inertia"][2][2]
+    assert (
+        float(row["mass"]) == entry["mass"]
+        and float(row["center_of_mass_z"]) == entry["center_of_mass"][2]
+    )
+    assert (
+        float(row["inertia_xy"]) == entry["inertia"][0][1]
+        and float(row["inertia_zz"]) == entry["inertia"][2][2]
+    )
     assert float(row["principal_moment_3"]) == entry["principal_moments"][2]
     assert float(row["principal_axis_1_z"]) == entry["principal_axes"][2][0]
     assert row["health_closed"] == "true" and row["health_boundary_edges"] == "0"
-    assert float(row["error_bound_volume"]) == 1e-15 and float(row["error_bound_input_volume"]) == 1e-7
+    assert (
+        float(row["error_bound_volume"]) == 1e-15 and float(row["error_bound_input_volume"]) == 1e-7
+    )
     assert row["warnings"] == " | ".join(entry["warnings"]) and row["error"] == ""
     assert row["findings"] == " | ".join(told["code"] for told in entry["findings"])
     assert row["notes"] == " | ".join(entry["notes"])
@@ -265,7 +303,16 @@ def test_csv_holds_every_value_of_json():
     first, second = document["objects"]
     first["signature"] = {"size": 2.0, "invariants": [0.5, -3.0]}
     table = rows("".join(documents.to_csv([document])))
-    assert float(table[0]["thickness"]) == 0.25 and table[0]["principal_axes_unique"] in ("true", "false")
-    assert float(table[0]["signature_size"]) == 2.0 and float(table[0]["signature_invariants_2"]) == -3.0
-    assert float(table[1]["length"]) == 2.0 and float(table[1]["linear_density"]) == second["linear_density"]
+    assert float(table[0]["thickness"]) == 0.25 and table[0]["principal_axes_unique"] in (
+        "true",
+        "false",
+    )
+    assert (
+        float(table[0]["signature_size"]) == 2.0
+        and float(table[0]["signature_invariants_2"]) == -3.0
+    )
+    assert (
+        float(table[1]["length"]) == 2.0
+        and float(table[1]["linear_density"]) == second["linear_density"]
+    )
     assert float(table[1]["length_moment_1_0_0"]) == second["moments"]["length"]["1,0,0"]

@@ -52,7 +52,9 @@ PARTS = [
 @pytest.mark.parametrize("scale", [1e-200, 1.0, 1e200])
 def test_closedness_needs_each_edge_equally_often_both_ways(part, closed, scale):
     points, triangles = part
-    assert closed == (not find_edges(welded(part)[1]).signed_use_count(np.zeros(len(triangles), bool)).any())
+    assert closed == (
+        not find_edges(welded(part)[1]).signed_use_count(np.zeros(len(triangles), bool)).any()
+    )
     points = (points @ rotation(1).T + 0.1) * scale
     assert closes(Surface(points, triangles)) == closed
     apart = Surface(*soup((points, triangles)))

@@ -46,7 +46,11 @@ def test_place_is_sure_if_the_surface_is_beyond_the_tolerance(share, flip):
 def test_a_place_on_the_surface_is_not_sure_without_a_tolerance():
     tree = tree_of(*bodies.box((0.0, 0.0, 0.0), (1.0, 2.0, 4.0)))
     places = np.array([[0.5, 0.75, 4.0], [0.5, 0.75, 0.0], [0.5, 0.75, 1.0]]) - tree.origin
-    assert tree.winding_numbers(places, np.zeros(3, np.intp), 0.0)[1].tolist() == [False, False, True]
+    assert tree.winding_numbers(places, np.zeros(3, np.intp), 0.0)[1].tolist() == [
+        False,
+        False,
+        True,
+    ]
 
 
 @pytest.mark.parametrize("turn", range(3))
@@ -94,14 +98,19 @@ def test_triangles_without_an_area_are_gone_through_by_nothing():
     flat = np.array([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
     needle = np.array([[0.0, 0.0, -1.0], [0.1, 0.0, 1.0], [0.0, 0.1, 1.0]])
     triangles = np.array([[0, 1, 2], [3, 3, 3], [4, 5, 6], [4, 5, 6]])
-    components = sort_components(np.concatenate([flat, needle]), triangles, np.array([0, 0, 1, 2]), 3)
+    components = sort_components(
+        np.concatenate([flat, needle]), triangles, np.array([0, 0, 1, 2]), 3
+    )
     tree = Bvh(np.concatenate([flat, needle]), components, np.ones(3, bool))
     found, unfinished = intersecting_pairs(tree, np.array([0, 1, 1]), np.array([1, 0, 2]), 1e-9)
     assert not found.any() and not unfinished.any()
 
 
 def test_distant_volumes_are_as_exact_as_near_ones():
-    parts = [bodies.moved(bodies.sphere(1), size * bodies.rotation(size), (1e9, -2e9, 3e9)) for size in (2, 5)]
+    parts = [
+        bodies.moved(bodies.sphere(1), size * bodies.rotation(size), (1e9, -2e9, 3e9))
+        for size in (2, 5)
+    ]
     points, triangles = bodies.joined(*parts)
     order = np.random.default_rng(0).permutation(len(triangles))
     owner = np.repeat([0, 1], len(parts[0][1]))
@@ -121,7 +130,9 @@ def test_box_overlaps_match_a_comparison_of_all_pairs(seed):
     shrunk = extents * (1.0 - 1e-6)
     low, high = centers - shrunk, centers + shrunk
     truth = any(
-        (low[i] < high[j]).all() and (low[j] < high[i]).all() for i in range(count) for j in range(i + 1, count)
+        (low[i] < high[j]).all() and (low[j] < high[i]).all()
+        for i in range(count)
+        for j in range(i + 1, count)
     )
     assert boxes_overlap(centers, extents) == truth
 
@@ -132,7 +143,9 @@ def test_boxes_sharing_a_side_do_not_meet():
     for unit in (1.0, 0.1, 0.7):  # rounded, some would overlap
         assert not boxes_overlap(unit * grid, unit * half)
         assert boxes_overlap(unit * grid, 1.001 * unit * half)
-    assert boxes_overlap(np.array([[0.0, 0.0, 0.0], [0.3, 0.0, 0.1]]), np.array([[1.0, 1.0, 1.0], [2.0, 2.0, 0.0]]))
+    assert boxes_overlap(
+        np.array([[0.0, 0.0, 0.0], [0.3, 0.0, 0.1]]), np.array([[1.0, 1.0, 1.0], [2.0, 2.0, 0.0]])
+    )
 
 
 @pytest.mark.parametrize("margin", [0.0, 0.25, 0.5])

@@ -110,7 +110,9 @@ def test_points_in_a_plane_have_both_sides_of_their_polygon():
     assert hull.is_flat and sorted(hull.indices) == [300, 301, 302, 303]
 
 
-@pytest.mark.parametrize("points", [[], [[1, 2, 3]], [[1, 2, 3]] * 5, [[0, 0, 0], [1, 1, 1], [3, 3, 3]]])
+@pytest.mark.parametrize(
+    "points", [[], [[1, 2, 3]], [[1, 2, 3]] * 5, [[0, 0, 0], [1, 1, 1], [3, 3, 3]]]
+)
 def test_points_on_a_line_have_no_hull(points):
     with pytest.raises(MeasureError) as refusal:
         convex_hull(np.array(points, float).reshape(-1, 3))
@@ -128,7 +130,9 @@ def test_hull_polygon_is_convex_counterclockwise_and_complete():
         along = np.roll(corners, -1, axis=0) - corners
         following = np.roll(along, -1, axis=0)
         assert (along[:, 0] * following[:, 1] - along[:, 1] * following[:, 0] > 0.0).all()
-        inward = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.linalg.norm(along, axis=1)[:, None]
+        inward = (
+            np.stack([-along[:, 1], along[:, 0]], axis=1) / np.linalg.norm(along, axis=1)[:, None]
+        )
         inside = points @ inward.T - (corners * inward).sum(axis=1)
         assert inside.min() >= -1e-14 * np.abs(points).max()
 
@@ -145,7 +149,9 @@ def test_neighbors_of_a_tetrahedron_are_across_its_sides():
     assert close(volume(hull), 1.0 / 6.0, 1e-12)
 
 
-@pytest.mark.parametrize("linear", [np.diag([2.0, 3.0, -1.0]), [[1.0, 0.5, 0.0], [0.0, 2.0, 0.0], [0.3, 0.0, 1.0]]])
+@pytest.mark.parametrize(
+    "linear", [np.diag([2.0, 3.0, -1.0]), [[1.0, 0.5, 0.0], [0.0, 2.0, 0.0], [0.3, 0.0, 1.0]]]
+)
 def test_an_affine_image_is_the_hull_of_the_images(linear):
     points = turned(np.random.default_rng(1).standard_normal((300, 3)))
     hull = convex_hull(points).transform(linear)
@@ -157,7 +163,9 @@ def test_an_affine_image_is_the_hull_of_the_images(linear):
 def test_small_clouds_in_degenerate_places_have_closed_hulls():
     random = np.random.default_rng(12)
     for count in random.integers(5, 60, 300):
-        points = random.integers(0, 5, (count, 3)) + 0.3 * random.integers(0, 2, (count, 3)) * random.random((count, 3))
+        points = random.integers(0, 5, (count, 3)) + 0.3 * random.integers(
+            0, 2, (count, 3)
+        ) * random.random((count, 3))
         hull = convex_hull(points)
         require_closed(hull)
         assert highest_outside(hull, points) <= 3e-8
@@ -173,7 +181,11 @@ def test_hull_is_independent_of_the_order_of_equal_keys(monkeypatch):
     points, sort = lattice(4), np.argsort
 
     def argsort(values, kind=None):
-        return sort(values, kind="stable") if kind else len(values) - 1 - sort(values[::-1], kind="stable")
+        return (
+            sort(values, kind="stable")
+            if kind
+            else len(values) - 1 - sort(values[::-1], kind="stable")
+        )
 
     wanted = convex_hull(points).triangles
     monkeypatch.setattr(np, "argsort", argsort)

@@ -95,7 +95,11 @@ def pyramid(sides):
     angle = 2.0 * np.pi / sides * np.arange(sides)
     rim = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)
     around = [[k, (k + 1) % sides, sides] for k in range(sides)]
-    return np.concatenate([rim, [[0.0, 0.0, 1.0]]]), [*around[:2], list(range(sides))[::-1], *around[2:]]
+    return np.concatenate([rim, [[0.0, 0.0, 1.0]]]), [
+        *around[:2],
+        list(range(sides))[::-1],
+        *around[2:],
+    ]
 
 
 @pytest.mark.parametrize(
@@ -112,10 +116,20 @@ def pyramid(sides):
 def test_a_closed_mesh_is_proven_closed_by_its_own_corners(points, faces):
     surface = mesh(points, faces)
     sides = closed_side_faces(surface)
-    edges = dict.fromkeys(tuple(sorted((face[i - 1], face[i]))) for face in faces for i in (*range(1, len(face)), 0))
-    assert sides.shape == (2, len(edges))  # in the order in which the faces come to them, as in the mesh
+    edges = dict.fromkeys(
+        tuple(sorted((face[i - 1], face[i]))) for face in faces for i in (*range(1, len(face)), 0)
+    )
+    assert sides.shape == (
+        2,
+        len(edges),
+    )  # in the order in which the faces come to them, as in the mesh
     for edge, pair in zip(edges, sides.T):
-        expected = {k for k, face in enumerate(faces) for i in range(len(face)) if {face[i], face[i - 1]} == set(edge)}
+        expected = {
+            k
+            for k, face in enumerate(faces)
+            for i in range(len(face))
+            if {face[i], face[i - 1]} == set(edge)
+        }
         assert set(pair) == expected
 
 
@@ -123,7 +137,9 @@ def test_hole_or_flipped_face_or_copy_spoils_the_proof():
     points, faces = mixed_mesh()
     for k in range(len(faces)):
         assert closed_side_faces(mesh(points, faces[:k] + faces[k + 1 :])) is None
-        assert closed_side_faces(mesh(points, faces[:k] + [faces[k][::-1]] + faces[k + 1 :])) is None
+        assert (
+            closed_side_faces(mesh(points, faces[:k] + [faces[k][::-1]] + faces[k + 1 :])) is None
+        )
         assert closed_side_faces(mesh(points, faces + [faces[k]])) is None
 
 
@@ -137,7 +153,9 @@ def test_orientation_turns_flipped_faces(seed):
     edges = find_edges(triangles)
     one, other = edges.manifold_side_pairs()
     against = edges.upward[one] == edges.upward[other]
-    turned, twisted = consistent_orientation(len(triangles), one // 3, other // 3, against, np.ones(len(triangles)))
+    turned, twisted = consistent_orientation(
+        len(triangles), one // 3, other // 3, against, np.ones(len(triangles))
+    )
     np.testing.assert_array_equal(turned, flipped)
     assert not twisted.any()
 
@@ -152,7 +170,9 @@ def test_moebius_strip_and_klein_bottle_have_no_orientation():
         one, other = edges.manifold_side_pairs()
         against = edges.upward[one] == edges.upward[other]
         assert against.any()
-        turned, twisted = consistent_orientation(len(triangles), one // 3, other // 3, against, np.ones(len(triangles)))
+        turned, twisted = consistent_orientation(
+            len(triangles), one // 3, other // 3, against, np.ones(len(triangles))
+        )
         assert twisted[: len(strip[1])].all() and not twisted[len(strip[1]) :].any()
         assert not turned.any()
 
@@ -181,7 +201,9 @@ def test_closed_box_is_a_shell_of_its_own_beside_joined_ones(first):
     """It shares an edge with one of them, and so do the wall and what is around it."""
     three = [box(), box((1, 0, 0), (2, 1, 1)), box((-1, -1, 0), (0, 0, 1))]
     corners, triangles = welded(joined(*three[first:], *three[:first]))
-    triangles = triangles[np.sort(np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1])]
+    triangles = triangles[
+        np.sort(np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1])
+    ]
     edges, part, number = parts_of(triangles)
     shell, count = group_components(edges, part, number, np.zeros(len(edges.count), bool))
     alone = (corners[triangles].mean(axis=1) < 0.0).any(axis=1)
@@ -196,7 +218,9 @@ def test_parts_meeting_in_an_edge_are_joined_by_odd_sides(sides):
     part = np.repeat([0, 1, 2], [1, sides, 2])
     edges = find_edges(triangles)
     shell, number = group_components(edges, part, 3, edges.count == 1)
-    assert (number, len(set(shell[: 1 + sides])), len(set(shell[-3 + 1 :]))) == ((2, 1, 1) if sides % 2 else (3, 2, 1))
+    assert (number, len(set(shell[: 1 + sides])), len(set(shell[-3 + 1 :]))) == (
+        (2, 1, 1) if sides % 2 else (3, 2, 1)
+    )
 
 
 def test_equal_positions_are_welded_and_minus_zero_is_zero():
@@ -239,9 +263,14 @@ def test_faces_on_the_same_vertices_share_a_group():
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_vertices_move_a_thousandth_of_a_triangle_at_most(dtype):
     """Each triangle is as large as its longest side: 5, 13.3 and 0.5."""
-    points = np.array([[0, 0, 0], [3, 0, 0], [0, 4, 0], [0, 5, 12], [0, 4, 0.5], [0.25, 4, 0.25], [9, 9, 9]], dtype)
+    points = np.array(
+        [[0, 0, 0], [3, 0, 0], [0, 4, 0], [0, 5, 12], [0, 4, 0.5], [0.25, 4, 0.25], [9, 9, 9]],
+        dtype,
+    )
     triangles = np.array([[0, 1, 2], [0, 3, 1], [2, 5, 4]])
     found = vertex_tolerance(points, triangles, np.array([6, 3, 0, 4, 2, 1]), 0.01)
     sides = [np.sqrt(178.0), 5.0, 0.5, 0.5, 5.0]
     assert close(found, [0.01, *np.minimum(0.01, 1e-3 * np.array(sides))], 1e-7)
-    assert close(vertex_tolerance(points, triangles, np.array([3, 1]), 1.0), [1e-3 * 178.0**0.5, 5e-3], 1e-7)
+    assert close(
+        vertex_tolerance(points, triangles, np.array([3, 1]), 1.0), [1e-3 * 178.0**0.5, 5e-3], 1e-7
+    )

@@ -15,7 +15,9 @@ from body_moments.core.polyhedron import integration
 from tests.close import close
 from tests.core.bodies import ring, rotation
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # open faces count as given
+polyhedron_moments = partial(
+    integration.polyhedron_moments, allow_open=True
+)  # open faces count as given
 
 
 def one_by_one(surface, error):
@@ -34,9 +36,14 @@ def one_by_one(surface, error):
     bent, spread, bare = 0, Fraction(0), []
     for face, corners in enumerate([*surface.quads.tolist(), *surface.triangles.tolist()]):
         a, b, c = corners[:3]
-        first, second = (span(c, a), span(corners[3], b)) if len(corners) == 4 else (span(b, a), span(c, a))
+        first, second = (
+            (span(c, a), span(corners[3], b)) if len(corners) == 4 else (span(b, a), span(c, a))
+        )
         normal = cross(first, second)
-        square, longest = float(dot(normal, normal)), float(max(dot(first, first), dot(second, second)))
+        square, longest = (
+            float(dot(normal, normal)),
+            float(max(dot(first, first), dot(second, second))),
+        )
         volume = abs(dot(span(b, a), normal)) if len(corners) == 4 else 0
         if square <= longest * (error**2 + ZERO_AREA_RTOL**2 * longest):
             bare.append(face)
@@ -49,7 +56,9 @@ def quads(kind, dtype):
     """A torus of 1800 quads: flat but for rounding, bent, some of them bent or folded, or without area."""
     points, faces = ring(60, 30)
     rng = np.random.default_rng(3)
-    loose = points[faces].reshape(-1, 3)  # each quad with corners of its own, so that they can be bent one by one
+    loose = points[faces].reshape(
+        -1, 3
+    )  # each quad with corners of its own, so that they can be bent one by one
     faces = np.arange(len(loose)).reshape(-1, 4)
     a, b, _, d = (loose[k::4].copy() for k in range(4))
     scale = np.exp(rng.uniform(-4.0, 0.0, (len(faces), 1))) if kind != "folded" else 0.5
@@ -58,7 +67,9 @@ def quads(kind, dtype):
     normal = np.cross(b - a, d - a)
     if kind == "bent":
         c += normal * rng.uniform(-5.0, 5.0, (len(c), 1))
-    if kind == "folded":  # two triangles that nearly make up for each other, bent by about their own limit
+    if (
+        kind == "folded"
+    ):  # two triangles that nearly make up for each other, bent by about their own limit
         size = np.linalg.norm(normal, axis=1)[:, None]
         c[::5] = (a + 1.5 * (b - a) - 1.45 * (d - a) + 1e-5 * normal / size)[::5]
     if kind == "bare":  # but for a trace of an area, on one side
@@ -66,7 +77,9 @@ def quads(kind, dtype):
         c[::17] = b[::17] + (d - a)[::17]
     if kind in ("some", "all sorts"):
         c[::7] += (normal * rng.uniform(-5.0, 5.0, (len(c), 1)))[::7]
-        c[1::7] += (normal * 1e-6 * rng.uniform(-200.0, 200.0, (len(c), 1)))[1::7]  # about the limit
+        c[1::7] += (normal * 1e-6 * rng.uniform(-200.0, 200.0, (len(c), 1)))[
+            1::7
+        ]  # about the limit
     if kind == "all sorts":
         c[::5] = a[::5] - 0.3 * (c - a)[::5]  # folded
         d[::11] = b[::11]  # two triangles on each other
@@ -75,7 +88,9 @@ def quads(kind, dtype):
         b[::17] = a[::17]
         d[::17] = a[::17]
     points = np.stack([a, b, c, d], axis=1).reshape(-1, 3)
-    return Surface((points @ rotation(3).T + [0.1, 0.2, 0.3]).astype(dtype), quads=faces.astype(np.int32))
+    return Surface(
+        (points @ rotation(3).T + [0.1, 0.2, 0.3]).astype(dtype), quads=faces.astype(np.int32)
+    )
 
 
 def told(surface, seen, threads=1):
@@ -94,7 +109,9 @@ def told(surface, seen, threads=1):
 def test_triangles_without_area_are_found_wherever_they_stand(order, dtype):
     surface = quads("all sorts", dtype)
     halves = surface.quads[:, [0, 1, 2]], surface.quads[:, [0, 2, 3]]
-    triangles = np.stack(halves, axis=1).reshape(-1, 3) if order == "pairs" else np.concatenate(halves)
+    triangles = (
+        np.stack(halves, axis=1).reshape(-1, 3) if order == "pairs" else np.concatenate(halves)
+    )
     if order == "loose":
         triangles = triangles[np.random.default_rng(0).permutation(len(triangles))]
     surface = Surface(surface.points, triangles)
@@ -107,7 +124,9 @@ def test_triangles_without_area_are_found_wherever_they_stand(order, dtype):
 @pytest.mark.parametrize("scale", [2.0**-120, 2.0**120])
 def test_sizes_beyond_the_range_of_the_sums_do_not_matter(scale):
     surface = quads("some", np.float64)
-    plain, scaled = (PlanarityAccumulator(replace(surface, points=surface.points * s), 0.0) for s in (1.0, scale))
+    plain, scaled = (
+        PlanarityAccumulator(replace(surface, points=surface.points * s), 0.0) for s in (1.0, scale)
+    )
     for witness in (plain, scaled):
         polyhedron_moments(witness.surface, area_order=0, planarity=witness)
     plain, scaled = plain.planarity(), scaled.planarity()

@@ -46,7 +46,9 @@ def test_many_triangles_are_no_nearer_than_their_samples():
 
 def test_a_triangle_without_area_is_its_edges():
     line, dot = [[0, 0, 0], [2, 0, 0], [1, 0, 0]], [[1, 1, 1]] * 3
-    assert triangle_distances((1, 3, 4), np.array([line, dot], float)) == pytest.approx([5.0, 13.0**0.5])
+    assert triangle_distances((1, 3, 4), np.array([line, dot], float)) == pytest.approx(
+        [5.0, 13.0**0.5]
+    )
 
 
 def test_points_on_a_long_sliver_are_on_it():
@@ -67,10 +69,16 @@ def test_each_point_from_its_own_triangle():
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_rectangle_has_its_solid_angle_below_its_corner(way, size):
     corners = size * np.array([[0, 0, 2], [3, 0, 2], [3, 5, 2], [0, 5, 2]], float) * [1.0, 1.0, way]
-    points, triangles = moved((corners, np.array([[0, 1, 2], [0, 2, 3]])), rotation(2), (size, 2.0 * size, -size))
+    points, triangles = moved(
+        (corners, np.array([[0, 1, 2], [0, 2, 3]])), rotation(2), (size, 2.0 * size, -size)
+    )
     found = winding_number(points, triangles, (size, 2.0 * size, -size))
-    assert close(found, way * math.atan(15.0 / (2.0 * math.sqrt(38.0))) / (4.0 * math.pi), rel=1e-13)
-    assert close(winding_number(points, triangles[:, ::-1], (size, 2.0 * size, -size)), -found, rel=1e-13)
+    assert close(
+        found, way * math.atan(15.0 / (2.0 * math.sqrt(38.0))) / (4.0 * math.pi), rel=1e-13
+    )
+    assert close(
+        winding_number(points, triangles[:, ::-1], (size, 2.0 * size, -size)), -found, rel=1e-13
+    )
 
 
 def test_points_inside_a_dense_or_doubled_surface_wind_1_or_2():

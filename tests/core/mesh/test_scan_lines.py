@@ -36,7 +36,9 @@ def place_of(grid, row, column, along, body=0):
     return place + middle
 
 
-@pytest.mark.parametrize("shape", [sphere(3), torus(), box((0, 0, 0), (1, 2, 3)), moved(box(), rotation(4), (5, 6, 7))])
+@pytest.mark.parametrize(
+    "shape", [sphere(3), torus(), box((0, 0, 0), (1, 2, 3)), moved(box(), rotation(4), (5, 6, 7))]
+)
 @pytest.mark.parametrize("scale", [1e-7, 1.0, 1e7])
 def test_lines_meet_triangles_at_the_expected_places(shape, scale):
     points, triangles = moved(shape, scale * np.eye(3))
@@ -48,7 +50,8 @@ def test_lines_meet_triangles_at_the_expected_places(shape, scale):
         place = place_of(grid, found.row[key], found.column[key], found.along[key])
         corners = points[triangles[found.triangle[key]]]
         share = np.linalg.solve(
-            np.vstack([corners.T / scale, np.ones(3)])[[0, 1, 2, 3]].T @ np.vstack([corners.T / scale, np.ones(3)]),
+            np.vstack([corners.T / scale, np.ones(3)])[[0, 1, 2, 3]].T
+            @ np.vstack([corners.T / scale, np.ones(3)]),
             np.vstack([corners.T / scale, np.ones(3)]).T @ np.append(place / scale, 1.0),
         )
         assert (share > -1e-9).all() and np.abs(share @ corners - place).max() < 1e-9 * scale
@@ -78,20 +81,29 @@ def test_lines_through_a_lattice_of_vertices_miss_nothing():
 
 def test_quads_are_met_as_their_triangles():
     points, quads = ring(30, 20)
-    points = points + 0.02 * np.random.default_rng(0).normal(size=points.shape)  # so that some are cut the other way
+    points = points + 0.02 * np.random.default_rng(0).normal(
+        size=points.shape
+    )  # so that some are cut the other way
     body = Surface(points, quads=quads)
     cut = Surface.from_triangles(points, body.all_triangles()[0])
     grid = grid_of(body)
     first, second = find_crossings(body, grid), find_crossings(cut, grid)
     order = [np.lexsort((found.along, found.column, found.row)) for found in (first, second)]
     for name in ("row", "column", "triangle", "sign"):
-        np.testing.assert_array_equal(getattr(first, name)[order[0]], getattr(second, name)[order[1]])
+        np.testing.assert_array_equal(
+            getattr(first, name)[order[0]], getattr(second, name)[order[1]]
+        )
     assert np.abs(first.along[order[0]] - second.along[order[1]]).max() <= 1e-12
 
 
 def test_line_through_a_point_counts_its_winding():
     body = surface(welded(box((0, 0, 0), (1, 2, 3))))
-    for point, expected in (((0.5, 1.0, 1.5), 1), ((0.1, 1.9, 0.1), 1), ((1.1, 1.0, 1.0), 0), ((0.5, 1.0, -0.1), 0)):
+    for point, expected in (
+        ((0.5, 1.0, 1.5), 1),
+        ((0.1, 1.9, 0.1), 1),
+        ((1.1, 1.0, 1.0), 0),
+        ((0.5, 1.0, -0.1), 0),
+    ):
         found = find_crossings(body, LineGrids.through_points(np.array([point]), np.array([4.0])))
         assert abs(int(found.sign[found.along > 0.0].sum())) == expected
 

@@ -17,10 +17,14 @@ def bipyramid(sides):
     """Two vertices of so many faces that no hash has places for all their sides."""
     ring = np.arange(sides)
     angle = 2.0 * np.pi * ring / sides
-    points = np.concatenate([np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], 1), [[0, 0, 1], [0, 0, -1]]])
+    points = np.concatenate(
+        [np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], 1), [[0, 0, 1], [0, 0, -1]]]
+    )
     following = (ring + 1) % sides
     top, bottom = np.full((2, sides), [[sides], [sides + 1]])
-    return points, np.concatenate([np.stack([ring, following, top], 1), np.stack([following, ring, bottom], 1)])
+    return points, np.concatenate(
+        [np.stack([ring, following, top], 1), np.stack([following, ring, bottom], 1)]
+    )
 
 
 PARTS = {
@@ -45,9 +49,15 @@ def across_by_search(faces):
     for face, corners in enumerate(faces.tolist()):
         for start, stop in zip(corners, [*corners[1:], corners[0]]):
             at[start, stop].append(face)
-    if any(len(found) > 1 or start == stop or (stop, start) not in at for (start, stop), found in at.items()):
+    if any(
+        len(found) > 1 or start == stop or (stop, start) not in at
+        for (start, stop), found in at.items()
+    ):
         return None
-    return [[at[stop, start][0] for start, stop in zip(row, [*row[1:], row[0]])] for row in faces.tolist()]
+    return [
+        [at[stop, start][0] for start, stop in zip(row, [*row[1:], row[0]])]
+        for row in faces.tolist()
+    ]
 
 
 @pytest.mark.parametrize("dtype", [np.int32, np.int64])

@@ -33,11 +33,20 @@ def test_moments_turn_with_the_body_one_or_many_at_a_time():
     rng = np.random.default_rng(2)
     place, turns = rng.normal(size=(4, 3)), np.array([bodies.rotation(seed) for seed in range(4)])
     powers = monomials(7)
-    raw, turned = (np.prod(where[:, None] ** powers, axis=2) for where in (place, (turns @ place[..., None])[..., 0]))
-    for found, truth in ((rotate_moments(raw, 7, turns), turned), (rotate_moments(raw[1], 7, turns[1]), turned[1])):
+    raw, turned = (
+        np.prod(where[:, None] ** powers, axis=2)
+        for where in (place, (turns @ place[..., None])[..., 0])
+    )
+    for found, truth in (
+        (rotate_moments(raw, 7, turns), turned),
+        (rotate_moments(raw[1], 7, turns[1]), turned[1]),
+    ):
         assert np.abs(found - truth).max() <= 1e-13 * np.abs(turned).max()
     one_by_all = rotate_moments(raw[0], 7, turns)
-    assert np.abs(one_by_all[2] - rotate_moments(raw[0], 7, turns[2])).max() <= 1e-13 * np.abs(raw).max()
+    assert (
+        np.abs(one_by_all[2] - rotate_moments(raw[0], 7, turns[2])).max()
+        <= 1e-13 * np.abs(raw).max()
+    )
 
 
 @pytest.mark.parametrize("degree", range(1, 6))
@@ -48,7 +57,9 @@ def test_a_symmetric_tensor_holds_each_moment_of_its_degree(degree):
         tensor = np.multiply.outer(tensor, place)
     raw = np.prod(place ** monomials(degree), axis=1)
     assert np.array_equal(raw[tensor_index(degree)], tensor)
-    assert np.array_equal(tensor.ravel()[_tensor_positions(degree)], raw[monomials(degree).sum(axis=1) == degree])
+    assert np.array_equal(
+        tensor.ravel()[_tensor_positions(degree)], raw[monomials(degree).sum(axis=1) == degree]
+    )
 
 
 @pytest.mark.parametrize("offset, size", [(1e60, 1e200), (-1e60, 1e200), (1e200, 1.0)])

@@ -20,7 +20,9 @@ FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 def almost_rotations(count, seed=3, off=3e-7):
     random = np.random.default_rng(seed)
     maps = np.tile(np.eye(4), (count, 1, 1))
-    maps[:, :3, :3] = np.linalg.qr(random.normal(size=(count, 3, 3)))[0] + off * random.normal(size=(count, 3, 3))
+    maps[:, :3, :3] = np.linalg.qr(random.normal(size=(count, 3, 3)))[0] + off * random.normal(
+        size=(count, 3, 3)
+    )
     maps[:, :3, 3] = random.normal(size=(count, 3))
     return maps
 
@@ -37,7 +39,9 @@ def images(matrices):
 def shares(found: Moments, truths) -> np.ndarray:
     """Return the used share of each bound."""
     off = np.abs(found.raw - sum(truth.raw for truth in truths))
-    return off / (found.input_error + found.rounding_error + sum(truth.rounding_error for truth in truths))
+    return off / (
+        found.input_error + found.rounding_error + sum(truth.rounding_error for truth in truths)
+    )
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e-6, 1e6])
@@ -64,7 +68,9 @@ def test_the_sum_of_images_is_within_its_bound(order):
     for seed in range(20):
         matrices = almost_rotations(3, seed)
         found = sum_of_images(area_of(POINTS, order), matrices)
-        used.append(shares(found, [area_of(image, order, found.about) for image in images(matrices)]))
+        used.append(
+            shares(found, [area_of(image, order, found.about) for image in images(matrices)])
+        )
     assert 0.02 < np.max(used) <= 1.0
 
 
@@ -75,7 +81,9 @@ def test_the_mass_of_images_is_within_its_bound():
         matrices = almost_rotations(2, seed)
         found = polynomial_mass_of_images(area_of(POINTS, 4), density, matrices)
         truths = [
-            polynomial_mass_of_images(area_of(image, 4, found.about), density, np.eye(4)[None], about=found.about)
+            polynomial_mass_of_images(
+                area_of(image, 4, found.about), density, np.eye(4)[None], about=found.about
+            )
             for image in images(matrices)
         ]
         used.append(shares(found, truths))

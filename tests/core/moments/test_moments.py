@@ -48,10 +48,15 @@ def simplex_moments(order=ORDER):
 def mapped_exactly(exact, matrix, about, order=ORDER):
     """The image of exact moments (about 0) under an affine map, by expanding the polynomials term by term."""
     linear = [[Fraction(float(x)) for x in row] for row in np.asarray(matrix)[:3, :3]]
-    offset = [Fraction(float(t)) - Fraction(float(o)) for t, o in zip(np.asarray(matrix)[:3, 3], about)]
+    offset = [
+        Fraction(float(t)) - Fraction(float(o)) for t, o in zip(np.asarray(matrix)[:3, 3], about)
+    ]
     det = sum(
         linear[0][i]
-        * (linear[1][(i + 1) % 3] * linear[2][(i + 2) % 3] - linear[1][(i + 2) % 3] * linear[2][(i + 1) % 3])
+        * (
+            linear[1][(i + 1) % 3] * linear[2][(i + 2) % 3]
+            - linear[1][(i + 2) % 3] * linear[2][(i + 1) % 3]
+        )
         for i in range(3)
     )
 
@@ -70,7 +75,9 @@ def mapped_exactly(exact, matrix, about, order=ORDER):
         for i, n in enumerate(powers):
             for _ in range(n):
                 polynomial = times(polynomial, i)
-        image.append(abs(det) * sum(value * exact[monomial_index(*key)] for key, value in polynomial.items()))
+        image.append(
+            abs(det) * sum(value * exact[monomial_index(*key)] for key, value in polynomial.items())
+        )
     return image
 
 
@@ -116,10 +123,16 @@ def test_an_affine_map_is_exact_within_its_bound(name, order):
     image = floats(exact).transform(matrix)
     assert np.array_equal(image.about, matrix[:3, 3])
     assert_within_bound(image, mapped_exactly(exact, matrix, image.about, order))
-    if order == ORDER:  # Not vacuous: what a few roundings of the positions and of the largest moment amount to.
-        assert image.rounding_error.max() <= 1e-14 * (np.abs(matrix).max() + 1.0) * max(np.abs(image.raw).max(), 1e-40)
+    if (
+        order == ORDER
+    ):  # Not vacuous: what a few roundings of the positions and of the largest moment amount to.
+        assert image.rounding_error.max() <= 1e-14 * (np.abs(matrix).max() + 1.0) * max(
+            np.abs(image.raw).max(), 1e-40
+        )
     many = sum_of_images(floats(exact), np.array([matrix, matrix])).about_point(image.about)
-    assert (np.abs(many.raw - 2.0 * image.raw) <= many.rounding_error + 2.0 * image.rounding_error).all()
+    assert (
+        np.abs(many.raw - 2.0 * image.raw) <= many.rounding_error + 2.0 * image.rounding_error
+    ).all()
 
 
 def test_a_shift_follows_the_binomial_theorem_and_comes_back():
@@ -141,10 +154,14 @@ def test_bodies_add_whatever_points_they_are_about():
 
 def test_bounds_of_a_sum_are_the_sums_of_the_bounds():
     raw, own = np.arange(1.0, 5.0), np.array([0.5, 0.25, 0.125, 1.0])
-    parts = [Moments(raw, np.zeros(3), Measure.VOLUME, k * own, 8.0 * k * own) for k in (1.0, 2.0, 4.0)]
+    parts = [
+        Moments(raw, np.zeros(3), Measure.VOLUME, k * own, 8.0 * k * own) for k in (1.0, 2.0, 4.0)
+    ]
     total = sum_moments(parts)
     assert close(total.raw, 3.0 * raw, 0.0) and close(total.input_error, 56.0 * own, 1e-14)
-    assert (total.rounding_error >= 7.0 * own).all() and close(total.rounding_error, 7.0 * own, 1e-14)
+    assert (total.rounding_error >= 7.0 * own).all() and close(
+        total.rounding_error, 7.0 * own, 1e-14
+    )
 
 
 def test_instances_are_the_sum_of_their_maps():
@@ -158,7 +175,9 @@ def test_instances_are_the_sum_of_their_maps():
     true = [sum(column) for column in zip(*(each[i] for i in which))]
     total = total.truncate(3)
     assert_within_bound(total, true)
-    assert np.allclose(total.raw, [float(x) for x in true], rtol=1e-13, atol=1e-9 * abs(total.raw).max())
+    assert np.allclose(
+        total.raw, [float(x) for x in true], rtol=1e-13, atol=1e-9 * abs(total.raw).max()
+    )
 
 
 @pytest.mark.parametrize("point", [(0.5, 1.0, 1.5), (-1e-3, 0.0, 0.0), (300.0, -1e4, 7.0)])
@@ -168,7 +187,9 @@ def test_shift_at_order_20_is_exact_within_a_tight_bound(point):
     shifted = body.about_point(point)
     exact = box_moments(low, high, 20, point)
     assert_within_bound(shifted, exact)
-    reach = np.abs([low, high]).max(axis=0) + np.abs(point)  # the sum of the sizes of the binomial theorem's terms
+    reach = np.abs([low, high]).max(axis=0) + np.abs(
+        point
+    )  # the sum of the sizes of the binomial theorem's terms
     largest = 24.0 * np.prod(reach ** monomials(20), axis=1)
     assert (shifted.rounding_error <= 1e-13 * largest).all()
 
@@ -176,7 +197,9 @@ def test_shift_at_order_20_is_exact_within_a_tight_bound(point):
 @pytest.mark.parametrize("of", ["volume", "area", "mass"])
 def test_a_frame_is_a_turn_about_its_origin(of):
     exact = simplex_moments(7)
-    rotation = np.array([[0.6, 0.0, 0.8], [0.8, 0.0, -0.6], [0.0, 1.0, 0.0]])  # columns are the axes
+    rotation = np.array(
+        [[0.6, 0.0, 0.8], [0.8, 0.0, -0.6], [0.0, 1.0, 0.0]]
+    )  # columns are the axes
     body = floats(exact, of=of).in_frame(rotation, (1.0, -2.0, 0.5))
     to_frame = np.eye(4)
     to_frame[:3, :3], to_frame[:3, 3] = rotation.T, rotation.T @ [-1.0, 2.0, -0.5]
@@ -196,9 +219,14 @@ def central_box(sides, order):
 @pytest.mark.parametrize("size", [1.0, 1e-7, 3e4])
 def test_normalized_moments_have_no_unit_and_know_no_place(by, size):
     sides, order = (1, 2, 3), 7
-    body = floats(box_moments((5, -3, 2), (6, -1, 5), order)).transform(np.diag([size, size, size, 1.0]))
+    body = floats(box_moments((5, -3, 2), (6, -1, 5), order)).transform(
+        np.diag([size, size, size, 1.0])
+    )
     body = Moments(
-        body.raw, body.about, input_error=1e-9 * np.abs(body.raw) * (body.raw > 0), rounding_error=body.rounding_error
+        body.raw,
+        body.about,
+        input_error=1e-9 * np.abs(body.raw) * (body.raw > 0),
+        rounding_error=body.rounding_error,
     )
     found = normalize(body, by)
     n = monomials(order).sum(axis=1)
@@ -217,7 +245,9 @@ def test_measure_is_one_of_four_names():
     assert Moments(np.ones(1), np.zeros(3)).measure is Measure.VOLUME
     area = Moments(np.ones(1), np.zeros(3), "area")
     assert (
-        area.measure is Measure.AREA and "{:s}".format(area.measure) == "area" and json.dumps(area.measure) == '"area"'
+        area.measure is Measure.AREA
+        and "{:s}".format(area.measure) == "area"
+        and json.dumps(area.measure) == '"area"'
     )
     with pytest.raises(ValueError):
         Moments(np.ones(1), np.zeros(3), "weight")
@@ -246,7 +276,9 @@ def test_normalized_bounds_hold_for_bodies_moved_within_theirs(by):
     exact = np.array([float(x) for x in box_moments((0, 0, 0), (1, 2, 3), 6)])
     for _ in range(50):
         delta = 1e-6 * np.abs(exact) * rng.uniform(-1, 1, len(exact))
-        told = normalize(Moments(exact + delta, np.zeros(3), rounding_error=np.abs(delta) + 1e-20), by)
+        told = normalize(
+            Moments(exact + delta, np.zeros(3), rounding_error=np.abs(delta) + 1e-20), by
+        )
         true = normalize(Moments(exact, np.zeros(3)), by)
         assert (np.abs(told.raw - true.raw) <= told.rounding_error + true.rounding_error).all()
         assert told.rounding_error.max() < 1e-3
@@ -301,14 +333,26 @@ def test_rounding_bound_holds_the_defect_of_a_float32_map():
     matrix = np.diag([1.0, 1.0, 1.0, 1.0])
     matrix[:2, :2] = [[c, -s], [s, c]]
     area = Moments(np.array([1.0, 0, 0, 0]), np.zeros(3), "area")
-    for images, count in ((area.transform(matrix), 1), (sum_of_images(area, np.stack([matrix] * 3)), 3)):
+    for images, count in (
+        (area.transform(matrix), 1),
+        (sum_of_images(area, np.stack([matrix] * 3)), 3),
+    ):
         for normal in np.eye(3):  # a unit square grows by the map's cofactors
-            truth = count * np.linalg.det(matrix[:3, :3]) * np.linalg.norm(np.linalg.inv(matrix[:3, :3]).T @ normal)
-            assert abs(images.total - truth) <= images.rounding_error[0] < 1e-6 and not images.input_error.any()
+            truth = (
+                count
+                * np.linalg.det(matrix[:3, :3])
+                * np.linalg.norm(np.linalg.inv(matrix[:3, :3]).T @ normal)
+            )
+            assert (
+                abs(images.total - truth) <= images.rounding_error[0] < 1e-6
+                and not images.input_error.any()
+            )
 
 
 def test_input_bounds_map_with_the_body():
-    body = Moments(np.array([1.0, 0, 0, 0]), np.zeros(3), input_error=np.array([1e-7, 2e-7, 2e-7, 2e-7]))
+    body = Moments(
+        np.array([1.0, 0, 0, 0]), np.zeros(3), input_error=np.array([1e-7, 2e-7, 2e-7, 2e-7])
+    )
     image = body.transform([[2, 0, 0, 10], [0, 2, 0, 0], [0, 0, 2, 0], [0, 0, 0, 1]])
     assert close(image.input_error[0], 8e-7, rel=1e-6)
     assert image.about_point((0, 0, 0)).input_error[1] >= 10 * 8e-7
@@ -317,10 +361,15 @@ def test_input_bounds_map_with_the_body():
 def test_stacked_totals_match_single_bodies():
     stack = Moments(np.arange(8.0).reshape(2, 4), np.zeros((2, 3)))
     assert stack.total.tolist() == [0.0, 4.0] == [stack.at(k).total for k in range(2)]
-    assert Moments(np.arange(24.0).reshape(2, 3, 4), np.zeros((2, 3, 3))).total.tolist() == [[0, 4, 8], [12, 16, 20]]
+    assert Moments(np.arange(24.0).reshape(2, 3, 4), np.zeros((2, 3, 3))).total.tolist() == [
+        [0, 4, 8],
+        [12, 16, 20],
+    ]
 
 
-@pytest.mark.parametrize("exponents", [(-1, 0, 0), (0, 0, -1), (5, -1, 0), (3, 0, 0), (1, 1, 1), (np.int64(-1), 0, 0)])
+@pytest.mark.parametrize(
+    "exponents", [(-1, 0, 0), (0, 0, -1), (5, -1, 0), (3, 0, 0), (1, 1, 1), (np.int64(-1), 0, 0)]
+)
 def test_exponents_without_moment_are_an_index_error(exponents):
     moments = Moments(np.arange(10.0), np.zeros(3))
     named = "({:d}, {:d}, {:d}) to order 2".format(*exponents)
@@ -329,14 +378,20 @@ def test_exponents_without_moment_are_an_index_error(exponents):
             body[exponents]
 
 
-@pytest.mark.parametrize("exponents", [1, (1, 0), (1, 0, 0, 0), (1.0, 0, 0), slice(2), "xyz", None, ...])
+@pytest.mark.parametrize(
+    "exponents", [1, (1, 0), (1, 0, 0, 0), (1.0, 0, 0), slice(2), "xyz", None, ...]
+)
 def test_indices_other_than_three_integers_are_a_type_error(exponents):
     with pytest.raises(TypeError, match="not 3 integer exponents"):
         Moments(np.arange(10.0), np.zeros(3))[exponents]
 
 
 def test_negative_exponents_have_no_monomial():
-    for exponents in ((-1, 0, 0), (0, -1, 1), (np.array([0, 1]), np.array([0, -1]), np.array([0, 0]))):
+    for exponents in (
+        (-1, 0, 0),
+        (0, -1, 1),
+        (np.array([0, 1]), np.array([0, -1]), np.array([0, 0])),
+    ):
         with pytest.raises(IndexError, match="negative"):
             monomial_index(*exponents)
 
@@ -378,7 +433,9 @@ def test_numpy_numbers_on_the_left_scale_moments():
     ],
 )
 def test_frames_other_than_rotations_are_refused(matrix):
-    moments = Moments(np.array([1.0, *np.zeros(3), 1.0, 0.0, 0.0, 2.0, 0.0, 4.0, *np.zeros(10)]), np.zeros(3))
+    moments = Moments(
+        np.array([1.0, *np.zeros(3), 1.0, 0.0, 0.0, 2.0, 0.0, 4.0, *np.zeros(10)]), np.zeros(3)
+    )
     properties = MassProperties.from_moments(moments)
     for turn in (
         lambda: moments.in_frame(matrix, np.zeros(3)),
@@ -391,7 +448,10 @@ def test_frames_other_than_rotations_are_refused(matrix):
 
 def test_float32_rotations_are_frames():
     angle = 0.7
-    rotation = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]], np.float32)
+    rotation = np.array(
+        [[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]],
+        np.float32,
+    )
     moments = Moments(np.array([1.0, 1.0, 0.0, 0.0]), np.zeros(3))
     assert close(moments.in_frame(rotation, np.zeros(3))[1, 0, 0], np.cos(angle), rel=1e-6)
 
@@ -409,7 +469,11 @@ def test_vanishing_images_are_refused(measure):
 
 
 def test_flattening_maps_leave_no_volume():
-    for flat in (np.diag([1.0, 1.0, 0.0, 1.0]), np.diag([1.0, 0.0, 0.0, 1.0]), np.diag([0.0, 0.0, 0.0, 1.0])):
+    for flat in (
+        np.diag([1.0, 1.0, 0.0, 1.0]),
+        np.diag([1.0, 0.0, 0.0, 1.0]),
+        np.diag([0.0, 0.0, 0.0, 1.0]),
+    ):
         assert Moments(np.ones(4), np.zeros(3)).transform(flat).total == 0.0
 
 
@@ -422,7 +486,9 @@ def test_only_bodies_of_one_measure_add():
         sum_moments([Moments(np.ones(1), np.zeros(3)), Moments(np.ones(1), np.zeros(3), "area")])
 
 
-@pytest.mark.parametrize("matrix", [np.eye(3), np.full((4, 4), np.nan), np.eye(4)[None], np.zeros((0, 4, 4))])
+@pytest.mark.parametrize(
+    "matrix", [np.eye(3), np.full((4, 4), np.nan), np.eye(4)[None], np.zeros((0, 4, 4))]
+)
 def test_invalid_maps_are_refused(matrix):
     body = Moments(np.ones(20), np.zeros(3))
     with pytest.raises(ValueError, match="matrix must be"):
@@ -449,8 +515,14 @@ def test_bounds_of_sums_of_images_say_something(size, count):
     matrices[:, :3, 3] = 3.0 * size * rng.normal(size=(count, 3))
     total = sum_of_images(body, matrices)
     volume = 6.0 * np.abs(np.linalg.det(matrices[:, :3, :3])).sum()
-    reach = np.linalg.norm(matrices[:, :3, :3], axis=(1, 2)).max() * 4.0 + np.ptp(matrices[:, :3, 3], axis=0).max()
-    assert (total.rounding_error <= (400.0 + 4.0 * count) * U * volume * reach ** monomials(ORDER).sum(axis=1)).all()
+    reach = (
+        np.linalg.norm(matrices[:, :3, :3], axis=(1, 2)).max() * 4.0
+        + np.ptp(matrices[:, :3, 3], axis=0).max()
+    )
+    assert (
+        total.rounding_error
+        <= (400.0 + 4.0 * count) * U * volume * reach ** monomials(ORDER).sum(axis=1)
+    ).all()
 
 
 @pytest.mark.parametrize("by, order", [("size", 0), ("gyration", 1)])

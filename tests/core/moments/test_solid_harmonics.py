@@ -46,11 +46,16 @@ def test_harmonic_moments_of_a_point_are_solid_harmonics(order):
             assert np.abs(values[l::-1] - mirrored).max() <= 1e-14 * R2 ** (n / 2.0)
 
 
-@pytest.mark.parametrize("l, k, n", [(0, 0, 0), (1, 1, 0), (1, 1, 1), (2, 1, 1), (2, 2, 2), (3, 2, 1), (4, 3, 5)])
+@pytest.mark.parametrize(
+    "l, k, n", [(0, 0, 0), (1, 1, 0), (1, 1, 1), (2, 1, 1), (2, 2, 2), (3, 2, 1), (4, 3, 5)]
+)
 def test_three_j_symbols_are_orthonormal(l, k, n):
     table = _three_j(l, k, n)
     assert table.shape == (2 * l + 1, 2 * k + 1, 2 * n + 1)
-    assert np.abs(np.einsum("ijm,ijp->mp", table, table) - np.eye(2 * n + 1) / (2 * n + 1)).max() <= 1e-14
+    assert (
+        np.abs(np.einsum("ijm,ijp->mp", table, table) - np.eye(2 * n + 1) / (2 * n + 1)).max()
+        <= 1e-14
+    )
     i, j, m = np.nonzero(table)
     assert (i - l + j - k + m - n == 0).all()
 

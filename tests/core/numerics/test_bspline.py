@@ -33,8 +33,12 @@ def test_values_and_derivatives_match_exact_polynomials(space):
                 exact = []
                 for row in polynomials:
                     for _ in range(derivative):
-                        row = [power * value for power, value in enumerate(row)][1:] or [Fraction(0)]
-                    exact.append(float(sum(value * Fraction(t) ** power for power, value in enumerate(row))))
+                        row = [power * value for power, value in enumerate(row)][1:] or [
+                            Fraction(0)
+                        ]
+                    exact.append(
+                        float(sum(value * Fraction(t) ** power for power, value in enumerate(row)))
+                    )
                 scale = max(1.0, np.abs(exact).max())
                 assert np.abs(values[0] - exact).max() <= 1e-14 * scale * space.order
 
@@ -87,13 +91,20 @@ def test_curves_jump_at_inner_knots_of_full_multiplicity(knots, order, jumps):
 def test_span_in_bezier_form_is_unchanged(space):
     """Evaluate by Bernstein's polynomials."""
     degree, share = space.order - 1, np.linspace(0.0, 1.0, 9)  # eighths, which round nothing
-    bernstein = np.stack([comb(degree, b) * share**b * (1 - share) ** (degree - b) for b in range(degree + 1)], axis=1)
+    bernstein = np.stack(
+        [comb(degree, b) * share**b * (1 - share) ** (degree - b) for b in range(degree + 1)],
+        axis=1,
+    )
     for span, (low, high), weights in zip(space.spans, space.intervals, space.bezier_extraction):
         found = bernstein @ weights
         wanted = space.derivatives(np.full(9, span), low + share * (high - low), 0)[0]
         assert np.abs(found - wanted).max() <= 1e-13
-        part = space.bezier_weights(np.array([span]), np.array([[low + 0.25 * (high - low), high]]))[0]
-        wanted = space.derivatives(np.full(9, span), low + (0.25 + 0.75 * share) * (high - low), 0)[0]
+        part = space.bezier_weights(
+            np.array([span]), np.array([[low + 0.25 * (high - low), high]])
+        )[0]
+        wanted = space.derivatives(np.full(9, span), low + (0.25 + 0.75 * share) * (high - low), 0)[
+            0
+        ]
         assert np.abs(bernstein @ part - wanted).max() <= 1e-13
 
 

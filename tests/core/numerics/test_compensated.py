@@ -6,7 +6,12 @@ from fractions import Fraction
 
 import mpmath
 import numpy as np
-from body_moments.core.numerics.compensated import compensated_normals, phase_factors, two_product, two_sum
+from body_moments.core.numerics.compensated import (
+    compensated_normals,
+    phase_factors,
+    two_product,
+    two_sum,
+)
 
 RNG = np.random.default_rng(6)
 

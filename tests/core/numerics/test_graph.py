@@ -27,7 +27,8 @@ def walked(count, a, b):
 
 
 @pytest.mark.parametrize(
-    "count, links", [(1, 0), (5, 0), (40, 15), (60, 50), (200, 150), (300, 2000), (200_000, 250_000)]
+    "count, links",
+    [(1, 0), (5, 0), (40, 15), (60, 50), (200, 150), (300, 2000), (200_000, 250_000)],
 )
 @pytest.mark.parametrize("seed", range(3))
 def test_components_match_a_walk(count, links, seed):
@@ -43,7 +44,9 @@ def test_long_paths_are_one_component(kind, count):
     order = {
         "chain": np.arange(count),
         "backwards": np.arange(count)[::-1],
-        "zigzag": np.stack([np.arange(count // 2), count - 1 - np.arange(count // 2)], axis=1).ravel(),
+        "zigzag": np.stack(
+            [np.arange(count // 2), count - 1 - np.arange(count // 2)], axis=1
+        ).ravel(),
     }[kind]
     a, b = np.append(order[:-1], count + 1), np.append(order[1:], count)
     component, number = connected_components(count + 2, a, b)

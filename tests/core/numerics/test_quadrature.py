@@ -6,7 +6,11 @@ from math import factorial
 
 import numpy as np
 import pytest
-from body_moments.core.numerics.quadrature import gauss_legendre, gauss_legendre_with_ends, triangle_rule
+from body_moments.core.numerics.quadrature import (
+    gauss_legendre,
+    gauss_legendre_with_ends,
+    triangle_rule,
+)
 
 from tests.close import close
 
@@ -20,7 +24,9 @@ def test_a_rule_on_a_unit_length_is_exact_to_its_degree(points):
     assert not close(weights @ nodes ** (2 * points), 1.0 / (2 * points + 1), 1e-13)
     with_ends, more = gauss_legendre_with_ends(points)
     assert with_ends.tolist() == [0.0, *nodes, 1.0] and more.tolist() == [0.0, *weights, 0.0]
-    assert not any(row.flags.writeable for row in (nodes, weights, with_ends, more))  # they are kept
+    assert not any(
+        row.flags.writeable for row in (nodes, weights, with_ends, more)
+    )  # they are kept
 
 
 def test_a_rule_of_many_points_is_exact_to_rounding():
@@ -40,7 +46,9 @@ def test_a_rule_over_a_triangle_is_exact_to_its_degree(n):
             for j in range(degree - i + 1):
                 powers = (i, j, degree - i - j)
                 found = weights @ np.prod(places ** np.array(powers)[:, None], axis=0)
-                truth = np.prod([float(factorial(power)) for power in powers]) / factorial(degree + 2)
+                truth = np.prod([float(factorial(power)) for power in powers]) / factorial(
+                    degree + 2
+                )
                 assert close(found, truth, 1e-13)
     off = [
         weights @ place ** (2 * n) - factorial(2 * n) / factorial(2 * n + 2)

@@ -4,7 +4,12 @@
 
 import numpy as np
 import pytest
-from body_moments.core.numerics.rotations import along_x, polar_rotation, quaternion, rotation_matrix
+from body_moments.core.numerics.rotations import (
+    along_x,
+    polar_rotation,
+    quaternion,
+    rotation_matrix,
+)
 from hypothesis import given
 
 from tests.core.strategies import holds, rotations, seeds
@@ -19,7 +24,10 @@ def test_a_rotation_survives_as_a_quaternion(rotation):
 
 
 def test_a_quarter_turn_about_z_takes_x_to_y():
-    assert np.abs(rotation_matrix([np.sqrt(0.5), 0, 0, np.sqrt(0.5)]) @ [1, 0, 0] - [0, 1, 0]).max() <= 1e-14
+    assert (
+        np.abs(rotation_matrix([np.sqrt(0.5), 0, 0, np.sqrt(0.5)]) @ [1, 0, 0] - [0, 1, 0]).max()
+        <= 1e-14
+    )
 
 
 def test_a_float32_quaternion_gives_an_orthonormal_matrix():
@@ -48,7 +56,9 @@ def test_own_axes_match_drawn_axes_or_nearest_under_shear(rotation, seed):
 
 
 @pytest.mark.parametrize("pair", [(0, 1), (0, 2), (1, 2)])
-@pytest.mark.parametrize("cosine, shears", [(0.9e-5, False), (-0.9e-5, False), (1.1e-5, True), (-1.1e-5, True)])
+@pytest.mark.parametrize(
+    "cosine, shears", [(0.9e-5, False), (-0.9e-5, False), (1.1e-5, True), (-1.1e-5, True)]
+)
 def test_axes_from_float32_are_at_right_angles(pair, cosine, shears):
     matrix = np.eye(4)
     matrix[pair] = cosine
@@ -70,7 +80,12 @@ def test_half_and_third_turns_are_exact_without_negative_zeros():
     known = np.array(
         [
             [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
-            [[0.5, 0.5, 0.5, 0.5], [0.5, -0.5, 0.5, 0.5], [0.5, 0.5, -0.5, 0.5], [0.5, 0.5, 0.5, -0.5]],
+            [
+                [0.5, 0.5, 0.5, 0.5],
+                [0.5, -0.5, 0.5, 0.5],
+                [0.5, 0.5, -0.5, 0.5],
+                [0.5, 0.5, 0.5, -0.5],
+            ],
             [[s, s, 0, 0], [s, -s, 0, 0], [s, 0, -s, 0], [s, 0, 0, s]],
             [[0, 0.8, -0.6, 0], [0, -0.6, 0.8, 0], [0, 0, -0.6, 0.8], [0, 0.8, 0, -0.6]],
         ]
@@ -79,12 +94,16 @@ def test_half_and_third_turns_are_exact_without_negative_zeros():
     assert matrices.shape == (4, 4, 3, 3)
     w, v = known[..., 0, None, None], known[..., 1:]
     across = np.cross(v[..., None, :], np.eye(3)).swapaxes(-1, -2)  # the matrix of v ×
-    rodrigues = (2.0 * w * w - 1.0) * np.eye(3) + 2.0 * v[..., :, None] * v[..., None, :] + 2.0 * w * across
+    rodrigues = (
+        (2.0 * w * w - 1.0) * np.eye(3) + 2.0 * v[..., :, None] * v[..., None, :] + 2.0 * w * across
+    )
     assert np.abs(matrices - rodrigues).max() <= 1e-14
     found = quaternion(matrices)
     assert found.shape == (4, 4, 4) and np.abs(found - known).max() <= 1e-14
     assert not np.signbit(quaternion(np.rint(matrices[:2]))[(known[:2] == 0.0)]).any()
-    far = np.array([[1.0, 0.0, 0.0], [0.0, -0.5, 0.75**0.5], [0.0, -(0.75**0.5), -0.5]])  # 240° about x
+    far = np.array(
+        [[1.0, 0.0, 0.0], [0.0, -0.5, 0.75**0.5], [0.0, -(0.75**0.5), -0.5]]
+    )  # 240° about x
     for axis in range(3):
         found = quaternion(np.roll(far, (axis, axis), (0, 1)))
         across = [0, 1, 2, 3][1:][:axis] + [0, 1, 2, 3][axis + 2 :]

@@ -33,11 +33,13 @@ def test_blossoms_match_bernstein_coefficients(space):
         for column, row in zip(found.T, span_polynomials(space, int(j))):
             # in u, t = low + (high - low) u, and from powers to Bernstein's polynomials
             powers = [
-                sum(value * comb(m, p) * low ** (m - p) for m, value in enumerate(row) if m >= p) * (high - low) ** p
+                sum(value * comb(m, p) * low ** (m - p) for m, value in enumerate(row) if m >= p)
+                * (high - low) ** p
                 for p in range(n + 1)
             ]
             exact = [
-                float(sum(Fraction(comb(b, p), comb(n, p)) * powers[p] for p in range(b + 1))) for b in range(n + 1)
+                float(sum(Fraction(comb(b, p), comb(n, p)) * powers[p] for p in range(b + 1)))
+                for b in range(n + 1)
             ]
             assert np.abs(column - exact).max() <= 1e-14 * space.order
         assert (found >= 0.0).all() and np.abs(found.sum(axis=1) - 1.0).max() <= 1e-14
@@ -46,11 +48,17 @@ def test_blossoms_match_bernstein_coefficients(space):
 def patch_of(spaces, weighted, seed=0):
     rng = np.random.default_rng(seed)
     shape = spaces[0].count, spaces[1].count
-    return Patch(spaces, rng.uniform(-1.0, 1.0, (*shape, 3)), rng.uniform(0.3, 3.0, shape) if weighted else None)
+    return Patch(
+        spaces,
+        rng.uniform(-1.0, 1.0, (*shape, 3)),
+        rng.uniform(0.3, 3.0, shape) if weighted else None,
+    )
 
 
 @pytest.mark.parametrize("weighted", [False, True])
-@pytest.mark.parametrize("spaces", [(SPACES[3], SPACES[7]), (SPACES[8], SPACES[1]), (SPACES[9], SPACES[6])])
+@pytest.mark.parametrize(
+    "spaces", [(SPACES[3], SPACES[7]), (SPACES[8], SPACES[1]), (SPACES[9], SPACES[6])]
+)
 def test_cell_values_and_derivatives_match_the_patch(spaces, weighted):
     patch = patch_of(spaces, weighted)
     nodes, step = gauss_legendre(5)[0], 1e-4
@@ -62,7 +70,17 @@ def test_cell_values_and_derivatives_match_the_patch(spaces, weighted):
             u, v = a + (b - a) * nodes, c + (d - c) * nodes
             grid = [
                 patch.evaluate_grid(u + (b - a) * i * step, v + (d - c) * j * step) - ABOUT
-                for i, j in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1))
+                for i, j in (
+                    (0, 0),
+                    (1, 0),
+                    (-1, 0),
+                    (0, 1),
+                    (0, -1),
+                    (1, 1),
+                    (-1, -1),
+                    (1, -1),
+                    (-1, 1),
+                )
             ]
             assert np.abs(s[:, :, count].transpose(1, 2, 0) - grid[0]).max() <= 1e-14
             differences = [(grid[1] - grid[2]) / 2, (grid[3] - grid[4]) / 2]

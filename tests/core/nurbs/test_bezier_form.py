@@ -43,7 +43,9 @@ def exact_bezier_points(space, points, low, high):
     """Control points of the part [low, high] with every knot in it repeated as often as the degree says."""
     order = space.order
     knots = [Fraction(knot) for knot in space.knots]
-    rows = [[Fraction(value) for value in points[i % space.count]] for i in range(space.function_count)]
+    rows = [
+        [Fraction(value) for value in points[i % space.count]] for i in range(space.function_count)
+    ]
     low, high = Fraction(low), Fraction(high)
     for t in sorted({low, high, *(knot for knot in knots if low < knot < high)}):
         while knots.count(t) < order - 1:
@@ -77,10 +79,14 @@ def test_control_points_match_rational_knot_insertion(space, part):
 def test_points_of_the_surface_stay(s, t, weighted):
     rng = np.random.default_rng(4)
     shape = (s.count, t.count)
-    patch = Patch((s, t), rng.uniform(-1, 1, (*shape, 3)), rng.uniform(0.2, 5.0, shape) if weighted else None)
+    patch = Patch(
+        (s, t), rng.uniform(-1, 1, (*shape, 3)), rng.uniform(0.2, 5.0, shape) if weighted else None
+    )
     (found,) = bezier_patches(patch, WHOLE)
     assert all((np.diff(np.unique(space.knots)) == 1.0).all() for space in found.spaces)
-    old, new = ([space.uniform_parameters(7) for space in spaces] for spaces in (patch.spaces, found.spaces))
+    old, new = (
+        [space.uniform_parameters(7) for space in spaces] for spaces in (patch.spaces, found.spaces)
+    )
     assert np.abs(patch.evaluate_grid(*old) - found.evaluate_grid(*new)).max() <= 1e-14
 
 
@@ -92,7 +98,14 @@ def test_part_has_its_own_ends_or_snaps_to_a_knot():
     u, v = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 4)
     truth = patch.evaluate_grid(0.25 + 0.25 * u, 0.1 + 0.8 * v)
     assert np.abs(found.evaluate_grid(u, v) - truth).max() <= 1e-14
-    for wrong in ((0.5, 0.5), (0.75, 0.25), (-0.5, 1.0), (0.0, 1.5), (2.0, 3.0), (float("nan"), 1.0)):
+    for wrong in (
+        (0.5, 0.5),
+        (0.75, 0.25),
+        (-0.5, 1.0),
+        (0.0, 1.5),
+        (2.0, 3.0),
+        (float("nan"), 1.0),
+    ):
         with pytest.raises(ValueError):
             bezier_patches(patch, (wrong, None))
 

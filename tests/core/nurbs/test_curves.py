@@ -39,7 +39,10 @@ def test_the_wire_of_a_circle():
     moments = length_moments([ring(2.0)])
     assert abs(moments.total / (4.0 * np.pi) - 1.0) <= 1e-14
     assert abs(moments[2, 0, 0] / (8.0 * np.pi) - 1.0) <= 1e-14
-    assert moments.measure == "length" and abs(moments.total - 4.0 * np.pi) <= moments.rounding_error[0]
+    assert (
+        moments.measure == "length"
+        and abs(moments.total - 4.0 * np.pi) <= moments.rounding_error[0]
+    )
     body = MassProperties.from_moments(moments, 3.0)
     assert close(body.principal.moments, 12.0 * np.pi * np.array([2.0, 2.0, 4.0]), rel=1e-13)
 
@@ -52,7 +55,9 @@ def test_the_length_of_a_parabola_is_its_closed_form():
 
 
 def test_length_estimate_of_a_cusp_holds():
-    cusp = Curve(clamped_space(4), [(0, 0, 0), (1, 1, 0), (0, 1, 0), (1, 0, 0)])  # symmetric, its speed zero half-way
+    cusp = Curve(
+        clamped_space(4), [(0, 0, 0), (1, 1, 0), (0, 1, 0), (1, 0, 0)]
+    )  # symmetric, its speed zero half-way
     moments = length_moments([cusp], 0)
     t = (np.arange(2_000_000) + 0.5) / 2_000_000
     speed = np.linalg.norm(
@@ -89,7 +94,10 @@ def test_the_region_under_a_polynomial_is_exact(degree):
 
 def test_holes_are_left_out_and_islands_in_them_are_not():
     for turn in (np.eye(3), rotation()):
-        rings = [Curve(c.space, c.points @ turn.T, c.weights) for c in (ring(1.0), ring(3.0), ring(2.0).reverse())]
+        rings = [
+            Curve(c.space, c.points @ turn.T, c.weights)
+            for c in (ring(1.0), ring(3.0), ring(2.0).reverse())
+        ]
         curves, normal = planar_region(rings)
         moments = plane_moments(curves, normal)
         assert abs(moments.total / (np.pi * (9.0 - 4.0 + 1.0)) - 1.0) <= 1e-13
@@ -114,7 +122,10 @@ def test_distant_region_is_measured_while_its_points_are_known(far):
 
 
 def test_a_reversed_curve_is_the_same_run_backwards():
-    for curve in (ring(), Curve(clamped_space(4, (0.25,)), np.random.default_rng(0).uniform(-1, 1, (5, 3)))):
+    for curve in (
+        ring(),
+        Curve(clamped_space(4, (0.25,)), np.random.default_rng(0).uniform(-1, 1, (5, 3))),
+    ):
         assert np.abs(curve.samples(5)[::-1] - curve.reverse().samples(5)).max() <= 1e-14
 
 
@@ -122,7 +133,10 @@ def test_a_reversed_curve_is_the_same_run_backwards():
     "curves, code",
     [
         ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 0)])], "curve_open"),
-        ([polyline([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0), (0, 0, 0)])], "curves_not_coplanar"),
+        (
+            [polyline([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0), (0, 0, 0)])],
+            "curves_not_coplanar",
+        ),
         ([polyline([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0)])], "curves_cross"),
         ([polyline([(1, 0, 0), (1, 0, 0)])], "curve_too_small"),  # a closed curve of one point
         ([ring(), ring(1.0, (0.5, 0.0, 0.0))], "curves_cross"),
@@ -135,7 +149,9 @@ def test_curves_bounding_no_region_are_refused(curves, code):
 
 def test_lengths_follow_a_similarity_and_no_other_map():
     moments = length_moments([ring()])
-    assert abs(moments.transform(np.diag([2.0, 2.0, 2.0, 1.0])).total / (4.0 * np.pi) - 1.0) <= 1e-14
+    assert (
+        abs(moments.transform(np.diag([2.0, 2.0, 2.0, 1.0])).total / (4.0 * np.pi) - 1.0) <= 1e-14
+    )
     with pytest.raises(ValueError):
         moments.transform(np.diag([2.0, 1.0, 1.0, 1.0]))
 
@@ -151,7 +167,9 @@ def test_heavy_and_light_weights_are_measured_to_rounding(weight):
     size = np.diff(steps)[:, None]
     t = steps[:-1, None] + size * (nodes + 1.0) / 2.0
     bottom = (1 - t) ** 2 + 2 * weight * t * (1 - t) + t**2
-    speed = 2.0 * np.hypot(t * (1 - t) + weight * t**2, weight * (1 - t) ** 2 + t * (1 - t)) / bottom**2
+    speed = (
+        2.0 * np.hypot(t * (1 - t) + weight * t**2, weight * (1 - t) ** 2 + t * (1 - t)) / bottom**2
+    )
     exact = (speed * parts * size).sum() + 1.5 * np.pi  # its other half is as long
     moments = length_moments([Curve(ROUND, ring().points, weights)], 0)
     assert abs(moments.total - exact) <= 1e-12
@@ -174,7 +192,9 @@ def test_length_estimate_of_reversing_lines_holds():
             for i, c in enumerate(np.diff(x))
         )
         turns = slope.roots()
-        turns = np.sort(turns.real[(np.abs(turns.imag) < 1e-12) & (turns.real > 0.0) & (turns.real < 1.0)])
+        turns = np.sort(
+            turns.real[(np.abs(turns.imag) < 1e-12) & (turns.real > 0.0) & (turns.real < 1.0)]
+        )
         places = slope.integ()(np.concatenate([[0.0], turns, [1.0]]))
         found = length_moments([line], 0)
         assert abs(found.total - np.abs(np.diff(places)).sum()) <= found.rounding_error[0] <= 1e-9
@@ -209,7 +229,9 @@ def test_arc_drawn_to_its_corner_by_a_weight_is_measured(weight):
 @pytest.mark.parametrize("turn", [0.0, 0.05, 0.3])
 def test_rings_with_crossing_samples_are_told_apart(gap, turn):
     c, s = np.cos(turn), np.sin(turn)
-    inner = Curve(ROUND, ring(1.0 - gap).points @ [[c, s, 0], [-s, c, 0], [0, 0, 1]], ring().weights)
+    inner = Curve(
+        ROUND, ring(1.0 - gap).points @ [[c, s, 0], [-s, c, 0], [0, 0, 1]], ring().weights
+    )
     moments = plane_moments(*planar_region([inner, ring()]))
     assert close(moments.total, np.pi * (1.0 - (1.0 - gap) ** 2), rel=1e-11)
 

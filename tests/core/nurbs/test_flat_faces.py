@@ -23,29 +23,44 @@ def arcs(radius, z=0.0, center=(0.0, 0.0), count=4):
     half, made = np.pi / count, []
     for k in range(count):
         ring = [(2 * k - 1, 1.0), (2 * k, 1.0 / np.cos(half)), (2 * k + 1, 1.0)]
-        points = [(*(center + radius * far * np.array([np.cos(t * half), np.sin(t * half)])), z) for t, far in ring]
+        points = [
+            (*(center + radius * far * np.array([np.cos(t * half), np.sin(t * half)])), z)
+            for t, far in ring
+        ]
         made.append(Curve(clamped_space(3), np.array(points), np.array([1.0, np.cos(half), 1.0])))
     return made
 
 
 def polygon(*corners, z=0.0):
     points = np.array([(*corner, z) for corner in corners], np.float64)
-    return [Curve(clamped_space(2), np.array(pair)) for pair in zip(points, np.roll(points, -1, axis=0))]
+    return [
+        Curve(clamped_space(2), np.array(pair)) for pair in zip(points, np.roll(points, -1, axis=0))
+    ]
 
 
 def wall(low, high, inward=False):
     """Patches between curves at two heights."""
     made = []
     for below, above in zip(low, high):
-        weights = None if below.weights is None else np.stack([below.weights, above.weights], axis=1)
-        patch = Patch((below.space, clamped_space(2)), np.stack([below.points, above.points], axis=1), weights)
+        weights = (
+            None if below.weights is None else np.stack([below.weights, above.weights], axis=1)
+        )
+        patch = Patch(
+            (below.space, clamped_space(2)), np.stack([below.points, above.points], axis=1), weights
+        )
         made.append(patch.reverse_orientation() if inward else patch)
     return made
 
 
 def pipe(outer=2.0, inner=1.0, height=3.0):
-    ends = [FlatFace.within([arcs(outer, z), arcs(inner, z)], (0.0, 0.0, way)) for z, way in ((0.0, -1), (height, 1))]
-    walls = wall(arcs(outer), arcs(outer, height)), wall(arcs(inner), arcs(inner, height), inward=True)
+    ends = [
+        FlatFace.within([arcs(outer, z), arcs(inner, z)], (0.0, 0.0, way))
+        for z, way in ((0.0, -1), (height, 1))
+    ]
+    walls = (
+        wall(arcs(outer), arcs(outer, height)),
+        wall(arcs(inner), arcs(inner, height), inward=True),
+    )
     return [*walls[0], *walls[1], *ends]
 
 
@@ -57,16 +72,28 @@ def test_moments_of_a_ring(about):
     truth |= {(0, 0, 0): 3.0 * np.pi, (2, 0, 0): 15.0 * np.pi / 4.0, (0, 2, 0): 15.0 * np.pi / 4.0}
     assert (np.abs(found.raw - list(truth.values())) <= found.rounding_error).all()
     assert found.rounding_error.max() <= 1e-9
-    assert volume_moments([face], 0, np.array([0.0, 0.0, -6.0]))[0].total == pytest.approx(6.0 * np.pi, rel=1e-14)
+    assert volume_moments([face], 0, np.array([0.0, 0.0, -6.0]))[0].total == pytest.approx(
+        6.0 * np.pi, rel=1e-14
+    )
 
 
 def test_a_pipe_turned_and_far_away():
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = TURN, (1e3, -2e3, 3e3)
-    for faces in (pipe(), [face.transform(matrix) for face in pipe()], [face.reverse_orientation() for face in pipe()]):
+    for faces in (
+        pipe(),
+        [face.transform(matrix) for face in pipe()],
+        [face.reverse_orientation() for face in pipe()],
+    ):
         body = measure_patches(faces, area_order=3)
-        assert body.method in ("exact", "reoriented") and body.health.closed and body.health.components == 1
-        assert close(body.volume.total, 9.0 * np.pi, 1e-12) and close(body.area.total, 24.0 * np.pi, 1e-12)
+        assert (
+            body.method in ("exact", "reoriented")
+            and body.health.closed
+            and body.health.components == 1
+        )
+        assert close(body.volume.total, 9.0 * np.pi, 1e-12) and close(
+            body.area.total, 24.0 * np.pi, 1e-12
+        )
         second = np.sort(np.linalg.eigvalsh(body.volume.about_center().second()))
         assert close(second, np.array([6.75, 11.25, 11.25]) * np.pi, 1e-11)
     assert [str(found) for found in body.findings][1:] == []
@@ -75,9 +102,15 @@ def test_a_pipe_turned_and_far_away():
 def test_side_along_two_others_is_cut():
     upper, lower = arcs(1.0, 2.0, count=4)[:2], arcs(1.0, 2.0, count=4)[2:]
     line = Curve(clamped_space(2), np.array([lower[-1].points[-1], upper[-1].points[-1]]))
-    halves = [FlatFace.within([[*upper, line.reverse()], [*lower, line]][k : k + 1], Z) for k in (0, 1)]
+    halves = [
+        FlatFace.within([[*upper, line.reverse()], [*lower, line]][k : k + 1], Z) for k in (0, 1)
+    ]
     body = measure_patches(
-        [*wall(arcs(1.0, count=3), arcs(1.0, 2.0, count=3)), FlatFace.within([arcs(1.0)], -Z), *halves]
+        [
+            *wall(arcs(1.0, count=3), arcs(1.0, 2.0, count=3)),
+            FlatFace.within([arcs(1.0)], -Z),
+            *halves,
+        ]
     )
     assert body.method == "exact" and close(body.volume.total, 2.0 * np.pi, 1e-13)
 
@@ -98,7 +131,8 @@ def test_pin_in_a_hole_overlaps_nothing():
 
 def test_rows_of_trapezoids_fill_a_face():
     face = FlatFace.within(
-        [polygon((0, 0), (4, 0), (4, 3), (2, 1), (0, 3)), polygon((1, 0.2), (2, 0.2), (1.5, 0.7))], Z
+        [polygon((0, 0), (4, 0), (4, 3), (2, 1), (0, 3)), polygon((1, 0.2), (2, 0.2), (1.5, 0.7))],
+        Z,
     )
     a, b, c, d = np.moveaxis(face.quads(3), 1, 0)
     area = np.cross(c - a, d - b) / 2.0

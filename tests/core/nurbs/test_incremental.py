@@ -60,7 +60,10 @@ def test_one_moved_point_matches_a_full_measurement(spaces, rational):
 @pytest.mark.parametrize("patch", [sphere(), torus()])
 def test_rational_patches_are_re_evaluated_to_rounding(patch):
     anew, _ = volume_moments([patch], 2, ABOUT)
-    assert np.abs(IncrementalPatchMoments(patch, 2, ABOUT).moments(patch.points).raw - anew.raw).max() <= 1e-13
+    assert (
+        np.abs(IncrementalPatchMoments(patch, 2, ABOUT).moments(patch.points).raw - anew.raw).max()
+        <= 1e-13
+    )
 
 
 @pytest.mark.parametrize(
@@ -109,7 +112,10 @@ def test_followed_body_matches_a_new_measurement(patch):
         kept += body.update([now])
         anew = measure_patches([now])
         assert body.measure.method == anew.method
-        assert np.abs(body.measure.volume.about_point(anew.volume.about).raw - anew.volume.raw).max() <= 1e-12
+        assert (
+            np.abs(body.measure.volume.about_point(anew.volume.about).raw - anew.volume.raw).max()
+            <= 1e-12
+        )
         assert body.measure.area.total == pytest.approx(area_moments([now])[0].total, rel=1e-3)
     assert kept >= 8
 
@@ -139,7 +145,9 @@ def assert_same(body, anew):
     ):
         assert getattr(found.health, name) == getattr(anew.health, name)
     there = anew.volume.about_point(found.volume.about)
-    assert (np.abs(found.volume.raw - there.raw) <= found.volume.rounding_error + there.rounding_error).all()
+    assert (
+        np.abs(found.volume.raw - there.raw) <= found.volume.rounding_error + there.rounding_error
+    ).all()
     assert found.volume.rounding_error[0] <= 1e-10 * found.volume.total  # so it tells something
 
 
@@ -163,10 +171,16 @@ def bent(patch):
             [sphere(), moved(sphere(), 0.4).reverse_orientation()],
             [sphere(), moved(sphere(), 0.4, (3.0, 0.0, 0.0)).reverse_orientation()],
         ),
-        ([sphere(), moved(sphere(), 1.0, (3.0, 0.0, 0.0))], [sphere(), moved(sphere(), 1.0, (1.0, 0.0, 0.0))]),
+        (
+            [sphere(), moved(sphere(), 1.0, (3.0, 0.0, 0.0))],
+            [sphere(), moved(sphere(), 1.0, (1.0, 0.0, 0.0))],
+        ),
         (
             [sphere(), moved(sphere(), 0.5, (3.0, 0.0, 0.0))],
-            [sphere(), moved(sphere().transform(np.diag([0.5, 0.5, -0.5, 1.0])), 1.0, (3.0, 0.0, 0.0))],
+            [
+                sphere(),
+                moved(sphere().transform(np.diag([0.5, 0.5, -0.5, 1.0])), 1.0, (3.0, 0.0, 0.0)),
+            ],
         ),
         ([tube()], [bent(tube())]),
     ],
@@ -178,7 +192,9 @@ def test_decision_about_a_followed_body_does_not_outlive_it(before, after):
     assert_same(body, measure_patches(after))
 
 
-@pytest.mark.parametrize("scale, far", [(1.0, 1e3), (1.0, 1e6), (1e3, 0.0), (1e-6, 0.0), (1e-3, 1e4)])
+@pytest.mark.parametrize(
+    "scale, far", [(1.0, 1e3), (1.0, 1e6), (1e3, 0.0), (1e-6, 0.0), (1e-3, 1e4)]
+)
 def test_a_followed_body_may_go_far_away_grow_and_shrink(scale, far):
     body = TrackedSolid([torus()])
     now = [moved(torus(), scale, (far, -far, 0.0))]
@@ -240,7 +256,11 @@ def test_followed_storage_bound_matches_a_new_measurement(stored):
     after = [moved(patch, 1.5) for patch in before]
     after[0] = after[0].transform(gap)
     body = TrackedSolid(before, stored)
-    assert close(body.measure.area.input_error, measure_patches(before, stored=stored).area.input_error, rel=1e-12)
+    assert close(
+        body.measure.area.input_error,
+        measure_patches(before, stored=stored).area.input_error,
+        rel=1e-12,
+    )
     for patches in (before, after):
         assert body.update(patches, stored)
         anew = measure_patches(patches, stored=stored)
@@ -263,7 +283,8 @@ def test_changed_weights_are_measured_anew():
         anew = measure_patches([now]).volume
         found = body.measure.volume
         assert (
-            np.abs(found.raw - anew.about_point(found.about).raw) <= found.rounding_error + anew.rounding_error
+            np.abs(found.raw - anew.about_point(found.about).raw)
+            <= found.rounding_error + anew.rounding_error
         ).all()
 
 
@@ -279,7 +300,8 @@ def test_the_estimate_of_a_followed_rational_body_holds(spread):
         kept += body.update([now])
         anew = measure_patches([now]).volume.about_point(body.measure.volume.about)
         assert (
-            np.abs(body.measure.volume.raw - anew.raw) <= body.measure.volume.rounding_error + anew.rounding_error
+            np.abs(body.measure.volume.raw - anew.raw)
+            <= body.measure.volume.rounding_error + anew.rounding_error
         ).all()
     assert kept or spread > 0.5
 

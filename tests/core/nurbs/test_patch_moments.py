@@ -39,7 +39,9 @@ def z_flux_difference(patch, exponents):
     total = flux_moment(patch, exponents)
     for axis, end, forward in ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False)):
         curve = patch.side(axis, end)
-        cone = Patch((clamped_space(2), curve.space), np.stack([np.zeros_like(curve.points), curve.points]))
+        cone = Patch(
+            (clamped_space(2), curve.space), np.stack([np.zeros_like(curve.points), curve.points])
+        )
         total += flux_moment(cone.reverse_orientation() if forward else cone, exponents)
     return total
 
@@ -50,17 +52,29 @@ def test_polynomial_patches_are_exact_at_every_order(orders):
     patch = random_patch(rng, tuple(clamped_space(order) for order in orders))
     moments, converged = volume_moments([patch], 3, ORIGIN)
     assert converged
-    exponents = [(0, 0, 0), (1, 0, 0), (0, 0, 2), (1, 1, 1)] if max(orders) < 6 else [(0, 0, 0), (0, 1, 0), (1, 1, 0)]
+    exponents = (
+        [(0, 0, 0), (1, 0, 0), (0, 0, 2), (1, 1, 1)]
+        if max(orders) < 6
+        else [(0, 0, 0), (0, 1, 0), (1, 1, 0)]
+    )
     for row in exponents:
         exact = float(z_flux_difference(patch, row))
-        scale = np.linalg.norm(patch.points, axis=2).max() ** sum(row) * max(abs(moments.total), 1e-3)
+        scale = np.linalg.norm(patch.points, axis=2).max() ** sum(row) * max(
+            abs(moments.total), 1e-3
+        )
         assert abs(moments[row] - exact) <= 1e-13 * scale
-        assert abs(moments[row] - exact) <= moments.rounding_error[np.argwhere((monomials(3) == row).all(axis=1))[0, 0]]
+        assert (
+            abs(moments[row] - exact)
+            <= moments.rounding_error[np.argwhere((monomials(3) == row).all(axis=1))[0, 0]]
+        )
 
 
 def test_several_spans_with_uneven_and_repeated_knots_are_exact():
     rng = np.random.default_rng(3)
-    spaces = clamped_space(3, (0.25, 0.375)), SplineSpace((0.0, 0.5, 1.0, 1.5, 2.0, 2.0, 3.0, 3.25, 4.0, 5.0), 4, 6)
+    spaces = (
+        clamped_space(3, (0.25, 0.375)),
+        SplineSpace((0.0, 0.5, 1.0, 1.5, 2.0, 2.0, 3.0, 3.25, 4.0, 5.0), 4, 6),
+    )
     patch = random_patch(rng, spaces)
     moments, _ = volume_moments([patch], 2, ORIGIN)
     for row in [(0, 0, 0), (0, 1, 0), (1, 0, 1)]:
@@ -140,7 +154,9 @@ def random_rational(rng, spread):
     orders = rng.integers(2, 5, 2)
     spaces = tuple(clamped_space(int(order), (0.5,) * int(rng.random() < 0.2)) for order in orders)
     shape = tuple(space.count for space in spaces)
-    return Patch(spaces, rng.uniform(-1.0, 1.0, (*shape, 3)), 10.0 ** rng.uniform(-spread, spread, shape))
+    return Patch(
+        spaces, rng.uniform(-1.0, 1.0, (*shape, 3)), 10.0 ** rng.uniform(-spread, spread, shape)
+    )
 
 
 @pytest.mark.parametrize("seed", range(10))
@@ -150,12 +166,19 @@ def test_estimate_covers_the_error_of_random_rational_patches(seed):
     patches = [random_rational(rng, 1.0) for _ in range(100)]
     found = [volume_moments([patch], 2, ORIGIN) for patch in patches]
     for patch, (moments, converged) in zip(patches, found):
-        ends = [(low, (low + high) / 2.0, high) for low, high in (space.domain for space in patch.spaces)]
+        ends = [
+            (low, (low + high) / 2.0, high)
+            for low, high in (space.domain for space in patch.spaces)
+        ]
         halves = [((low, middle), (middle, high)) for low, middle, high in ends]
-        quarters = [part for u in halves[0] for v in halves[1] for part in bezier_patches(patch, (u, v))]
+        quarters = [
+            part for u in halves[0] for v in halves[1] for part in bezier_patches(patch, (u, v))
+        ]
         exact, _ = volume_moments(quarters, 2, ORIGIN)
         assert converged
-        assert (np.abs(moments.raw - exact.raw) <= moments.rounding_error + exact.rounding_error).all()
+        assert (
+            np.abs(moments.raw - exact.raw) <= moments.rounding_error + exact.rounding_error
+        ).all()
         assert moments.rounding_error[0] <= 1e-12  # so it tells something
 
 
@@ -179,11 +202,19 @@ def test_area_estimate_of_spheres_and_tori_holds():
 
 def test_area_estimate_of_a_folded_patch_holds():
     """A line that runs forth and back, dragged aside: its length, between its turns, is the area."""
-    for third in (0.4, -0.1, -0.7, 0.99, 0.999):  # with the last ones it turns beyond all points of the coarse rules
+    for third in (
+        0.4,
+        -0.1,
+        -0.7,
+        0.99,
+        0.999,
+    ):  # with the last ones it turns beyond all points of the coarse rules
         x = np.array([0.0, 1.0, third])  # x = 2 t (1 - t) + third t²
         turn = 1.0 / (2.0 - third)
         peak = 2.0 * turn * (1.0 - turn) + third * turn * turn
-        points = np.stack([np.stack([x, 0.0 * x + side, 0.0 * x], axis=1) for side in (0.0, 1.0)], axis=1)
+        points = np.stack(
+            [np.stack([x, 0.0 * x + side, 0.0 * x], axis=1) for side in (0.0, 1.0)], axis=1
+        )
         moments, _ = area_moments([Patch((clamped_space(3), clamped_space(2)), points)])
         assert abs(moments.total - (2.0 * peak - third)) <= moments.rounding_error[0] <= 1e-6
 
@@ -192,7 +223,10 @@ def test_sheets_have_real_thickness():
     for low, high in ((-0.05, 0.05), (0.0, 0.1), (-0.3, -0.1)):
         moments, converged = sheet_moments([sphere()], low, high)
         assert converged
-        assert abs(moments.total / (4.0 * np.pi / 3.0 * ((1 + high) ** 3 - (1 + low) ** 3)) - 1.0) <= 1e-13
+        assert (
+            abs(moments.total / (4.0 * np.pi / 3.0 * ((1 + high) ** 3 - (1 + low) ** 3)) - 1.0)
+            <= 1e-13
+        )
         second = 4.0 * np.pi / 15.0 * ((1 + high) ** 5 - (1 + low) ** 5)
         assert abs(moments[0, 0, 2] / second - 1.0) <= 1e-13
     sheet, _ = sheet_moments([torus()], -0.05, 0.05)
@@ -206,7 +240,9 @@ def test_a_sheet_thicker_than_its_radius_is_refused():
         sheet_moments([torus()], -0.3, 0.3)
     sheet_moments([torus()], -0.24, 0.24)
     with refused("wall_thicker_than_curvature"):
-        sheet_moments([sphere()], -1.5, 1.5)  # beyond the center both curvatures are: their product is positive again
+        sheet_moments(
+            [sphere()], -1.5, 1.5
+        )  # beyond the center both curvatures are: their product is positive again
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
@@ -230,14 +266,20 @@ def test_patch_far_from_the_point_is_exact_within_its_bound(weighted, far):
     """Neither the tangents nor the agreement of rules may suffer from the distance."""
     rng = np.random.default_rng(1)
     shape = (6, 5)
-    points = rng.integers(-(2**20), 2**20, (*shape, 3)) / 2.0**20  # with the distance added still exact
+    points = (
+        rng.integers(-(2**20), 2**20, (*shape, 3)) / 2.0**20
+    )  # with the distance added still exact
     weights = 10.0 ** rng.uniform(-0.5, 0.5, shape) if weighted else None
     spaces = clamped_space(4, (0.25, 0.5)), clamped_space(3, (0.125, 0.75))
     here, _ = volume_moments(closed_by_cones(Patch(spaces, points, weights)), 2, ORIGIN)
-    there, converged = volume_moments(closed_by_cones(Patch(spaces, points + far, weights), far), 2, ORIGIN)
+    there, converged = volume_moments(
+        closed_by_cones(Patch(spaces, points + far, weights), far), 2, ORIGIN
+    )
     expected = here.about_point(np.full(3, -far))
     assert converged
-    assert (np.abs(there.raw - expected.raw) <= there.rounding_error + expected.rounding_error).all()
+    assert (
+        np.abs(there.raw - expected.raw) <= there.rounding_error + expected.rounding_error
+    ).all()
 
 
 def test_a_far_point_of_many_digits_does_not_round_the_patch():
@@ -246,7 +288,9 @@ def test_a_far_point_of_many_digits_does_not_round_the_patch():
     far = np.array([41000.1, -164000.7, -103000.3])
     there = volume_moments([patch], 0, far)[0]
     # S · (S_s x S_t) is linear in the point that S is about.
-    expected = volume_moments([patch], 0, ORIGIN)[0].total - far @ patch_moments.vector_area([patch]) / 3.0
+    expected = (
+        volume_moments([patch], 0, ORIGIN)[0].total - far @ patch_moments.vector_area([patch]) / 3.0
+    )
     assert abs(there.total - expected) <= there.rounding_error[0]
 
 
@@ -274,7 +318,9 @@ def test_uninitialized_memory_does_not_reach_results(monkeypatch):
 def test_moments_and_bounds_scale_exactly_with_powers_of_two(kind, rational):
     rng = np.random.default_rng(2)
     spaces = clamped_space(3), clamped_space(4)
-    points = np.stack(np.meshgrid(np.arange(3.0), np.arange(4.0), [0.0], indexing="ij"), axis=-1)[:, :, 0]
+    points = np.stack(np.meshgrid(np.arange(3.0), np.arange(4.0), [0.0], indexing="ij"), axis=-1)[
+        :, :, 0
+    ]
     points = points + 0.2 * rng.uniform(-1, 1, points.shape)
     weights = rng.uniform(0.5, 2.0, (3, 4)) if rational else None
 
@@ -282,7 +328,11 @@ def test_moments_and_bounds_scale_exactly_with_powers_of_two(kind, rational):
         patches = [Patch(spaces, size * points, weights)]
         if kind == "volume":
             return volume_moments(patches, 3)[0]
-        return area_moments(patches, 3)[0] if kind == "area" else sheet_moments(patches, 0.0, 0.01 * size, 3)[0]
+        return (
+            area_moments(patches, 3)[0]
+            if kind == "area"
+            else sheet_moments(patches, 0.0, 0.01 * size, 3)[0]
+        )
 
     plain, scaled = measured(1.0), measured(0.125)
     powers = -3.0 * (monomials(3).sum(axis=1) + (2 if kind == "area" else 3))
@@ -293,7 +343,9 @@ def test_moments_and_bounds_scale_exactly_with_powers_of_two(kind, rational):
 
 def bent_sheet(height):
     """(4, 3, 3) control points over a square."""
-    flat = np.stack(np.meshgrid(np.arange(4.0), np.arange(3.0), [0.5], indexing="ij"), axis=-1)[:, :, 0] / (3, 2, 1)
+    flat = np.stack(np.meshgrid(np.arange(4.0), np.arange(3.0), [0.5], indexing="ij"), axis=-1)[
+        :, :, 0
+    ] / (3, 2, 1)
     flat[..., 2] += height * np.random.default_rng(6).uniform(-1.0, 1.0, (4, 3))
     return flat
 
@@ -331,7 +383,9 @@ def test_the_slope_of_the_area_is_the_same_far_away(rational):
     weights = rng.uniform(0.8, 1.25, (4, 3)) if rational else None
     points = np.round(bent_sheet(0.2) * 2.0**10) / 2.0**10
     near, far = (
-        patch_moments.area_slope([Patch((clamped_space(4), clamped_space(3)), points + by, weights)])
+        patch_moments.area_slope(
+            [Patch((clamped_space(4), clamped_space(3)), points + by, weights)]
+        )
         for by in (0.0, 2.0**40)
     )
     assert close(far, near, rel=1e-12)
@@ -339,7 +393,9 @@ def test_the_slope_of_the_area_is_the_same_far_away(rational):
 
 @pytest.mark.parametrize("size", [1.0, 50.0])
 @pytest.mark.parametrize("swapped", [False, True])
-@pytest.mark.parametrize("last, counts", [(-2.0, True), (-1e-8, True), (-1e-10, False), (2.0, False)])
+@pytest.mark.parametrize(
+    "last, counts", [(-2.0, True), (-1e-8, True), (-1e-10, False), (2.0, False)]
+)
 def test_area_between_points_of_a_turning_patch_counts(swapped, last, counts, size):
     """The second of three cells turns over along one direction, between two points; at a pole all is rounding."""
     counts_along = (5, 3)
@@ -353,4 +409,6 @@ def test_area_between_points_of_a_turning_patch_counts(swapped, last, counts, si
         normal, rule, weights = normal.swapaxes(1, 3), rule[::-1], weights[::-1]
     found = patch_moments._reversed_areas(normal, tuple(one[:, None] for one in weights), rule)
     width = nodes[0][4] - nodes[0][3]
-    assert close(found, [0.0, size * (1.0 + abs(last)) * width / 2.0 if counts else 0.0, 0.0], rel=1e-13)
+    assert close(
+        found, [0.0, size * (1.0 + abs(last)) * width / 2.0 if counts else 0.0, 0.0], rel=1e-13
+    )

@@ -30,7 +30,12 @@ def flat(corners, orders=(2, 2), inner=((), ())):
     points are at the Greville abscissae, so that its parameters stay even."""
     spaces = tuple(clamped_space(order, knots) for order, knots in zip(orders, inner))
     steps = [
-        np.array([sum(space.knots[i + 1 : i + space.order]) / (space.order - 1) for i in range(space.count)])
+        np.array(
+            [
+                sum(space.knots[i + 1 : i + space.order]) / (space.order - 1)
+                for i in range(space.count)
+            ]
+        )
         for space in spaces
     ]
     a, b, c, d = (np.asarray(corner, float) for corner in corners)
@@ -40,9 +45,14 @@ def flat(corners, orders=(2, 2), inner=((), ())):
 
 def box(size=(1.0, 2.0, 3.0), offset=(5.0, -3.0, 2.0), orders=((2, 2),) * 6, inner=(((), ()),) * 6):
     """Six outward patches."""
-    corner = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * size + np.asarray(offset)
+    corner = np.array(
+        [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    ) * size + np.asarray(offset)
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return [flat([corner[i] for i in face], order, knots) for face, order, knots in zip(faces, orders, inner)]
+    return [
+        flat([corner[i] for i in face], order, knots)
+        for face, order, knots in zip(faces, orders, inner)
+    ]
 
 
 def odd_factorial(n):
@@ -50,7 +60,10 @@ def odd_factorial(n):
 
 
 def test_ball_cylinder_and_box_match_closed_forms_to_order_six():
-    ball, rod = (measure_patches([patch], order=6).volume.about_point(np.zeros(3)) for patch in (sphere(), tube()))
+    ball, rod = (
+        measure_patches([patch], order=6).volume.about_point(np.zeros(3))
+        for patch in (sphere(), tube())
+    )
     low = np.array([5.0, -3.0, 2.0])
     block = measure_patches(box(offset=tuple(low)), order=6).volume.about_point(np.zeros(3))
     for powers in monomials(6).tolist():
@@ -66,9 +79,17 @@ def test_ball_cylinder_and_box_match_closed_forms_to_order_six():
             / (odd_factorial(p + q + r + 1) * (p + q + r + 3))
         )
         assert abs(ball[p, q, r] - truth) <= 1e-14
-        disk = 2.0 * np.pi * round_ / (2 ** ((p + q) // 2) * prod(range(1, (p + q) // 2 + 1)) * (p + q + 2))
+        disk = (
+            2.0
+            * np.pi
+            * round_
+            / (2 ** ((p + q) // 2) * prod(range(1, (p + q) // 2 + 1)) * (p + q + 2))
+        )
         assert abs(rod[p, q, r] - disk * (r % 2 == 0) * 2.0 / (r + 1)) <= 1e-13
-        truth = prod((high ** (n + 1) - a ** (n + 1)) / (n + 1) for n, a, high in zip(powers, low, low + [1, 2, 3]))
+        truth = prod(
+            (high ** (n + 1) - a ** (n + 1)) / (n + 1)
+            for n, a, high in zip(powers, low, low + [1, 2, 3])
+        )
         assert block[p, q, r] == pytest.approx(truth, rel=1e-12)
 
 
@@ -108,7 +129,11 @@ def test_the_cap_of_a_flat_rim_is_exact_whatever_the_rims_shape():
     points = np.array([[(x, y, z) for z in (2.0, 5.0)] for x, y in outline])
     found = measure_patches([Patch((space, clamped_space(2)), points)])
     finding = only(found)
-    assert found.method == "capped" and finding.code == "patch_holes_capped" and finding.values["flat"] == 2
+    assert (
+        found.method == "capped"
+        and finding.code == "patch_holes_capped"
+        and finding.values["flat"] == 2
+    )
     assert abs(found.volume.total - 7.0 * 3.0) <= 1e-13
     center = (2.0 * 4.0 + 0.5 * 3.0) / 7.0
     assert np.abs(found.volume.center - [center, (0.5 * 4.0 + 2.5 * 3.0) / 7.0, 3.5]).max() <= 1e-14
@@ -128,14 +153,19 @@ def test_self_crossing_rims_are_reported(crossing, shift):
     assert (Finding("patch_boundary_crosses_itself", {"count": 2}) in found.findings) == crossing
     assert found.method == "capped"
     bent = points + np.stack([0.0 * x, 0.0 * x, 0.3 * np.sin(2.0 * t) * np.cos(t)], axis=1)[:, None]
-    assert "patch_boundary_crosses_itself" not in codes(measure_patches([Patch((space, clamped_space(2)), bent)]))
+    assert "patch_boundary_crosses_itself" not in codes(
+        measure_patches([Patch((space, clamped_space(2)), bent)])
+    )
 
 
 def test_rim_crossing_itself_without_area_is_closed():
     """A tube from a circle to a lying eight with two lobes that cancel each other."""
     t = np.linspace(0.0, 2.0 * np.pi, 33)
     space = SplineSpace((0.0, *map(float, range(33)), 32.0), 2, 33)
-    rims = [np.stack([np.cos(t), np.sin(t), 0.0 * t], axis=1), np.stack([np.sin(t), np.sin(2.0 * t), 1.0 + 0.0 * t], 1)]
+    rims = [
+        np.stack([np.cos(t), np.sin(t), 0.0 * t], axis=1),
+        np.stack([np.sin(t), np.sin(2.0 * t), 1.0 + 0.0 * t], 1),
+    ]
     found = measure_patches([Patch((space, clamped_space(2)), np.stack(rims, axis=1))])
     assert only(found).code == "patch_holes_capped" and only(found).values["flat"] == 1
 
@@ -143,14 +173,23 @@ def test_rim_crossing_itself_without_area_is_closed():
 @pytest.mark.parametrize("turn", [1, -1])
 def test_holes_of_other_parts_are_found_beside_incomplete_loops(turn):
     """Holes of a Möbius band; both begin at one corner and end at the other."""
-    found = find_topology([band_of_one_side(), tube().transform(np.diag([0.5, 0.5, 0.5, 1.0]))][::turn], 1e-6)
+    found = find_topology(
+        [band_of_one_side(), tube().transform(np.diag([0.5, 0.5, 0.5, 1.0]))][::turn], 1e-6
+    )
     assert found.open_sides == 4 and len(found.loops) == 2
     assert found.unclosable.tolist() == [True, False][::turn]
 
 
 def test_six_patches_of_different_resolution_make_a_box():
     orders = ((2, 2), (3, 4), (2, 3), (5, 2), (4, 4), (2, 2))
-    inner = (((), ()), ((0.5,), ()), ((0.25, 0.5), ()), ((), (0.5,)), ((0.1,), (0.9,)), ((0.5,), (0.5,)))
+    inner = (
+        ((), ()),
+        ((0.5,), ()),
+        ((0.25, 0.5), ()),
+        ((), (0.5,)),
+        ((0.1,), (0.9,)),
+        ((0.5,), (0.5,)),
+    )
     found = measure_patches(box(orders=orders, inner=inner))
     assert (found.method, found.findings, found.health.components) == ("exact", (), 1)
     assert abs(found.volume.total - 6.0) <= 1e-13
@@ -162,7 +201,9 @@ def test_sides_coincide_whatever_their_parameters_are():
     space = SplineSpace((0.0, 0.0, 0.1, 1.0, 1.0), 2, 3)  # its parameters run slowly first
     points = patches[0].points
     between = points[:1] * 0.7 + points[1:] * 0.3
-    patches[0] = Patch((space, patches[0].spaces[1]), np.concatenate([points[:1], between, points[1:]]))
+    patches[0] = Patch(
+        (space, patches[0].spaces[1]), np.concatenate([points[:1], between, points[1:]])
+    )
     found = measure_patches(patches)
     assert (found.method, found.findings) == ("exact", ())
     assert abs(found.volume.total - 6.0) <= 1e-13
@@ -176,9 +217,15 @@ def test_round_sides_coincide_wherever_they_begin(turn):
     c, s = np.cos(turn), np.sin(turn)
     lids = []
     for end, top in ((0, -2.0), (1, 2.0)):
-        around = np.concatenate([out[end] @ [[c, s], [-s, c]], np.full((8, 1), wall.points[0, end, 2])], axis=1)
+        around = np.concatenate(
+            [out[end] @ [[c, s], [-s, c]], np.full((8, 1), wall.points[0, end, 2])], axis=1
+        )
         lids.append(
-            Patch(wall.spaces, np.stack([around, np.broadcast_to([0.0, 0.0, top], (8, 3))], axis=1), wall.weights)
+            Patch(
+                wall.spaces,
+                np.stack([around, np.broadcast_to([0.0, 0.0, top], (8, 3))], axis=1),
+                wall.weights,
+            )
         )
     found = measure_patches([wall, lids[0].reverse_orientation(), lids[1]])
     assert (found.method, found.findings, found.health.components) == ("exact", (), 1)
@@ -191,9 +238,13 @@ def test_round_sides_coincide_wherever_they_begin(turn):
         assert (again.method, again.findings, again.health.components) == ("exact", (), 2)
 
 
-@pytest.mark.parametrize(("turned", "sides"), [((1, 4), 6), ((0,), 4), ((0, 1), 8)])  # 0 and 1 lie opposite
+@pytest.mark.parametrize(
+    ("turned", "sides"), [((1, 4), 6), ((0,), 4), ((0, 1), 8)]
+)  # 0 and 1 lie opposite
 def test_patches_facing_against_the_rest_are_turned_and_counted(turned, sides):
-    found = measure_patches([patch.reverse_orientation() if k in turned else patch for k, patch in enumerate(box())])
+    found = measure_patches(
+        [patch.reverse_orientation() if k in turned else patch for k, patch in enumerate(box())]
+    )
     assert found.method == "reoriented"
     assert only(found) == Finding("flipped_patches", {"count": len(turned)})
     assert found.health.inconsistent_edges == sides and found.health.inverted_components == 0
@@ -234,7 +285,12 @@ def test_a_box_without_a_face_is_capped_exactly():
 def test_short_sides_along_a_long_one_leave_no_hole():
     """A T-junction between patches: the open sides run there and back."""
     patches = box(size=(1.0, 1.0, 1.0), offset=(3.0, 1.0, 0.0))
-    a, b, c, d = patches[0].points[0, 0], patches[0].points[1, 0], patches[0].points[1, 1], patches[0].points[0, 1]
+    a, b, c, d = (
+        patches[0].points[0, 0],
+        patches[0].points[1, 0],
+        patches[0].points[1, 1],
+        patches[0].points[0, 1],
+    )
     halves = [flat([a, b, (b + c) / 2, (a + d) / 2]), flat([(a + d) / 2, (b + c) / 2, c, d])]
     found = measure_patches([*halves, *patches[1:]])
     assert (found.method, found.findings) == ("exact", ())
@@ -290,7 +346,10 @@ def test_touching_bodies_are_told_apart_for_any_facing(name):
 def band_of_one_side():
     """A Möbius band closes upon itself the wrong way round."""
     turns = np.linspace(0.0, 2.0 * np.pi, 17)
-    arm = np.stack([np.cos(turns) * np.cos(turns / 2), np.sin(turns) * np.cos(turns / 2), np.sin(turns / 2)], axis=1)
+    arm = np.stack(
+        [np.cos(turns) * np.cos(turns / 2), np.sin(turns) * np.cos(turns / 2), np.sin(turns / 2)],
+        axis=1,
+    )
     middle = np.stack([3.0 * np.cos(turns), 3.0 * np.sin(turns), 0.0 * turns], axis=1)
     space = SplineSpace((0.0, *map(float, range(17)), 16.0), 2, 17)
     return Patch((space, clamped_space(2)), np.stack([middle - arm, middle + arm], axis=1))
@@ -324,7 +383,9 @@ def bottle_of_one_side():
     return Patch((space, space), np.stack([away * np.cos(u), away * np.sin(u), height], axis=-1))
 
 
-@pytest.mark.parametrize("patch", [band_of_one_side(), bottle_of_one_side()], ids=["band", "bottle"])
+@pytest.mark.parametrize(
+    "patch", [band_of_one_side(), bottle_of_one_side()], ids=["band", "bottle"]
+)
 def test_a_patch_of_one_side_only_is_open(patch):
     found = measure_patches([patch])
     assert found.method == "open" and not found.health.closed
@@ -337,7 +398,9 @@ def test_a_cavity_is_subtracted_and_a_nested_ball_counted_twice():
     assert (hollow.method, hollow.health.cavities) == ("exact", 1)
     assert abs(hollow.volume.total / (BALL * 0.875) - 1.0) <= 1e-14
     nested = measure_patches([sphere(), small])
-    assert nested.health.nested_components == 1 and only(nested) == Finding("components_nested", {"count": 1})
+    assert nested.health.nested_components == 1 and only(nested) == Finding(
+        "components_nested", {"count": 1}
+    )
     assert abs(nested.volume.total / (BALL * 1.125) - 1.0) <= 1e-14
 
 
@@ -360,14 +423,21 @@ def shifted(patch, *by):
 
 def test_part_thinner_than_its_sampling_error_keeps_its_facing():
     """A crescent between two parabolas, the outer one in a single span, beside a box."""
-    line, outer, inner = clamped_space(2), clamped_space(3), clamped_space(3, tuple(np.arange(1, 16) / 16.0))
+    line, outer, inner = (
+        clamped_space(2),
+        clamped_space(3),
+        clamped_space(3, tuple(np.arange(1, 16) / 16.0)),
+    )
     sides = []
     for space, height in ((outer, 0.5), (inner, 0.499)):
         ends = [space.knots[i + 1 : i + 3] for i in range(space.count)]
         # the blossom of h (1 - x²), with x from -1 to 1
         arc = [(a + b - 1.0, height * (1.0 - (2.0 * a - 1.0) * (2.0 * b - 1.0))) for a, b in ends]
         sides.append(Patch((space, line), [[(x, y, z) for z in (0.0, 1.0)] for x, y in arc]))
-    for patches in ([sides[0].reverse_orientation(), sides[1]], [sides[0], sides[1].reverse_orientation()]):
+    for patches in (
+        [sides[0].reverse_orientation(), sides[1]],
+        [sides[0], sides[1].reverse_orientation()],
+    ):
         alone = measure_patches(patches)
         found = measure_patches([*patches, *box(offset=(0.0, 5.0, 0.0))])
         assert abs(alone.volume.total / (0.001 * 4.0 / 3.0) - 1.0) <= 1e-9
@@ -400,8 +470,13 @@ def test_float32_storage_is_in_the_volume_bound():
         move = rng.uniform(-1, 1, ball.points.shape)
         move *= stored / np.linalg.norm(move, axis=2, keepdims=True)
         move[:, 0], move[:, -1] = move[0, 0], move[0, -1]
-        moved = measure_patches([Patch(ball.spaces, ball.points + move, ball.weights)]).volume.about_point(exact.about)
-        assert (np.abs(moved.raw - exact.raw) <= exact.input_error + exact.rounding_error + moved.rounding_error).all()
+        moved = measure_patches(
+            [Patch(ball.spaces, ball.points + move, ball.weights)]
+        ).volume.about_point(exact.about)
+        assert (
+            np.abs(moved.raw - exact.raw)
+            <= exact.input_error + exact.rounding_error + moved.rounding_error
+        ).all()
 
 
 def test_float32_bound_holds_for_caps_larger_than_the_body():
@@ -417,17 +492,26 @@ def test_float32_bound_holds_for_caps_larger_than_the_body():
 
 
 @pytest.mark.parametrize(
-    "patch", [flat([(5, 0, 0), (6, 0, 0), (6, 1, 0), (5, 1, 0)], (3, 4), ((0.5,), ())), sphere(), torus(), tube()]
+    "patch",
+    [
+        flat([(5, 0, 0), (6, 0, 0), (6, 1, 0), (5, 1, 0)], (3, 4), ((0.5,), ())),
+        sphere(),
+        torus(),
+        tube(),
+    ],
 )
 def test_float32_storage_is_in_the_area_bound(patch):
     stored = 1e-6
     exact = measure_patches([patch], stored=stored).area
     arms = patch.points - patch.points.mean(axis=(0, 1))
     for move in (arms, np.sign(np.random.default_rng(0).uniform(-1, 1, arms.shape))):
-        points = patch.points + stored * move / np.linalg.norm(move, axis=2, keepdims=True).clip(1e-9)
+        points = patch.points + stored * move / np.linalg.norm(move, axis=2, keepdims=True).clip(
+            1e-9
+        )
         moved = measure_patches([Patch(patch.spaces, points, patch.weights)]).area
         assert (
-            abs(moved.total - exact.total) <= exact.input_error[0] + exact.rounding_error[0] + moved.rounding_error[0]
+            abs(moved.total - exact.total)
+            <= exact.input_error[0] + exact.rounding_error[0] + moved.rounding_error[0]
         )
     assert exact.input_error[0] <= 20.0 * stored * patch.points.shape[0]  # so it tells something
 
@@ -462,7 +546,9 @@ def test_float32_storage_is_in_the_area_bound(patch):
 def test_creases_within_patches_and_between_them_are_found(patches, degrees):
     for move in (np.eye(4), np.diag([-1e-4, 1e-4, 1e-4, 1.0])):
         own = [patch.transform(move) for patch in patches]
-        assert np.degrees(sharpest_crease(own, find_topology(own, 1e-12))) == pytest.approx(degrees, abs=1e-6)
+        assert np.degrees(sharpest_crease(own, find_topology(own, 1e-12))) == pytest.approx(
+            degrees, abs=1e-6
+        )
 
 
 def test_flat_part_beside_a_body_is_left_out_and_reported():
@@ -480,7 +566,14 @@ def test_tearing_knots_are_refused():
     """Two strips of one patch, apart: their inner sides are no sides of the patch, and would not be seen to be open."""
     space = SplineSpace((0.0, 0.0, 1.0, 1.0, 2.0, 2.0), 2, 4)
     with refused("discontinuous_patch"):
-        measure_patches([Patch((space, clamped_space(2)), np.random.default_rng(0).uniform(-1.0, 1.0, (4, 2, 3)))])
+        measure_patches(
+            [
+                Patch(
+                    (space, clamped_space(2)),
+                    np.random.default_rng(0).uniform(-1.0, 1.0, (4, 2, 3)),
+                )
+            ]
+        )
     with refused("curve_open"):
         planar_region([Curve(space, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 0, 0)])])
     assert not SplineSpace((0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0), 3, 5).is_discontinuous
@@ -491,8 +584,13 @@ def test_float32_storage_error_comes_near_its_bound():
     patches, stored = [sphere()], 1e-6
     given = measure_patches(patches, stored=stored)
     farthest = max(float(np.linalg.norm(patch.points, axis=2).max()) for patch in patches)
-    grown = measure_patches([patch.transform(np.diag([*[1.0 + stored / farthest] * 3, 1.0])) for patch in patches])
-    for moments, larger, least in ((given.volume, grown.volume, 0.2), (given.area, grown.area, 1.0 / 20.0)):
+    grown = measure_patches(
+        [patch.transform(np.diag([*[1.0 + stored / farthest] * 3, 1.0])) for patch in patches]
+    )
+    for moments, larger, least in (
+        (given.volume, grown.volume, 0.2),
+        (given.area, grown.area, 1.0 / 20.0),
+    ):
         change = (larger.total - moments.total) / moments.input_error[0]
         assert least <= change <= 1.0, change
 
@@ -501,10 +599,16 @@ def test_float32_storage_error_comes_near_its_bound():
 @pytest.mark.parametrize("depth", [1e-3, 0.05])
 def test_cavity_breaking_through_counts_as_given(depth, size):
     """A box of 0.8 by 0.8 by 0.9 that reaches this far out of a unit box."""
-    cavity = turned(box((0.8 * size, 0.8 * size, 0.9 * size), (0.1 * size, 0.1 * size, -depth * size)))
+    cavity = turned(
+        box((0.8 * size, 0.8 * size, 0.9 * size), (0.1 * size, 0.1 * size, -depth * size))
+    )
     found = measure_patches([*box((size, size, size), (0.0, 0.0, 0.0)), *cavity])
     finding = only(found)
-    assert (found.method, finding.code, finding.values["count"]) == ("exact", "cavities_break_through", 1)
+    assert (found.method, finding.code, finding.values["count"]) == (
+        "exact",
+        "cavities_break_through",
+        1,
+    )
     assert close(finding.values["share"], depth / np.linalg.norm([1.0, 1.0, 1.0 + depth]), rel=1e-6)
     assert close(found.volume.total, 0.424 * size**3, rel=1e-12) and found.health.cavities == 1
 

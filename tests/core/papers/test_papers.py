@@ -46,7 +46,9 @@ def prism():
 
 def tetrahedron(seed=1):
     rng = random.Random(seed)
-    points = [tuple(F(rng.randint(-99, 99), rng.randint(1, 99)) for _ in range(3)) for _ in range(4)]
+    points = [
+        tuple(F(rng.randint(-99, 99), rng.randint(1, 99)) for _ in range(3)) for _ in range(4)
+    ]
     faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
     a, b, c, d = points
     if (
@@ -110,7 +112,9 @@ def test_add_on_recursion_is_within_bounds_of_sheynin_tuzikov():
     floats = np.array(points, float)
     cut = triangles(points, faces)
     found, _ = polyhedron_moments(Surface.from_triangles(floats, np.array(cut)), 6)
-    truth = sheynin_tuzikov.volume_moments(rational.fractions(floats), cut, 6, [F(x) for x in found.about])
+    truth = sheynin_tuzikov.volume_moments(
+        rational.fractions(floats), cut, 6, [F(x) for x in found.about]
+    )
     for value, bound, exactly in zip(found.raw, found.rounding_error, truth):
         assert abs(F(value) - exactly) <= F(bound)
 
@@ -119,7 +123,9 @@ def test_sheynin_tuzikov_matches_a_box_to_eighth_order():
     points, faces = box()
     low, high = points[0], points[-1]
     for (p, q, r), value in zip(exponents(8), sheynin_tuzikov.volume_moments(points, faces, 8)):
-        sides = [(high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1) for i, n in enumerate((p, q, r))]
+        sides = [
+            (high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1) for i, n in enumerate((p, q, r))
+        ]
         assert value == sides[0] * sides[1] * sides[2]
 
 
@@ -137,7 +143,8 @@ def test_surface_moments_with_rational_areas_are_exact():
     double = []
     for a, b, c in cut:
         normal = sheynin_tuzikov.cross(
-            sheynin_tuzikov.subtract(points[b], points[a]), sheynin_tuzikov.subtract(points[c], points[a])
+            sheynin_tuzikov.subtract(points[b], points[a]),
+            sheynin_tuzikov.subtract(points[c], points[a]),
         )
         double.append(exact_root(sheynin_tuzikov.dot(normal, normal)))
     for row, value in zip(rows, values):
@@ -150,16 +157,23 @@ def test_moments_about_a_point_match_the_moved_body():
     points, faces = prism()
     about = (F(1, 3), F(-2), F(5, 7))
     moved = [tuple(x - o for x, o in zip(point, about)) for point in points]
-    assert sheynin_tuzikov.volume_moments(points, faces, 4, about) == sheynin_tuzikov.volume_moments(moved, faces, 4)
+    assert sheynin_tuzikov.volume_moments(
+        points, faces, 4, about
+    ) == sheynin_tuzikov.volume_moments(moved, faces, 4)
 
 
 def test_printed_third_order_formula_is_wrong_and_asymmetric():
     for body, wrong in (("box", 12), ("concave prism", 27)):
         points, faces = BODIES[body]()
-        right, printed = (durso.tensor(points, faces, f) for f in (durso.THIRD, durso.THIRD_AS_PRINTED))
+        right, printed = (
+            durso.tensor(points, faces, f) for f in (durso.THIRD, durso.THIRD_AS_PRINTED)
+        )
         assert sum(a != b for a, b in zip(right.ravel(), printed.ravel())) == wrong
         assert any(printed[i, j, k] != printed[j, i, k] for i, j, k in product(range(3), repeat=3))
-        assert all(right[i, j, k] == right[j, i, k] == right[i, k, j] for i, j, k in product(range(3), repeat=3))
+        assert all(
+            right[i, j, k] == right[j, i, k] == right[i, k, j]
+            for i, j, k in product(range(3), repeat=3)
+        )
 
 
 def test_foot_of_a_face_without_area_is_its_first_corner():
@@ -173,7 +187,10 @@ def test_durso_holds_at_any_order_with_any_apex_in_the_face():
     truth = sheynin_tuzikov.volume_moments(points, faces, 5)
     assert durso.moments(points, faces, 5) == truth
     assert durso.moments(points, faces, 5, durso.perpendicular_feet(points, faces)) == truth
-    apexes = [tuple(3 * points[f[0]][i] - points[f[1]][i] - points[f[2]][i] for i in range(3)) for f in faces]
+    apexes = [
+        tuple(3 * points[f[0]][i] - points[f[1]][i] - points[f[2]][i] for i in range(3))
+        for f in faces
+    ]
     assert durso.moments(points, faces, 5, apexes) == truth
 
 
@@ -193,7 +210,10 @@ def jittered():
 
 def test_durso_on_warped_faces_has_fan_volume_and_no_center():
     points, faces = jittered()
-    means = [tuple(sum(points[i][axis] for i in face) / F(len(face)) for axis in range(3)) for face in faces]
+    means = [
+        tuple(sum(points[i][axis] for i in face) / F(len(face)) for axis in range(3))
+        for face in faces
+    ]
     fans = durso.moments(points, faces, 1, means)
     assert durso.tensor(points, faces, durso.ZEROTH) == fans[0]
     offset = (F(10), F(20), F(30))

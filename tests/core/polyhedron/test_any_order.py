@@ -24,7 +24,9 @@ from tests.core.findings import refused
 from tests.core.polyhedron.test_third_order import grid_torus
 from tests.core.strategies import holds, random_meshes, seeds
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # open faces count as given
+polyhedron_moments = partial(
+    integration.polyhedron_moments, allow_open=True
+)  # open faces count as given
 
 
 @pytest.fixture(params=["one block", "many blocks"])
@@ -49,7 +51,9 @@ def octahedron(level=2, noise=0.0, seed=0):
                 key = tuple(sorted(edge))
                 if key not in halves:
                     halves[key] = len(points)
-                    points.append(tuple((x + y) / 2 for x, y in zip(points[edge[0]], points[edge[1]])))
+                    points.append(
+                        tuple((x + y) / 2 for x, y in zip(points[edge[0]], points[edge[1]]))
+                    )
                 middles.append(halves[key])
             ab, bc, ca = middles
             finer += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
@@ -61,7 +65,9 @@ def octahedron(level=2, noise=0.0, seed=0):
 
 def assert_within(moments, truth, error=None):
     error = moments.rounding_error if error is None else error
-    for value, bound, right, monomial in zip(moments.raw, error, truth, monomials(moments.order).tolist(), strict=True):
+    for value, bound, right, monomial in zip(
+        moments.raw, error, truth, monomials(moments.order).tolist(), strict=True
+    ):
         assert abs(Fraction(float(value)) - right) <= Fraction(float(bound)), monomial
 
 
@@ -78,7 +84,10 @@ def test_all_moments_to_order_20_are_right_to_2e_15():
     volume, _ = polyhedron_moments(Surface(points, triangles), 20)
     assert len(volume.raw) == 1771 and not volume.about.any()
     truth = exact.volume_moments(points, triangles, order=20)
-    assert share(volume, truth, exact.volume_moments(points, triangles, order=20, absolute=True)) < 1e-14
+    assert (
+        share(volume, truth, exact.volume_moments(points, triangles, order=20, absolute=True))
+        < 1e-14
+    )
     assert_within(volume, truth)
 
 
@@ -99,10 +108,13 @@ def test_body_beyond_the_range_of_powers_is_bounded_as_at_home(exact_scale):
     points, triangles = octahedron(2)
     size = min(1.0, exact_scale)
     here, there = (
-        polyhedron_moments(Surface(size * points + place, triangles), 20, area_order=20) for place in (0.0, exact_scale)
+        polyhedron_moments(Surface(size * points + place, triangles), 20, area_order=20)
+        for place in (0.0, exact_scale)
     )
     for near, far in zip(here, there):
-        assert np.array_equal(near.raw, far.raw) and np.array_equal(near.rounding_error, far.rounding_error)
+        assert np.array_equal(near.raw, far.raw) and np.array_equal(
+            near.rounding_error, far.rounding_error
+        )
 
 
 @pytest.mark.parametrize("order", [3, 5])
@@ -123,7 +135,8 @@ def test_quads_in_reversed_order_are_recognized(path, order):
     points, quads = grid_torus(12, 8, noise=0.05)
     backward = quads.reshape(12, 8, 4)[::-1].transpose(1, 0, 2).reshape(-1, 4)
     found, plain = (
-        polyhedron_moments(Surface(points, quads=own), order, area_order=order) for own in (backward, quads)
+        polyhedron_moments(Surface(points, quads=own), order, area_order=order)
+        for own in (backward, quads)
     )
     for one, other in zip(found, plain):
         assert (np.abs(one.raw - other.raw) <= one.rounding_error + other.rounding_error).all()
@@ -132,7 +145,13 @@ def test_quads_in_reversed_order_are_recognized(path, order):
 def test_rounding_of_additions_is_recovered():
     total = recursion._CompensatedSum(4, 1)
     rng = np.random.default_rng(0)
-    values = [1.0, 1e100, 1.0, -1e100, *(rng.normal(size=2000) * 10.0 ** rng.uniform(-9.0, 9.0, 2000))]
+    values = [
+        1.0,
+        1e100,
+        1.0,
+        -1e100,
+        *(rng.normal(size=2000) * 10.0 ** rng.uniform(-9.0, 9.0, 2000)),
+    ]
     for value in values:
         total.add(levels.Sums(np.array([[value]]), np.ones((9, 1)), np.zeros(3)))
     assert close(total.high + total.low, [[math.fsum(values)]], rel=4e-16)
@@ -171,7 +190,9 @@ def test_the_bounds_are_not_vacuous(order):
     reach = 1.4**degree
     assert (volume.rounding_error <= 1e-12 * volume.total * reach).all()
     assert (area.rounding_error <= 1e-12 * area.total * reach).all()
-    even = (monomials(order) % 2 == 0).all(axis=1)  # whose moments do not cancel, and mostly lie far inside the box
+    even = (monomials(order) % 2 == 0).all(
+        axis=1
+    )  # whose moments do not cancel, and mostly lie far inside the box
     assert (volume.rounding_error[even] <= 1e-11 * volume.raw[even]).all()
     assert (area.rounding_error[even] <= 1e-11 * area.raw[even]).all()
 
@@ -191,14 +212,20 @@ def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
         volume.rounding_error + volume.input_error,
     )
     assert_within(
-        area, exact.area_moments(moved, surface.triangles, area.about, order=8), area.rounding_error + area.input_error
+        area,
+        exact.area_moments(moved, surface.triangles, area.about, order=8),
+        area.rounding_error + area.input_error,
     )
     step = np.linalg.norm(surface.coordinate_error)
     assert volume.input_error[0] < 1.5 * step * area.total
-    assert not polyhedron_moments(Surface(points.astype(float), surface.triangles), 8)[0].input_error.any()
+    assert not polyhedron_moments(Surface(points.astype(float), surface.triangles), 8)[
+        0
+    ].input_error.any()
 
 
-@pytest.mark.parametrize("order, area_order", [(5, 2), (5, 0), (2, 5), (3, 1), (1, 3), (3, 0), (0, 0)])
+@pytest.mark.parametrize(
+    "order, area_order", [(5, 2), (5, 0), (2, 5), (3, 1), (1, 3), (3, 0), (0, 0)]
+)
 def test_the_area_has_an_order_of_its_own(order, area_order):
     points, quads = grid_torus(12, 8, noise=0.05)
     surface = Surface(points, quads=quads)
@@ -217,14 +244,21 @@ def test_corners_may_be_numbers_of_any_kind(path, order, kind):
     truth = polyhedron_moments([corners], order, area_order=order)
     found = polyhedron_moments([corners.astype(kind)], order, area_order=order)
     for right, made in zip(truth, found):
-        assert np.array_equal(made.about, right.about) and (np.abs(made.raw - right.raw) <= right.rounding_error).all()
+        assert (
+            np.array_equal(made.about, right.about)
+            and (np.abs(made.raw - right.raw) <= right.rounding_error).all()
+        )
 
 
 @pytest.mark.parametrize("order", [2, 6])
 def test_pieces_make_the_whole(path, order):
     points, quads = grid_torus(12, 8, noise=0.05)
     triangles = Surface(points, quads=quads).all_triangles()[0]
-    pieces = [points[triangles[:50]], Surface(points, triangles[50:90]), points[triangles[90:]].astype(np.float64)]
+    pieces = [
+        points[triangles[:50]],
+        Surface(points, triangles[50:90]),
+        points[triangles[90:]].astype(np.float64),
+    ]
     volume, area = polyhedron_moments(pieces, order, area_order=order)
     whole = polyhedron_moments(Surface(points, triangles), order, area_order=order)
     assert np.array_equal(volume.about, whole[0].about)
@@ -235,7 +269,9 @@ def test_pieces_make_the_whole(path, order):
     assert np.array_equal(streamed[0].about, about)
     assert_within(streamed[0], exact.volume_moments(points, triangles, about, order))
     pieces.insert(0, np.zeros((0, 3, 3)))
-    blind = polyhedron_moments(iter(pieces), order, area_order=order)  # about the middle of the first that has faces
+    blind = polyhedron_moments(
+        iter(pieces), order, area_order=order
+    )  # about the middle of the first that has faces
     assert np.abs(blind[0].about - whole[0].about).max() > 0.01
     assert_within(blind[0], exact.volume_moments(points, triangles, blind[0].about, order))
     assert_within(blind[1], exact.area_moments(points, triangles, blind[1].about, order=order))
@@ -248,7 +284,9 @@ def test_moments_scale_exactly_with_powers_of_two(exponent):
     points, quads = grid_torus(noise=0.05)
     plain = polyhedron_moments(Surface(points, quads=quads), 12)[0]
     scaled = polyhedron_moments(Surface(np.ldexp(points, exponent), quads=quads), 12)[0]
-    assert np.array_equal(scaled.raw, np.ldexp(plain.raw, exponent * (monomials(12).sum(axis=1) + 3)))
+    assert np.array_equal(
+        scaled.raw, np.ldexp(plain.raw, exponent * (monomials(12).sum(axis=1) + 3))
+    )
 
 
 def test_empty_surface_has_zero_moments():
@@ -256,7 +294,9 @@ def test_empty_surface_has_zero_moments():
         for nothing in (Surface(np.zeros((0, 3))), [], iter(())):
             volume, area = polyhedron_moments(nothing, order, area_order=order)
             assert not volume.raw.any() and len(area.raw) == monomial_count(order)
-            assert np.array_equal(volume.about, np.zeros(3)) and np.array_equal(area.about, np.zeros(3))
+            assert np.array_equal(volume.about, np.zeros(3)) and np.array_equal(
+                area.about, np.zeros(3)
+            )
         for moments in polyhedron_moments([], order, area_order=order, about=(1.0, 2.0, 3.0)):
             assert np.array_equal(moments.about, (1.0, 2.0, 3.0))
 
@@ -315,7 +355,9 @@ def test_overflow_at_low_orders_is_refused_and_the_limit_told():
     points, quads = grid_torus()
     triangles = points[quads[:, :3]] * 1e60
     whole = polyhedron_moments(iter([triangles, triangles]), 1)[0]
-    assert whole.total == pytest.approx(2e180 * polyhedron_moments([points[quads[:, :3]]], 1)[0].total, rel=1e-12)
+    assert whole.total == pytest.approx(
+        2e180 * polyhedron_moments([points[quads[:, :3]]], 1)[0].total, rel=1e-12
+    )
     for order in (3, 4):
         with refused("moments_overflow", order=order):
             polyhedron_moments(iter([triangles, triangles]), order)
@@ -352,9 +394,14 @@ def test_a_stream_is_never_in_memory_as_a_whole():
 def grid_torus_strip(n, m, start, count):
     """Yield some of the rings of quads of `grid_torus(n, m)`."""
     u, v = np.meshgrid(
-        (start + np.arange(count + 1)) % n * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij"
+        (start + np.arange(count + 1)) % n * (2 * np.pi / n),
+        np.arange(m) * (2 * np.pi / m),
+        indexing="ij",
     )
-    points = np.stack([(1 + 0.4 * np.cos(v)) * np.cos(u), (1 + 0.4 * np.cos(v)) * np.sin(u), 0.4 * np.sin(v)], axis=-1)
+    points = np.stack(
+        [(1 + 0.4 * np.cos(v)) * np.cos(u), (1 + 0.4 * np.cos(v)) * np.sin(u), 0.4 * np.sin(v)],
+        axis=-1,
+    )
     i, j = np.meshgrid(np.arange(count), np.arange(m), indexing="ij")
     corners = [(i, j), (i + 1, j), (i + 1, (j + 1) % m), (i, (j + 1) % m)]
     return points.reshape(-1, 3), np.stack([(a * m + b).ravel() for a, b in corners], axis=1)

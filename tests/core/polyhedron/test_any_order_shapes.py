@@ -30,7 +30,11 @@ def half_gammas(p, q, r):
 
 
 def circle(p, q):
-    return 0.0 if p % 2 or q % 2 else 2.0 * gamma((p + 1) / 2) * gamma((q + 1) / 2) / gamma((p + q + 2) / 2)
+    return (
+        0.0
+        if p % 2 or q % 2
+        else 2.0 * gamma((p + 1) / 2) * gamma((q + 1) / 2) / gamma((p + q + 2) / 2)
+    )
 
 
 def disc(p, q, radius):
@@ -45,7 +49,11 @@ def ellipsoid_volume(p, q, r, axes=(1.0, 0.75, 0.5)):
     if p % 2 or q % 2 or r % 2:
         return 0.0
     n = p + q + r
-    return prod(a ** (k + 1) for a, k in zip(axes, (p, q, r))) * half_gammas(p, q, r) / ((n + 3) * gamma((n + 3) / 2))
+    return (
+        prod(a ** (k + 1) for a, k in zip(axes, (p, q, r)))
+        * half_gammas(p, q, r)
+        / ((n + 3) * gamma((n + 3) / 2))
+    )
 
 
 def sphere_surface(p, q, r):
@@ -68,7 +76,8 @@ def torus_volume(p, q, r, major=1.0, minor=0.4):
 
 def torus_surface(p, q, r, major=1.0, minor=0.4):
     return circle(p, q) * sum(
-        comb(p + q + 1, k) * major ** (p + q + 1 - k) * minor ** (k + r + 1) * circle(k, r) for k in range(p + q + 2)
+        comb(p + q + 1, k) * major ** (p + q + 1 - k) * minor ** (k + r + 1) * circle(k, r)
+        for k in range(p + q + 2)
     )
 
 
@@ -78,21 +87,27 @@ def slice_volume(p, q, r, radius=1.0, low=-0.5, high=0.75):
         return 0.0
     m = (p + q + 2) // 2
     return disc(p, q, 1.0) * sum(
-        comb(m, k) * (-1) ** k * radius ** (2 * (m - k)) * between(low, high, 2 * k + r) for k in range(m + 1)
+        comb(m, k) * (-1) ** k * radius ** (2 * (m - k)) * between(low, high, 2 * k + r)
+        for k in range(m + 1)
     )
 
 
 def lathe(profile, n):
     """The body that an outline in the half-plane (radius, z), from the axis to the axis, sweeps in n steps."""
     turn = np.arange(n) * (2.0 * np.pi / n)
-    rings = [np.stack([r * np.cos(turn), r * np.sin(turn), np.full(n, z)], axis=1) for r, z in profile[1:-1]]
+    rings = [
+        np.stack([r * np.cos(turn), r * np.sin(turn), np.full(n, z)], axis=1)
+        for r, z in profile[1:-1]
+    ]
     points = np.concatenate([[[0.0, 0.0, profile[0][1]]], *rings, [[0.0, 0.0, profile[-1][1]]]])
     i, last = np.arange(n), len(points) - 1
     j = (i + 1) % n
     bottom = np.stack([np.zeros(n, int), 1 + j, 1 + i], axis=1)
     top = np.stack([np.full(n, last), last - n + i, last - n + j], axis=1)
     starts = 1 + n * np.arange(len(rings) - 1)[:, None]
-    quads = np.stack([starts + i, starts + j, starts + n + j, starts + n + i], axis=-1).reshape(-1, 4)
+    quads = np.stack([starts + i, starts + j, starts + n + j, starts + n + i], axis=-1).reshape(
+        -1, 4
+    )
     return Surface(points, np.concatenate([bottom, top]), quads)
 
 
@@ -118,10 +133,15 @@ def slice_of_ball(n):
 def torus(n):
     u = np.arange(n) * (2.0 * np.pi / n)
     ring = 1.0 + 0.4 * np.cos(u)
-    points = np.stack([np.outer(np.cos(u), ring), np.outer(np.sin(u), ring), np.tile(0.4 * np.sin(u), (n, 1))], axis=-1)
+    points = np.stack(
+        [np.outer(np.cos(u), ring), np.outer(np.sin(u), ring), np.tile(0.4 * np.sin(u), (n, 1))],
+        axis=-1,
+    )
     i, j = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
     corners = [(i, j), ((i + 1) % n, j), ((i + 1) % n, (j + 1) % n), (i, (j + 1) % n)]
-    return Surface(points.reshape(-1, 3), quads=np.stack([(a * n + b).ravel() for a, b in corners], axis=1))
+    return Surface(
+        points.reshape(-1, 3), quads=np.stack([(a * n + b).ravel() for a, b in corners], axis=1)
+    )
 
 
 BODIES = {
@@ -141,13 +161,18 @@ BODIES = {
 @pytest.mark.parametrize("name", BODIES)
 def test_finer_meshes_come_to_the_closed_form_at_the_right_rate(name):
     body, *forms = BODIES[name]
-    meshes = [polyhedron_moments(body(n), ORDER, area_order=ORDER, about=np.zeros(3)) for n in (48, 96, 192)]
+    meshes = [
+        polyhedron_moments(body(n), ORDER, area_order=ORDER, about=np.zeros(3))
+        for n in (48, 96, 192)
+    ]
     for number, form in enumerate(forms):
         if form is None:
             continue
         truth = np.array([form(*powers) for powers in TABLE])
         coarse, fine, finest = (moments[number].raw for moments in meshes)
-        limit = (64.0 * finest - 20.0 * fine + coarse) / 45.0  # without the second and the fourth power of the step
+        limit = (
+            64.0 * finest - 20.0 * fine + coarse
+        ) / 45.0  # without the second and the fourth power of the step
         scale = np.abs(truth).max()
         assert (np.abs(limit - truth) <= 2e-6 * np.abs(truth) + 1e-14 * scale).all()
         some = np.abs(truth) > 0.0
@@ -155,15 +180,21 @@ def test_finer_meshes_come_to_the_closed_form_at_the_right_rate(name):
         off = [np.abs(moments - truth)[some] for moments in (coarse, fine, finest)]
         assert (off[2] < 0.02 * np.abs(truth[some])).all() and (off[2] > 0.0).all()
         order = np.log2(off[1] / off[2])
-        assert np.median(order) == pytest.approx(2.0, abs=0.02) and (np.abs(order - 2.0) < 0.5).all()
+        assert (
+            np.median(order) == pytest.approx(2.0, abs=0.02) and (np.abs(order - 2.0) < 0.5).all()
+        )
 
 
 def test_a_box_off_the_origin_is_its_closed_form_to_order_12():
     low, high = (1, -2, 3), (3, 1, 8)
     points = np.array(exact.box(low, high), float)
-    volume, area = polyhedron_moments(Surface(points, quads=np.array(exact.BOX_QUADS)), ORDER, area_order=ORDER)
+    volume, area = polyhedron_moments(
+        Surface(points, quads=np.array(exact.BOX_QUADS)), ORDER, area_order=ORDER
+    )
     about = volume.about.tolist()
-    truth = exact.box_moments([a - c for a, c in zip(low, about)], [b - c for b, c in zip(high, about)], ORDER)
+    truth = exact.box_moments(
+        [a - c for a, c in zip(low, about)], [b - c for b, c in zip(high, about)], ORDER
+    )
     for value, right, bound in zip(volume.raw, truth, volume.rounding_error):
         assert abs(Fraction(float(value)) - right) <= Fraction(float(bound))
         assert abs(float(value) - float(right)) <= 1e-14 * float(truth[-1])
@@ -188,4 +219,7 @@ def test_a_corner_tetrahedron_is_dirichlets_integral(seed):
     surface = Surface(points, np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]))
     volume, _ = polyhedron_moments(surface, ORDER, about=np.zeros(3))
     truth = exact.corner_tetrahedron_moments(a, b, c, ORDER)
-    assert max(abs(float(value) / float(right) - 1.0) for value, right in zip(volume.raw, truth)) < 1e-14
+    assert (
+        max(abs(float(value) / float(right) - 1.0) for value, right in zip(volume.raw, truth))
+        < 1e-14
+    )

@@ -66,7 +66,9 @@ def cube(n):
 
 def affine(n, seed):
     rng = np.random.default_rng(seed)
-    return np.round(rng.normal(size=(n, n)) * 64) / 64 + np.eye(n), np.round(rng.normal(size=n) * 64) / 64
+    return np.round(rng.normal(size=(n, n)) * 64) / 64 + np.eye(n), np.round(
+        rng.normal(size=n) * 64
+    ) / 64
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 5])
@@ -113,13 +115,20 @@ def test_facets_of_unit_simplices_match_dirichlet(n):
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 5])
 def test_cubes_have_the_moments_of_products(n):
     points, facets, signs = cube(n)
-    size, offset = np.array([1.0, 2.0, 0.5, 3.0, 1.5])[:n], np.array([-1.0, 0.25, 2.0, -3.0, 0.5])[:n]
+    size, offset = (
+        np.array([1.0, 2.0, 0.5, 3.0, 1.5])[:n],
+        np.array([-1.0, 0.25, 2.0, -3.0, 0.5])[:n],
+    )
     order = 12 if n < 5 else 6
     found = enclosed_moments(points * size + offset, facets, order, about=np.zeros(n), signs=signs)
     low, high = [Fraction(x) for x in offset], [Fraction(x) for x in size + offset]
     truth = np.array(
         [
-            float(math.prod((high[i] ** (k + 1) - low[i] ** (k + 1)) / (k + 1) for i, k in enumerate(row)))
+            float(
+                math.prod(
+                    (high[i] ** (k + 1) - low[i] ** (k + 1)) / (k + 1) for i, k in enumerate(row)
+                )
+            )
             for row in multi_indices(n, order).tolist()
         ]
     )
@@ -144,7 +153,9 @@ def test_affine_images_match_rational_integration_within_bounds(n, seed):
     rows = multi_indices(n, 6).tolist()
     chosen = range(len(rows)) if n < 4 else range(0, len(rows), 9)
     for i in chosen:
-        truth = rational.enclosed(exactly, facets.tolist(), rows[i], about, None if signs is None else signs.tolist())
+        truth = rational.enclosed(
+            exactly, facets.tolist(), rows[i], about, None if signs is None else signs.tolist()
+        )
         assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.rounding_error[i])
     assert found.raw[0] > 0
     assert found.rounding_error[0] < 1e-13 * found.raw[0] * np.linalg.cond(linear)
@@ -157,7 +168,9 @@ def test_a_body_far_away_is_as_exact_about_its_own_center(offset):
     found = enclosed_moments(points, facets, 4)
     exactly = rational.fractions(points)
     for i, row in enumerate(multi_indices(3, 4).tolist()):
-        truth = rational.enclosed(exactly, facets.tolist(), row, tuple(Fraction(x) for x in found.about))
+        truth = rational.enclosed(
+            exactly, facets.tolist(), row, tuple(Fraction(x) for x in found.about)
+        )
         assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.rounding_error[i])
         assert abs(float(truth) - found.raw[i]) < 1e-14
 
@@ -170,7 +183,9 @@ def test_open_boundaries_are_refused_unless_allowed(n):
         enclosed_moments(points, facets[1:], 1, signs=signs[1:])
     with refused("boundary_open"):
         enclosed_moments(points, facets, 1, signs=np.r_[-signs[:1], signs[1:]])
-    cone = enclosed_moments(points, facets[1:], 0, about=np.full(n, 0.5), signs=signs[1:], allow_open=True)
+    cone = enclosed_moments(
+        points, facets[1:], 0, about=np.full(n, 0.5), signs=signs[1:], allow_open=True
+    )
     assert close(cone.raw[0], 1.0 - 0.5 / math.factorial(n), rel=1e-13)
 
 
@@ -209,7 +224,9 @@ def test_overflowing_order_is_refused():
 
 def test_a_reversed_boundary_encloses_the_negative():
     points, facets, _ = cube(3)
-    there, back = (enclosed_moments(points, f, 5, about=np.zeros(3)) for f in (facets, facets[:, ::-1]))
+    there, back = (
+        enclosed_moments(points, f, 5, about=np.zeros(3)) for f in (facets, facets[:, ::-1])
+    )
     assert np.abs(there.raw + back.raw).max() <= (there.rounding_error + back.rounding_error).max()
 
 
@@ -269,20 +286,28 @@ def test_each_simplex_has_a_sign():
 def test_empty_boundary_encloses_nothing():
     for simplices in (np.zeros((0, 3), int), np.zeros((0, 3))):
         found = enclosed_moments(np.zeros((0, 3)), simplices, 2)
-        assert not found.raw.any() and (found.rounding_error > 0.0).all() and found.rounding_error.max() < 1e-300
+        assert (
+            not found.raw.any()
+            and (found.rounding_error > 0.0).all()
+            and found.rounding_error.max() < 1e-300
+        )
 
 
 def test_a_body_far_away_is_bounded_as_at_home():
     """The farther it is, the more its size to the 28th would leave the range of numbers beside that."""
     points, facets, _ = cube(2)
     here, there = (enclosed_moments(points + far, facets, 26) for far in (0.0, 2.0**40))
-    assert np.array_equal(here.raw, there.raw) and np.array_equal(here.rounding_error, there.rounding_error)
+    assert np.array_equal(here.raw, there.raw) and np.array_equal(
+        here.rounding_error, there.rounding_error
+    )
 
 
 def test_unused_points_may_be_nonfinite():
     points, facets, _ = cube(3)
     more = np.concatenate([points, np.full((1, 3), np.nan)])
-    assert np.array_equal(enclosed_moments(more, facets, 3).raw, enclosed_moments(points, facets, 3).raw)
+    assert np.array_equal(
+        enclosed_moments(more, facets, 3).raw, enclosed_moments(points, facets, 3).raw
+    )
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 4])
@@ -307,6 +332,10 @@ def test_facets_of_simplices_close_with_or_without_signs():
     ring = [[0, 1], [1, 2], [2, 3], [3, 0]]
     assert closes(square, ring) and not closes(square, ring[1:])
     assert sorted(outer_facets(square, [*ring, [0, 2], [2, 0]]).tolist()) == sorted(ring)
-    assert sorted(outer_facets(square, [*ring, [0, 2], [0, 2]]).tolist()) == sorted([*ring, [0, 2], [0, 2]])
+    assert sorted(outer_facets(square, [*ring, [0, 2], [0, 2]]).tolist()) == sorted(
+        [*ring, [0, 2], [0, 2]]
+    )
     again = [*square, [0, 0]]  # from a point to itself is no side
-    assert sorted(outer_facets(again, [[0, 4], *ring]).tolist()) == sorted(ring) and closes(again, [[0, 4], *ring])
+    assert sorted(outer_facets(again, [[0, 4], *ring]).tolist()) == sorted(ring) and closes(
+        again, [[0, 4], *ring]
+    )

@@ -21,7 +21,10 @@ def truth(points, triangles, linear):
     total = Fraction(0)
     for matrix in linear:
         rows = [[Fraction(float(x)) for x in row] for row in matrix]
-        mapped = [[sum(r * Fraction(float(x)) for r, x in zip(row, point)) for row in rows] for point in points]
+        mapped = [
+            [sum(r * Fraction(float(x)) for r, x in zip(row, point)) for row in rows]
+            for point in points
+        ]
         total += area(mapped, triangles)
     return total
 
@@ -54,7 +57,9 @@ def test_areas_of_images_are_exact_to_their_bounds(offset, size):
 
 
 def test_a_box_stretched_along_its_edges():
-    box = Surface(np.array(exact.box((0, 0, 0), (1, 1, 1)), np.float32), quads=np.array(exact.BOX_QUADS))
+    box = Surface(
+        np.array(exact.box((0, 0, 0), (1, 1, 1)), np.float32), quads=np.array(exact.BOX_QUADS)
+    )
     found = area_of_images(box, np.array([np.diag([1.0, 2.0, 3.0]), np.diag([4.0, 1.0, 1.0])]))
     assert close(found.total, 22.0 + 18.0, rel=1e-14)
 

@@ -19,11 +19,16 @@ PLACES = [(1.0, 0.0), (1e-5, 3e-5), (1.0, 1e4), (3e3, -7e5)]
 
 
 def stacked(size, offset):
-    parts = [((points * size + offset).astype(np.float32).astype(float), faces) for points, faces in PARTS]
+    parts = [
+        ((points * size + offset).astype(np.float32).astype(float), faces)
+        for points, faces in PARTS
+    ]
     starts = np.cumsum([0] + [len(points) for points, _ in parts])
     triangles = np.concatenate([faces + start for (_, faces), start in zip(parts, starts)])
     counts = np.array([len(faces) for _, faces in parts])
-    low, high = (np.array([function(points, axis=0) for points, _ in parts]) for function in (np.min, np.max))
+    low, high = (
+        np.array([function(points, axis=0) for points, _ in parts]) for function in (np.min, np.max)
+    )
     center = low / 2.0 + high / 2.0
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * 2.0**-53)
     return parts, np.concatenate([points for points, _ in parts]), triangles, counts, center, reach
@@ -56,6 +61,13 @@ def test_higher_orders_are_exact_within_their_bounds(size, offset):
         alone = polyhedron_moments(Surface(own, faces), 6, about=center[i])[0]
         off = np.abs(sixth.raw[i] - alone.raw)
         assert (off <= sixth.rounding_error[i] + alone.rounding_error).all()
-        assert (sixth.rounding_error[i, 20:] <= 100.0 * alone.rounding_error[20:]).all()  # and they say something
+        assert (
+            sixth.rounding_error[i, 20:] <= 100.0 * alone.rounding_error[20:]
+        ).all()  # and they say something
     right = exact.volume_moments(*parts[1], center[1], 6)
-    assert all([abs(Fraction(float(x)) - y) <= e for x, y, e in zip(sixth.raw[1], right, sixth.rounding_error[1])])
+    assert all(
+        [
+            abs(Fraction(float(x)) - y) <= e
+            for x, y, e in zip(sixth.raw[1], right, sixth.rounding_error[1])
+        ]
+    )

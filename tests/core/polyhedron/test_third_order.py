@@ -20,7 +20,9 @@ from tests.core import exact
 from tests.core.bodies import rotation
 from tests.core.strategies import holds, random_meshes, seeds
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # open faces count as given
+polyhedron_moments = partial(
+    integration.polyhedron_moments, allow_open=True
+)  # open faces count as given
 
 MONOMIALS = exact.MONOMIALS
 L_OUTLINE = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
@@ -46,9 +48,13 @@ def path(request, monkeypatch):
 
 def grid_torus(n=12, m=8, noise=0.0, seed=0, major=1.0, minor=0.4):
     """A closed torus of n x m quads with its points moved at random: points and quads."""
-    u, v = np.meshgrid(np.arange(n) * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij")
+    u, v = np.meshgrid(
+        np.arange(n) * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij"
+    )
     ring = major + minor * np.cos(v)
-    points = np.stack([ring * np.cos(u), ring * np.sin(u), minor * np.sin(v)], axis=-1).reshape(-1, 3)
+    points = np.stack([ring * np.cos(u), ring * np.sin(u), minor * np.sin(v)], axis=-1).reshape(
+        -1, 3
+    )
     points = points + noise * np.random.default_rng(seed).standard_normal(points.shape)
     i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
     corners = [(i, j), ((i + 1) % n, j), ((i + 1) % n, (j + 1) % m), (i, (j + 1) % m)]
@@ -78,7 +84,10 @@ def assert_exact(surface, truth_at_origin, ulps=8):
     truth = np.array([float(value) for value in truth_at_origin])
     for order in range(3):
         part = [i for i, m in enumerate(MONOMIALS) if sum(m) == order]
-        assert np.abs(moments.raw[part] - truth[part]).max() <= ulps * np.finfo(float).eps * np.abs(truth[part]).max()
+        assert (
+            np.abs(moments.raw[part] - truth[part]).max()
+            <= ulps * np.finfo(float).eps * np.abs(truth[part]).max()
+        )
 
 
 def test_box_is_its_closed_form(path):
@@ -89,7 +98,9 @@ def test_box_is_its_closed_form(path):
 
 
 def test_box_about_its_centre_is_exact(path):
-    surface = Surface(np.array(exact.box((0, 0, 0), (2, 3, 5)), float), quads=np.array(exact.BOX_QUADS))
+    surface = Surface(
+        np.array(exact.box((0, 0, 0), (2, 3, 5)), float), quads=np.array(exact.BOX_QUADS)
+    )
     volume, area = polyhedron_moments(surface, area_order=0)
     assert volume.total == 30.0 and area.total == 62.0
     assert volume.about.tolist() == [1.0, 1.5, 2.5]
@@ -110,12 +121,16 @@ def test_l_prism_has_the_published_inertia(path):
     inertia = np.trace(second) * np.eye(3) - second
     assert close(np.diag(inertia), [121 / 30, 121 / 30, 217 / 30], rel=4e-15)
     assert close(inertia[0, 1], 1.8, rel=4e-15)
-    third = polyhedron_moments(Surface(np.array(points, float), np.array(exact.fan(faces))), exact=True)[
-        0
-    ].about_center()
-    assert [third[3, 0, 0], third[0, 3, 0], third[2, 1, 0], third[1, 2, 0], third[0, 0, 3]] == pytest.approx(
-        [2.16, 2.16, -0.84, -0.84, 0.0], abs=2e-14
-    )
+    third = polyhedron_moments(
+        Surface(np.array(points, float), np.array(exact.fan(faces))), exact=True
+    )[0].about_center()
+    assert [
+        third[3, 0, 0],
+        third[0, 3, 0],
+        third[2, 1, 0],
+        third[1, 2, 0],
+        third[0, 0, 3],
+    ] == pytest.approx([2.16, 2.16, -0.84, -0.84, 0.0], abs=2e-14)
 
 
 def test_surface_accepts_integer_types_and_refuses_others():
@@ -148,7 +163,9 @@ def test_the_bound_holds_for_random_meshes(path, mesh):
 def test_the_bound_holds_for_slivers(path, seed):
     rng = np.random.default_rng(seed)
     points, quads = grid_torus(6, 5, noise=1e-3, seed=seed)
-    points[quads[:, 1]] = points[quads[:, 0]] + 10.0 ** rng.uniform(-14, -3) * rng.standard_normal((len(quads), 3))
+    points[quads[:, 1]] = points[quads[:, 0]] + 10.0 ** rng.uniform(-14, -3) * rng.standard_normal(
+        (len(quads), 3)
+    )
     points += 10.0 ** rng.uniform(-3, 6)
     triangles = Surface(points, quads=quads).all_triangles()[0]
     assert_bounds_hold(Surface(points, triangles))
@@ -172,8 +189,14 @@ def test_third_moments_of_many_triangles_match_the_closed_form():
     points, quads = fine_box(128)
     truth = exact.box_moments((-1, -1.5, -2.5), (1, 1.5, 2.5))
     for threads in (1, 2):
-        for surface in (Surface(points, quads=quads), Surface(points, Surface(points, quads=quads).all_triangles()[0])):
-            fine, coarse = (polyhedron_moments(surface, exact=choice, threads=threads)[0] for choice in (True, False))
+        for surface in (
+            Surface(points, quads=quads),
+            Surface(points, Surface(points, quads=quads).all_triangles()[0]),
+        ):
+            fine, coarse = (
+                polyhedron_moments(surface, exact=choice, threads=threads)[0]
+                for choice in (True, False)
+            )
             assert fine.about.tolist() == coarse.about.tolist() == [2.0, 3.5, 5.5]
             assert_within(fine, truth)
             assert_within(coarse, truth)
@@ -182,9 +205,13 @@ def test_third_moments_of_many_triangles_match_the_closed_form():
 
 def test_the_bound_is_not_vacuous_for_a_clean_body():
     points, quads = grid_torus(250, 200)
-    moments = polyhedron_moments(Surface(points, Surface(points, quads=quads).all_triangles()[0]))[0]
+    moments = polyhedron_moments(Surface(points, Surface(points, quads=quads).all_triangles()[0]))[
+        0
+    ]
     assert moments.rounding_error[0] < 1e-12 * moments.total
-    assert moments.rounding_error[1:4].max() < 1e-12 * moments.total  # the body is about one unit in size
+    assert (
+        moments.rounding_error[1:4].max() < 1e-12 * moments.total
+    )  # the body is about one unit in size
     assert moments.rounding_error[4:10].max() < 1e-12 * np.trace(moments.second())
 
 
@@ -199,7 +226,9 @@ def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
     moved = points.astype(float) + surface.coordinate_error * rng.choice([-1.0, 1.0], points.shape)
     for moments, formula in ((volume, exact.volume_moments), (area, exact.area_moments)):
         assert_within(
-            moments, formula(moved, surface.triangles, moments.about), moments.rounding_error + moments.input_error
+            moments,
+            formula(moved, surface.triangles, moments.about),
+            moments.rounding_error + moments.input_error,
         )
 
 
@@ -227,9 +256,20 @@ def test_relative_errors_stay_below_1e_14_far_from_the_origin(factor):
     truth = exact.volume_moments(points, triangles, moments.about)
     assert abs(Fraction(moments.total) / truth[0] - 1) < 1e-14
     centre = [value / truth[0] for value in truth[1:4]]
-    assert max(abs(Fraction(float(m)) / Fraction(moments.total) - c) for m, c in zip(moments.raw[1:4], centre)) < 1e-14
+    assert (
+        max(
+            abs(Fraction(float(m)) / Fraction(moments.total) - c)
+            for m, c in zip(moments.raw[1:4], centre)
+        )
+        < 1e-14
+    )
     size = float(truth[4] + truth[7] + truth[9])
-    assert max(abs(float(value) - float(right)) for value, right in zip(moments.raw[4:10], truth[4:10])) < 1e-14 * size
+    assert (
+        max(
+            abs(float(value) - float(right)) for value, right in zip(moments.raw[4:10], truth[4:10])
+        )
+        < 1e-14 * size
+    )
 
 
 @pytest.mark.parametrize("exponent", [8, 110, -105])
@@ -257,7 +297,9 @@ def test_float32_bounds_scale_exactly_with_powers_of_two(path, about, area_order
         powers = exponent * (np.array([sum(m) for m in MONOMIALS[: len(one.raw)]]) + dimension)
         assert np.array_equal(other.about, np.ldexp(one.about, exponent))
         for name in ("raw", "rounding_error", "input_error"):
-            assert close(getattr(other, name), np.ldexp(getattr(one, name), powers), rel=1e-12), name
+            assert close(getattr(other, name), np.ldexp(getattr(one, name), powers), rel=1e-12), (
+                name
+            )
 
 
 @pytest.mark.parametrize("exponent", [-190, -140, -30, 30, 100])
@@ -355,7 +397,9 @@ def test_quads_overflowing_the_rule_are_decided_in_float32():
     first, second = np.array([3.5e38, 3.3e38, 3.3e38]) ** 0.5 * [[1, 1, 1], [-1, 1, 1]]
     edge = np.cross(first, second) / np.linalg.norm(np.cross(first, second))
     length = 4e9
-    points = np.array([[0, 0, 0], np.cross(edge, first) / length, edge * length, np.cross(second, edge) / length])
+    points = np.array(
+        [[0, 0, 0], np.cross(edge, first) / length, edge * length, np.cross(second, edge) / length]
+    )
     points, quads = points.astype(np.float32), np.arange(4)[None]
     with np.errstate(all="ignore"):
         assert flipped_quads(points, quads).all()
@@ -375,7 +419,9 @@ def test_quads_on_the_edge_of_the_rule_are_decided_in_float32(path):
     angle = rng.uniform(0.0, 2.0 * np.pi, count)
     b = np.stack([rng.uniform(0.2, 0.8, count), np.cos(angle), np.sin(angle)], axis=1)
     d = np.stack([rng.uniform(0.2, 0.8, count), -np.sin(angle), np.cos(angle)], axis=1)
-    points = np.stack([np.broadcast_to(a, b.shape), b, np.broadcast_to(c, b.shape), d], axis=1).reshape(-1, 3)
+    points = np.stack(
+        [np.broadcast_to(a, b.shape), b, np.broadcast_to(c, b.shape), d], axis=1
+    ).reshape(-1, 3)
     points = (points @ rotation(3).T + rng.uniform(-3.0, 3.0, 3)).astype(np.float32)
     quads = np.arange(len(points)).reshape(-1, 4)
     flips = flipped_quads(points, quads)
@@ -389,5 +435,7 @@ def test_area_of_slivers_keeps_its_digits():
     for height in (1e-6, 1e-8, 1e-12):
         points = np.array([(0, 0, 0), (1, 0, 0), (0.37, height, 0)])
         assert close(
-            polyhedron_moments(Surface(points, np.array([[0, 1, 2]])), area_order=0)[1].total, height / 2, rel=1e-15
+            polyhedron_moments(Surface(points, np.array([[0, 1, 2]])), area_order=0)[1].total,
+            height / 2,
+            rel=1e-15,
         )

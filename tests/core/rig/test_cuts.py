@@ -43,7 +43,9 @@ def test_pieces_are_closed_and_their_moments_add_up_to_the_whole(name):
     pieces = cut(character)
     assert len(pieces) == len(character.bones) and all(is_closed(piece.surface) for piece in pieces)
     assert sum(piece.face_count for piece in pieces) == len(character.triangles)
-    whole, _ = polyhedron_moments(Surface.from_triangles(character.points, character.triangles), exact=True)
+    whole, _ = polyhedron_moments(
+        Surface.from_triangles(character.points, character.triangles), exact=True
+    )
     total = sum_moments([piece.moments() for piece in pieces]).about_point(whole.about)
     degree = monomials(3).sum(axis=1)
     for n in range(4):
@@ -78,19 +80,26 @@ def test_a_skeleton_of_boxes_gives_each_bone_its_box(cells):
         assert np.abs(body.inertia - tensor).max() <= 1e-12 * tensor.max()
 
 
-@pytest.mark.parametrize("turn", [np.eye(3), np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1.0]]), np.diag([-1.0, 1, 1])])
+@pytest.mark.parametrize(
+    "turn", [np.eye(3), np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1.0]]), np.diag([-1.0, 1, 1])]
+)
 def test_a_chain_of_cylinders_gives_each_bone_its_cylinder(turn):
     lengths, radius, sides = (1.0, 2.5, 0.75), 0.5, 24
     character = made.cylinder_chain(lengths, radius, sides).moved(turn, (10.0, 20.0, -5.0))
     angle = 2.0 * np.pi / sides
     area = sides / 2.0 * radius**2 * np.sin(angle)
-    polar = area * radius**2 * (2.0 + np.cos(angle)) / 6.0  # the second moment of a regular polygon about its center
+    polar = (
+        area * radius**2 * (2.0 + np.cos(angle)) / 6.0
+    )  # the second moment of a regular polygon about its center
     start = 0.0
     for piece, length in zip(cut(character), lengths, strict=True):
         assert is_closed(piece.surface)
         body = MassProperties.from_moments(piece.moments())
         center = turn @ [start + length / 2.0, 0.0, 0.0] + (10.0, 20.0, -5.0)
-        assert close(body.mass, area * length, 1e-12) and np.abs(body.center - center).max() <= 1e-12 * 20.0
+        assert (
+            close(body.mass, area * length, 1e-12)
+            and np.abs(body.center - center).max() <= 1e-12 * 20.0
+        )
         across = polar * length / 2.0 + area * length * length**2 / 12.0
         tensor = turn @ np.diag([polar * length, across, across]) @ turn.T
         assert np.abs(body.inertia - tensor).max() <= 1e-12 * np.abs(tensor).max()
@@ -101,7 +110,9 @@ def test_faces_without_weights_go_with_the_nearest_bone():
     character = made.humanoid(unweighted=range(10_000))
     faces, corners = character.corners
     assert len(character.weights.unweighted(len(character.points))) == len(character.points)
-    bone, by_distance = dominant_bones(faces, corners, character.points, character.weights, character.bones)
+    bone, by_distance = dominant_bones(
+        faces, corners, character.points, character.weights, character.bones
+    )
     assert len(by_distance) == len(character.quads)
     centers = character.points[character.quads].mean(axis=1)
     hand = centers[:, 0] > 5.5
@@ -113,7 +124,10 @@ def test_cut_is_closed_to_its_centroid_at_any_place():
     count, shift = 1 << 14, np.array([2.0**30, -(2.0**31), 2.0**29])
     angle = 2.0 * np.pi / count * np.arange(count)
     ring = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)
-    points = np.round(np.concatenate([ring, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]]) * 2**20) / 2**20 + shift
+    points = (
+        np.round(np.concatenate([ring, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]]) * 2**20) / 2**20
+        + shift
+    )
     here = np.arange(count)
     after = (here + 1) % count
     upper, lower = (
@@ -129,7 +143,9 @@ def test_piece_bounds_include_the_storage_of_points():
     bone = np.arange(len(triangles)) % 2
     moved = np.array([1e-3, 2e-3, 5e-4])
     for exact, stored in zip(
-        bone_pieces(points, triangles, bone), bone_pieces(points, triangles, bone, displacement=moved), strict=True
+        bone_pieces(points, triangles, bone),
+        bone_pieces(points, triangles, bone, displacement=moved),
+        strict=True,
     ):
         assert not exact.moments().input_error.any()
         same = Surface(exact.surface.points, exact.surface.triangles, displacement=moved)
@@ -143,8 +159,12 @@ def test_a_cut_far_from_the_origin_is_as_exact_as_near():
     bone, _ = dominant_bones(faces, corners, character.points, character.weights, character.bones)
     near = np.round(character.points * 2**20) / 2**20  # so that the shift is exact
     pieces = [
-        bone_pieces(points, character.triangles, np.repeat(bone, 2)) for points in (near, near + (4096, -8192, 2048))
+        bone_pieces(points, character.triangles, np.repeat(bone, 2))
+        for points in (near, near + (4096, -8192, 2048))
     ]
     for first, second in zip(*pieces):
         a, b = (MassProperties.from_moments(piece.moments()) for piece in (first, second))
-        assert close(a.mass, b.mass, 1e-11) and np.abs(a.inertia - b.inertia).max() <= 1e-11 * np.abs(a.inertia).max()
+        assert (
+            close(a.mass, b.mass, 1e-11)
+            and np.abs(a.inertia - b.inertia).max() <= 1e-11 * np.abs(a.inertia).max()
+        )

@@ -40,7 +40,9 @@ def course(masses, local, spread, turns, path, step=STEP):
     local = local - np.einsum("p,fpi->fi", masses, local)[:, None] / np.sum(masses)
     centers = path[:, None] + np.einsum("fij,fpj->fpi", turns, local)
     linear = np.broadcast_to(turns[:, None], (frames, parts, 3, 3))
-    return Course(step, np.array(masses), centers, linear @ spread @ linear.swapaxes(-1, -2), linear)
+    return Course(
+        step, np.array(masses), centers, linear @ spread @ linear.swapaxes(-1, -2), linear
+    )
 
 
 def tucking(turns=None, path=FALL):
@@ -69,14 +71,20 @@ def test_thrown_tumbling_top_keeps_its_momenta(size):
     inertia = np.trace(spread) * np.eye(3) - spread
     kept = TILT @ inertia @ [6.0, 0.0, 5.0]
     # Euler's solution: the axis turns about the momentum, and the top about its axis.
-    turns = turn(kept, np.linalg.norm(kept) / 0.6 * TIME) @ TILT @ turn([0, 0, 1], 5.0 * (1.0 - 1.0 / 0.6) * TIME)
+    turns = (
+        turn(kept, np.linalg.norm(kept) / 0.6 * TIME)
+        @ TILT
+        @ turn([0, 0, 1], 5.0 * (1.0 - 1.0 / 0.6) * TIME)
+    )
     top = course([2.0], [[0.0, 0.0, 0.0]], size**2 * spread, turns, size * FALL)
     now, change = momenta(top, [(0, FRAMES - 1)])
     falling = size * (VELOCITY + GRAVITY * TIME[:, None])
     assert np.abs(now[:, 3:6] - size**2 * kept).max() < 1e-6 * size**2 * np.linalg.norm(kept)
     assert np.abs(now[:, :3] - falling).max() < 1e-9 * size * 5.0
     assert np.abs(change[:, :3] - size * GRAVITY).max() < 1e-6 * size * 9.81
-    energy = (falling**2).sum(axis=1) + 0.5 * size**2 * kept @ TILT @ np.linalg.solve(inertia, TILT.T @ kept)
+    energy = (falling**2).sum(axis=1) + 0.5 * size**2 * kept @ TILT @ np.linalg.solve(
+        inertia, TILT.T @ kept
+    )
     assert np.abs(now[:, 6] - energy).max() < 1e-6 * energy.max()
     assert find_unexplained(top, [(0, FRAMES - 1)], size * GRAVITY) == []
 
@@ -91,7 +99,9 @@ def test_momenta_of_moving_parts_are_those_of_particles():
         local = np.zeros((2, 3, 3))
         local[:, 1, 0], local[:, 2, 0], local[:, 2, 1] = arm, -arm, 0.3 * arm
         turns, path = TILT @ turn([0, 0, 1], 3.0 * time), np.zeros((2, 3))
-        exact = discrete_momentum(course([4.0, 1.0, 1.5], local, np.diag([0.02, 0.05, 0.1]), turns, path, fine))[0]
+        exact = discrete_momentum(
+            course([4.0, 1.0, 1.5], local, np.diag([0.02, 0.05, 0.1]), turns, path, fine)
+        )[0]
         assert np.abs(now[place, 3:6] - exact).max() < 1e-3 * np.linalg.norm(exact)
 
 
@@ -121,7 +131,11 @@ def recorded_jump(rate, noise, gravity=GRAVITY):
     random, fine, seconds = np.random.default_rng(8), 1.0 / 4800.0, 0.7
     masses = np.array([30.0, 15.0, 12.0, 18.0])
     places = np.array([[0.0, 0.0, 1.0], [0.1, 0.0, 1.5], [-0.1, 0.3, 0.7], [0.0, -0.2, 0.4]])
-    speeds = np.array([1.0, 0.5, 3.4]) + np.cross([1.0, 2.0, 0.5], places - places[0]) + random.normal(0.0, 0.5, (4, 3))
+    speeds = (
+        np.array([1.0, 0.5, 3.4])
+        + np.cross([1.0, 2.0, 0.5], places - places[0])
+        + random.normal(0.0, 0.5, (4, 3))
+    )
     lengths = np.linalg.norm(places[:, None] - places, axis=2)
     kept = []
     for step in range(round(seconds / fine) + 1):
@@ -166,6 +180,10 @@ def test_zero_moment_point_of_a_tipping_force():
     weight = 5.0 * GRAVITY
     still = zero_moment_points(center, height, np.zeros((1, 3)), np.zeros((1, 3)), weight)
     assert np.abs(still - [1.0, 2.0, 0.0]).max() < 1e-12
-    pushed = zero_moment_points(center, height, np.array([[5.0, 0.0, 0.0]]), np.zeros((1, 3)), weight)
+    pushed = zero_moment_points(
+        center, height, np.array([[5.0, 0.0, 0.0]]), np.zeros((1, 3)), weight
+    )
     assert np.abs(pushed - [1.0 - 3.0 / 9.81, 2.0, 0.0]).max() < 1e-12
-    assert np.isnan(zero_moment_points(center, height, weight[None], np.zeros((1, 3)), weight)).all()
+    assert np.isnan(
+        zero_moment_points(center, height, weight[None], np.zeros((1, 3)), weight)
+    ).all()

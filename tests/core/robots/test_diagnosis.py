@@ -27,13 +27,35 @@ from tests.close import close
 from tests.core import bodies
 
 MASS, DENSITY = 2.3, 1234.5
-CENTER, ORIGIN, ANGLES = np.array([0.21, -0.34, 0.55]), np.array([-0.1, 0.45, 0.3]), (0.4, -0.7, 1.1)
+CENTER, ORIGIN, ANGLES = (
+    np.array([0.21, -0.34, 0.55]),
+    np.array([-0.1, 0.45, 0.3]),
+    (0.4, -0.7, 1.1),
+)
 AXES = bodies.rotation(5)
 INERTIA = MASS * AXES @ np.diag([0.017, 0.029, 0.036]) @ AXES.T
 TRUTH = StatedInertial(MASS, CENTER, INERTIA)
 REFERENCE = Reference(MASS / DENSITY, CENTER, INERTIA / MASS, (ORIGIN,))
-LENGTH_UNITS = (1e-3, 1e-2, 0.0254, 1e3, 1e2, 1.0 / 0.0254)  # mm, cm, inches, and the other way round
-INERTIA_UNITS = (1e-3, 1e-6, 1e-9, 1e-4, 1e-7, 1e3, 1e6, 1e9, 1e4, 1e7)  # g·m², kg·mm², g·mm², kg·cm², g·cm²
+LENGTH_UNITS = (
+    1e-3,
+    1e-2,
+    0.0254,
+    1e3,
+    1e2,
+    1.0 / 0.0254,
+)  # mm, cm, inches, and the other way round
+INERTIA_UNITS = (
+    1e-3,
+    1e-6,
+    1e-9,
+    1e-4,
+    1e-7,
+    1e3,
+    1e6,
+    1e9,
+    1e4,
+    1e7,
+)  # g·m², kg·mm², g·mm², kg·cm², g·cm²
 
 
 def square(arm):
@@ -63,10 +85,22 @@ def mistakes():
     for factor in INERTIA_UNITS:
         yield "unit", {"part": "inertia", "factor": factor}, of_inertia(INERTIA / factor)
     for factor in LENGTH_UNITS:
-        yield "unit", {"part": "center of mass", "factor": factor}, of_inertia(INERTIA, CENTER / factor)
+        yield (
+            "unit",
+            {"part": "center of mass", "factor": factor},
+            of_inertia(INERTIA, CENTER / factor),
+        )
         if factor != INCH:
-            yield "unit", {"part": LENGTHS, "factor": factor}, of_inertia(INERTIA / factor**2, CENTER / factor)
-    yield "unit", {"part": "mass, which is in pounds,", "factor": POUND}, replace(TRUTH, mass=MASS / POUND)
+            yield (
+                "unit",
+                {"part": LENGTHS, "factor": factor},
+                of_inertia(INERTIA / factor**2, CENTER / factor),
+            )
+    yield (
+        "unit",
+        {"part": "mass, which is in pounds,", "factor": POUND},
+        replace(TRUTH, mass=MASS / POUND),
+    )
     for factor in IMPERIAL_INERTIAS:
         yield "unit", {"part": "inertia", "factor": factor}, of_inertia(INERTIA / factor)
     in_pounds = {"factor": IMPERIAL_INERTIAS[0]}
@@ -77,7 +111,11 @@ def mistakes():
     yield "inertia_of_unit", {"part": "density", "factor": DENSITY}, of_inertia(INERTIA / DENSITY)
     yield "inertia_elsewhere", {"part": "link"}, of_inertia(INERTIA + square(CENTER))
     yield "inertia_shifted_twice", {}, of_inertia(INERTIA - square(CENTER))
-    yield "inertia_elsewhere", {"part": "mesh", "point": ORIGIN.tolist()}, of_inertia(INERTIA + square(CENTER - ORIGIN))
+    yield (
+        "inertia_elsewhere",
+        {"part": "mesh", "point": ORIGIN.tolist()},
+        of_inertia(INERTIA + square(CENTER - ORIGIN)),
+    )
     turn = rotation_of_angles(*ANGLES)
     for unit, wanted, convert in (("degrees", "radians", degrees), ("radians", "degrees", radians)):
         angles = tuple(map(convert, ANGLES))
@@ -93,7 +131,10 @@ def mistakes():
     for signs in list(product((1.0, -1.0), repeat=3))[1:]:
         is_wrong = np.array(signs) < 0.0
         names = [*compress(("xy", "xz", "yz"), is_wrong)]
-        values, along_link = {"part": "products of inertia", "axes": names}, with_products(signs, INERTIA)
+        values, along_link = (
+            {"part": "products of inertia", "axes": names},
+            with_products(signs, INERTIA),
+        )
         yield "sign", values, of_inertia(along_link)
         for tensor in (with_products(signs, own.tensor), turn.T @ along_link @ turn):
             yield "sign", values, replace(own, tensor=tensor)
@@ -124,7 +165,9 @@ def mistakes():
         ):
             yield "order", {"part": part, "order": names}, stated
     moments, axes = np.linalg.eigh(INERTIA)
-    for order, signs in product(permutations(range(3)), ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1))):
+    for order, signs in product(
+        permutations(range(3)), ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1))
+    ):
         rows = np.diag(signs) @ axes[:, order].T  # the tensor's own axes may then point either way
         tensor = rows @ np.diag(moments[list(order)]) @ rows.T
         if np.abs(tensor - INERTIA).max() > 1e-3:  # the axes are all but symmetric
@@ -139,9 +182,16 @@ def said(stated=TRUTH, *references, otherwise=()):
 def test_two_mistakes_are_both_named():
     """A wrong center beside another mistake: each has its change, and the second one the inertial of both."""
     for wrong in (CENTER / 1e-2, CENTER * (1, -1, 1), CENTER[[1, 0, 2]]):
-        for tensor in (INERTIA / 1e-6, INERTIA + square(CENTER), with_products((-1, -1, -1), INERTIA)):
+        for tensor in (
+            INERTIA / 1e-6,
+            INERTIA + square(CENTER),
+            with_products((-1, -1, -1), INERTIA),
+        ):
             first, second = diagnose(of_inertia(tensor, wrong), [REFERENCE])
-            assert first.finding.values["part"] in CENTERS and second.finding.values.get("part") not in CENTERS
+            assert (
+                first.finding.values["part"] in CENTERS
+                and second.finding.values.get("part") not in CENTERS
+            )
             assert REFERENCE.compare(second.repaired) < 1e-12
     uneven = of_inertia(INERTIA * 0.8, CENTER * (1, -1, 1))  # The mass is not spread evenly.
     assert [one.finding.code for one in diagnose(uneven, [REFERENCE])] == ["audit_not_uniform"]
@@ -174,7 +224,12 @@ def test_a_mesh_in_another_unit_shows_in_the_density(size):
         stated = {"part": WHOLE_IMPERIAL, "factor": IMPERIAL_INERTIAS[0]}
     assert said(TRUTH, replace(scaled, volume=MASS / DENSITY)) == ("unit", stated)
     mesh = "lengths of the mesh"
-    for density, part in ((9.0, stated["part"]), (11.0, mesh), (29e3, mesh), (31e3, stated["part"])):
+    for density, part in (
+        (9.0, stated["part"]),
+        (11.0, mesh),
+        (29e3, mesh),
+        (31e3, stated["part"]),
+    ):
         assert said(TRUTH, replace(scaled, volume=MASS / density * size**3))[1]["part"] == part
 
 
@@ -193,20 +248,35 @@ def test_impossible_density_is_reported(density, code, factor):
         assert not found
         return
     (found,) = found
-    assert found.finding.code == "audit_" + code and close(found.finding.values["density"], density, 1e-12)
+    assert found.finding.code == "audit_" + code and close(
+        found.finding.values["density"], density, 1e-12
+    )
     assert found.finding.values.get("factor") == factor
     if factor is None:
         assert found.repaired is None
     else:
         assert close(found.repaired.mass, MASS * factor, 1e-14)
-        assert close(found.repaired.inertia, INERTIA * factor, 1e-14) and (found.repaired.center == CENTER).all()
+        assert (
+            close(found.repaired.inertia, INERTIA * factor, 1e-14)
+            and (found.repaired.center == CENTER).all()
+        )
 
 
 def test_mass_unit_is_blamed_only_for_impossible_density():
-    for density, part in ((10.01, "mass"), (9.99, "inertia"), (9_990.0, "mass"), (10_010.0, "inertia")):
+    for density, part in (
+        (10.01, "mass"),
+        (9.99, "inertia"),
+        (9_990.0, "mass"),
+        (10_010.0, "inertia"),
+    ):
         code, values = said(replace(TRUTH, mass=MASS / 1e3), of_density(density))
         assert (code, values["part"]) == ("unit", part)
-    for density, part in ((29.9, "inertia"), (30.1, "mass"), (29_990.0, "mass"), (30_010.0, "inertia")):
+    for density, part in (
+        (29.9, "inertia"),
+        (30.1, "mass"),
+        (29_990.0, "mass"),
+        (30_010.0, "inertia"),
+    ):
         code, values = said(replace(TRUTH, mass=MASS * 1e3), of_density(density))
         assert (code, values["part"]) == ("unit", part)
 
@@ -215,6 +285,9 @@ def test_mass_unit_is_blamed_only_for_impossible_density():
 def test_a_number_of_a_file_keeps_its_decimals_in_another_unit(value):
     """A thousandth is a division by a thousand, not a product with 0.001, which rounds twice."""
     parts = [(1e-3, value / 1000.0), (1e-2, value / 100.0), (1e-6, value / 1e6)]
-    for factor, truth in (*parts, *((whole, value * whole) for whole in (1.0, 0.0254, 1000.0, 1e6, 1.5, 0.6))):
+    for factor, truth in (
+        *parts,
+        *((whole, value * whole) for whole in (1.0, 0.0254, 1000.0, 1e6, 1.5, 0.6)),
+    ):
         assert _times([value, -value], factor).tolist() == [truth, -truth]
     assert value * 1e-3 != value / 1000.0

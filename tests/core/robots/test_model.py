@@ -4,7 +4,15 @@
 
 import numpy as np
 import pytest
-from body_moments.core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, combine_inertials
+from body_moments.core.robots.model import (
+    FreeAxis,
+    Inertial,
+    Joint,
+    Link,
+    Pose,
+    Robot,
+    combine_inertials,
+)
 from body_moments.core.robots.stated import StatedInertial, rotation_of_angles
 
 from tests.close import close
@@ -16,7 +24,13 @@ Z = np.array([0.0, 0.0, 1.0])
 
 def inertial(seed, mass=1.7):
     axes, moments = bodies.rotation(seed), mass * np.array([0.2, 0.3, 0.4])
-    return Inertial(mass, np.random.default_rng(seed).normal(size=3), axes @ np.diag(moments) @ axes.T, moments, axes)
+    return Inertial(
+        mass,
+        np.random.default_rng(seed).normal(size=3),
+        axes @ np.diag(moments) @ axes.T,
+        moments,
+        axes,
+    )
 
 
 def pose(seed):
@@ -39,7 +53,9 @@ def test_nested_poses_compose_and_invert():
 def test_angles_turn_about_the_fixed_axes_x_then_y_then_z():
     roll, pitch, yaw = 0.3, -1.2, 2.2
     turns = [rotation_of_angles(*angles) for angles in ((roll, 0, 0), (0, pitch, 0), (0, 0, yaw))]
-    assert np.abs(rotation_of_angles(roll, pitch, yaw) - turns[2] @ turns[1] @ turns[0]).max() <= 1e-14
+    assert (
+        np.abs(rotation_of_angles(roll, pitch, yaw) - turns[2] @ turns[1] @ turns[0]).max() <= 1e-14
+    )
     for axis, (turn, angle) in enumerate(zip(turns, (roll, pitch, yaw))):
         following = np.roll(np.eye(3), axis + 1, axis=1)[0]
         across = np.roll(np.eye(3), axis + 2, axis=1)[0]
@@ -48,9 +64,14 @@ def test_angles_turn_about_the_fixed_axes_x_then_y_then_z():
 
 def test_inertial_stated_along_other_axes_is_turned():
     turn = bodies.rotation(4)
-    stated = StatedInertial(2.0, Z, np.diag([1.0, 2.0, 2.5]), turn, (1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0))
+    stated = StatedInertial(
+        2.0, Z, np.diag([1.0, 2.0, 2.5]), turn, (1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0)
+    )
     assert np.abs(stated.inertia - turn @ np.diag([1.0, 2.0, 2.5]) @ turn.T).max() <= 1e-14
-    for other, tensor in ((stated.along_link(), stated.inertia), (stated.along_link(np.eye(3)), np.eye(3))):
+    for other, tensor in (
+        (stated.along_link(), stated.inertia),
+        (stated.along_link(np.eye(3)), np.eye(3)),
+    ):
         assert (other.tensor == tensor).all() and (other.rotation == np.eye(3)).all()
         assert other.angles is None and other.quaternion is None and other.mass == 2.0
     assert stated.along_link(mass=5.0).mass == 5.0
@@ -72,7 +93,9 @@ def test_inertials_add_by_the_theorem_of_parallel_axes():
     mass = sum(part.mass for part in parts)
     center = sum(part.mass * part.center for part in parts) / mass
     arms = [part.center - center for part in parts]
-    tensor = sum(p.inertia + p.mass * (d @ d * np.eye(3) - np.outer(d, d)) for p, d in zip(parts, arms))
+    tensor = sum(
+        p.inertia + p.mass * (d @ d * np.eye(3) - np.outer(d, d)) for p, d in zip(parts, arms)
+    )
     assert close(total.mass, mass, 1e-14) and close(total.center, center, 1e-13)
     assert np.abs(total.inertia - tensor).max() <= 1e-13
     assert np.abs(total.axes @ np.diag(total.moments) @ total.axes.T - tensor).max() <= 1e-13
@@ -92,13 +115,20 @@ def test_principal_axes_not_matching_the_tensor_are_recomputed():
     true, off = inertial(3), bodies.rotation(1)
     exact = Inertial.with_agreeing_axes(1.7, true.center, true.inertia, true.moments, true.axes)
     assert (exact.axes == true.axes).all() and (exact.moments == true.moments).all()
-    agreeing = Inertial.with_agreeing_axes(1.7, true.center, true.inertia, np.array([1.0, 2.0, 3.0]), off)
-    assert np.abs(agreeing.axes @ np.diag(agreeing.moments) @ agreeing.axes.T - true.inertia).max() <= 1e-14
+    agreeing = Inertial.with_agreeing_axes(
+        1.7, true.center, true.inertia, np.array([1.0, 2.0, 3.0]), off
+    )
+    assert (
+        np.abs(agreeing.axes @ np.diag(agreeing.moments) @ agreeing.axes.T - true.inertia).max()
+        <= 1e-14
+    )
     assert np.linalg.det(agreeing.axes) > 0.0 and close(agreeing.moments, true.moments, 1e-14)
     tilt, rod_moments = rotation_of_angles(0.0, 0.0, 1e-9), np.array([3e-20, 1.0, 1.0 + 2.0**-51])
     rod = Inertial.with_agreeing_axes(1.0, Z, np.diag([1e-20, 1.0, 1.0]), rod_moments, tilt)
     assert rod.moments[0] == 3e-20 and rod.moments[2] <= rod.moments[0] + rod.moments[1]
-    other = Inertial.with_agreeing_axes(1.0, Z, np.diag([1e-20, 1.0, 1.0]), rod_moments[[0, 2, 2]], tilt)
+    other = Inertial.with_agreeing_axes(
+        1.0, Z, np.diag([1e-20, 1.0, 1.0]), rod_moments[[0, 2, 2]], tilt
+    )
     assert (other.moments == rod_moments[[0, 2, 2]]).all()  # agreeing moments stay as given
     for scale in (2.0**-40, 2.0**40):
         tensor, moments = agreeing.inertia * scale, np.array([1.0, 2.0, 3.0]) * scale
@@ -128,7 +158,12 @@ def test_a_ball_turns_about_three_axes_without_limits():
 def tree():
     links = [Link(name, inertial(k + 1), pose(k)) for k, name in enumerate("edcba")]
     links[1] = Link("d", None, pose(9))
-    joints = [Joint("1", "a", "b"), Joint("2", "a", "c", (free(),)), Joint("3", "b", "d"), Joint("4", "b", "e")]
+    joints = [
+        Joint("1", "a", "b"),
+        Joint("2", "a", "c", (free(),)),
+        Joint("3", "b", "d"),
+        Joint("4", "b", "e"),
+    ]
     return Robot("r", tuple(links), tuple(joints))
 
 
@@ -137,12 +172,17 @@ def test_links_are_walked_from_parents_to_children():
     assert [link.name for link in robot.roots] == ["a"]
     assert [link.name for link in robot.ordered()] == ["a", "c", "b", "e", "d"]
     assert [link.name for link in robot.children("b")] == ["e", "d"] and robot.children("e") == []
-    assert robot.joint_of("a") is None and robot.joint_of("c").name == "2" and robot.link("d").inertial is None
+    assert (
+        robot.joint_of("a") is None
+        and robot.joint_of("c").name == "2"
+        and robot.link("d").inertial is None
+    )
     root, below = robot.link("a"), robot.link("b")
     assert robot.pose_in_parent(root) is root.pose
     back = root.pose @ robot.pose_in_parent(below)
     assert (
-        close(back.position, below.pose.position, 1e-12) and np.abs(back.rotation - below.pose.rotation).max() < 1e-14
+        close(back.position, below.pose.position, 1e-12)
+        and np.abs(back.rotation - below.pose.rotation).max() < 1e-14
     )
 
 
@@ -154,7 +194,9 @@ def test_links_on_fixed_joints_are_one_body():
     heavy = [robot.link(name) for name in parts if name != "d"]
     truth = combine_inertials([link.inertial.place(to_link @ link.pose) for link in heavy])
     assert close(whole.mass, sum(link.inertial.mass for link in heavy), 1e-14)
-    assert np.abs(whole.inertia - truth.inertia).max() <= 1e-13 and close(whole.center, truth.center, 1e-13)
+    assert np.abs(whole.inertia - truth.inertia).max() <= 1e-13 and close(
+        whole.center, truth.center, 1e-13
+    )
     assert robot.rigid_inertial(robot.link("c")) is robot.link("c").inertial
     assert robot.rigid_inertial(robot.link("d")) is None
 

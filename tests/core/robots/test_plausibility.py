@@ -15,7 +15,10 @@ CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-
 
 def codes(mass, center, tensor, hull=None, **more):
     tensor = np.diag(tensor) if np.ndim(tensor) == 1 else np.array(tensor)
-    return [found.code for found in impossible(StatedInertial(mass, np.array(center, float), tensor, **more), hull)]
+    return [
+        found.code
+        for found in impossible(StatedInertial(mass, np.array(center, float), tensor, **more), hull)
+    ]
 
 
 @pytest.mark.parametrize("size", [1e-4, 1.0, 1e5])
@@ -32,14 +35,22 @@ def test_box_distance_covers_faces_edges_and_corners(size, sides):
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf])
 def test_invalid_numbers_are_reported_first(wrong):
-    assert codes(wrong, (0, 0, 0), (1, 1, 1)) == codes(1.0, (0, wrong, 0), (1, 1, 1)) == ["inertial_not_finite"]
+    assert (
+        codes(wrong, (0, 0, 0), (1, 1, 1))
+        == codes(1.0, (0, wrong, 0), (1, 1, 1))
+        == ["inertial_not_finite"]
+    )
     if np.isnan(wrong):
         assert codes(-1.0, (0, 0, 0), (1, 1, wrong)) == ["inertial_not_finite"]
 
 
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e9])
 def test_masses_and_moments_must_meet_positivity_and_triangle(scale):
-    assert codes(0.0, (0, 0, 0), (1, 1, 1)) == codes(-2.0, (0, 0, 0), (1, 1, 1)) == ["inertial_not_positive"]
+    assert (
+        codes(0.0, (0, 0, 0), (1, 1, 1))
+        == codes(-2.0, (0, 0, 0), (1, 1, 1))
+        == ["inertial_not_positive"]
+    )
     for tensor, said in (
         ((1.0, 1.0, 1.0), []),
         ((1.0, 1.0, 2.0), []),
@@ -67,22 +78,30 @@ def test_moment_within_rounding_is_called_zero(seed, scale):
     for moment, near in ((0.0, 0.0), (-1e-13, 0.1)):
         tensor = scale * np.diag([moment, 1.0, 1.0])
         (found,) = impossible(StatedInertial(1.0, np.zeros(3), tensor, bodies.rotation(seed)), None)
-        assert found.code == "inertial_not_positive" and close(found.values["value"], moment * scale, near)
+        assert found.code == "inertial_not_positive" and close(
+            found.values["value"], moment * scale, near
+        )
 
 
 def test_excess_spread_between_axes_is_found():
     """An octahedron is thinnest along the diagonals, of a third of the variance that it allows along its axes."""
     directions, draw = spread_directions(400), np.random.default_rng(2).normal(size=(1000, 3))
     assert directions.shape == (400, 3) and close((directions**2).sum(axis=1), 1.0, 1e-14)
-    assert np.abs(directions[:, 2] + directions[::-1, 2]).max() < 1e-14  # equally many below and above
+    assert (
+        np.abs(directions[:, 2] + directions[::-1, 2]).max() < 1e-14
+    )  # equally many below and above
     draw /= np.linalg.norm(draw, axis=1)[:, None]
     assert (draw @ directions.T).max(axis=1).min() > np.cos(0.14)
     assert (directions @ directions.T - 2.0 * np.eye(400)).max() < np.cos(0.15)
     octahedron = Hull(np.concatenate([np.eye(3), -np.eye(3)]))
-    (found,) = impossible(StatedInertial(1.0, np.zeros(3), np.eye(3)), octahedron)  # a variance of a half everywhere
+    (found,) = impossible(
+        StatedInertial(1.0, np.zeros(3), np.eye(3)), octahedron
+    )  # a variance of a half everywhere
     direction = np.array(found.values["direction"])
     assert found.code == "inertial_spread_outside" and close(direction @ direction, 1.0, 1e-12)
-    assert np.abs(direction).min() > 0.55 and close(found.values["factor"], 0.5 / np.abs(direction).max() ** 2, 1e-12)
+    assert np.abs(direction).min() > 0.55 and close(
+        found.values["factor"], 0.5 / np.abs(direction).max() ** 2, 1e-12
+    )
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
@@ -99,7 +118,9 @@ def test_center_must_lie_in_the_hull_with_limited_spread(size, turn):
     assert said(np.array([1.0 + 0.8 * step, 0, 0]), solid * 1e-6) == []
     assert said(np.array([1.0 + 1.2 * step, 0, 0]), solid * 1e-6) == ["inertial_center_outside"]
     assert said(np.zeros(3), solid) == []
-    corners = mass * size**2 * np.full(3, 2.0)  # all mass in the corners: variance 1 along each axis, which is the most
+    corners = (
+        mass * size**2 * np.full(3, 2.0)
+    )  # all mass in the corners: variance 1 along each axis, which is the most
     assert said(np.zeros(3), corners) == []
     assert said(np.zeros(3), corners * 1.1) == ["inertial_spread_outside"]
     most = 1.005 + 1e-3 * (hull.size / size) ** 2  # along x, and half of it across

@@ -5,7 +5,12 @@
 import numpy as np
 import pytest
 from body_moments.core.robots.model import Inertial
-from body_moments.core.robots.primitives import box_sides, capsule_size, ellipsoid_axes, equal_inertia_shape
+from body_moments.core.robots.primitives import (
+    box_sides,
+    capsule_size,
+    ellipsoid_axes,
+    equal_inertia_shape,
+)
 
 from tests.close import close
 from tests.core import bodies
@@ -36,12 +41,18 @@ def test_sides_and_semiaxes_match_closed_forms(size, mass):
     assert close(ellipsoid_axes(mass, moments_of(size, mass, 1 / 5)), size, 1e-9)
 
 
-@pytest.mark.parametrize("radius, length", [(1.0, 1.0), (0.5, 7.0), (2e-3, 1e-3), (30.0, 4e4), (1.0, 1e-3)])
+@pytest.mark.parametrize(
+    "radius, length", [(1.0, 1.0), (0.5, 7.0), (2e-3, 1e-3), (30.0, 4e4), (1.0, 1e-3)]
+)
 @pytest.mark.parametrize("mass", [1e-4, 50.0])
 def test_a_capsule_is_found_again_by_its_moments(radius, length, mass):
     along, across = capsule_moments(radius, length, mass)
     assert close(capsule_size(mass, np.array([along, across, across])), (radius, length), 1e-9)
-    uneven = np.array([along, 0.9 * across, 1.1 * across]) if along < 0.9 * across else np.array([along, *[across] * 2])
+    uneven = (
+        np.array([along, 0.9 * across, 1.1 * across])
+        if along < 0.9 * across
+        else np.array([along, *[across] * 2])
+    )
     assert close(capsule_size(mass, uneven), (radius, length), 1e-9)
 
 
@@ -49,7 +60,11 @@ def test_body_thicker_than_a_ball_becomes_the_mean_ball():
     for moments in ((0.4, 0.4, 0.4), (0.3, 0.3, 0.3 * (1.0 + 1e-15)), (0.5, 0.3, 0.3)):
         radius, length = capsule_size(2.0, np.array(moments))
         assert length < 1e-6 and close(2.0 * 2.0 / 5.0 * radius**2, np.mean(moments), 1e-6)
-    assert capsule_size(1.0, np.array([0.5, 0.3, 0.3]))[1] == 0.0 < capsule_size(1.0, np.array([0.2, 0.3, 0.3]))[1]
+    assert (
+        capsule_size(1.0, np.array([0.5, 0.3, 0.3]))[1]
+        == 0.0
+        < capsule_size(1.0, np.array([0.2, 0.3, 0.3]))[1]
+    )
 
 
 @pytest.mark.parametrize("moments", [(1.0, 1.0, 2.0), (0.0, 1.0, 1.0)])
@@ -77,5 +92,9 @@ def test_fitted_shape_has_pose_and_tensor_of_the_link(kind):
         "capsule": lambda: np.array(capsule_moments(*shape.size, mass))[[1, 1, 0]],
     }[kind]()
     turn = shape.pose.rotation
-    assert shape.kind == kind and (shape.pose.position == center).all() and close(np.linalg.det(turn), 1.0, 1e-12)
+    assert (
+        shape.kind == kind
+        and (shape.pose.position == center).all()
+        and close(np.linalg.det(turn), 1.0, 1e-12)
+    )
     assert np.abs(turn @ np.diag(own) @ turn.T - link.inertia).max() < 1e-9 * moments.max()

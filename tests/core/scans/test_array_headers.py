@@ -25,7 +25,13 @@ def array(version: int, length: int | None = None) -> bytes:
         return data
     size = LENGTH_BYTES[version]
     header, values = data[8 + size : -VALUES.nbytes], data[-VALUES.nbytes :]
-    return data[:8] + length.to_bytes(size, "little") + header.rstrip().ljust(length - 1) + b"\n" + values
+    return (
+        data[:8]
+        + length.to_bytes(size, "little")
+        + header.rstrip().ljust(length - 1)
+        + b"\n"
+        + values
+    )
 
 
 def packed(data: bytes) -> bytes:
@@ -60,12 +66,18 @@ def test_arrays_of_each_version_are_read(tmp_path, version, form):
         (3, 10_001, False),
     ],
 )
-def test_header_beyond_ten_thousand_bytes_is_refused_unread(tmp_path, monkeypatch, form, version, length, is_asked):
+def test_header_beyond_ten_thousand_bytes_is_refused_unread(
+    tmp_path, monkeypatch, form, version, length, is_asked
+):
     """NumPy reads all of it first."""
     asked = []
     for name in ("open_memmap", "read_array_header_1_0", "read_array_header_2_0"):
         plain = getattr(np.lib.format, name)
-        monkeypatch.setattr(np.lib.format, name, lambda *words, of=plain, **more: asked.append(0) or of(*words, **more))
+        monkeypatch.setattr(
+            np.lib.format,
+            name,
+            lambda *words, of=plain, **more: asked.append(0) or of(*words, **more),
+        )
     data = array(version, length)
     path = written(tmp_path / ("a." + form), data if form == "npy" else packed(data))
     if is_asked:

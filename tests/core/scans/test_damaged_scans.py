@@ -121,7 +121,9 @@ def test_a_flipped_bit_under_a_checksum_changes_no_number(tmp_path, name):
         bits = (*bits[:400], *random.Random(name).sample(bits[400:-1120], 500), *bits[-1120:])
     for bit in bits:
         found = files.flipped(bit)
-        assert found is None or found == files.whole, "byte {} of {}".format(bit // 8, len(files.data))
+        assert found is None or found == files.whole, "byte {} of {}".format(
+            bit // 8, len(files.data)
+        )
         refused += found is None
     assert refused > len(bits) // 3
 
@@ -131,13 +133,17 @@ def test_flipped_bit_without_checksum_keeps_the_sample_count(tmp_path, name):
     files = Files(tmp_path, name)
     for bit in range(0, 8 * len(files.data), 5):
         found = files.flipped(bit)
-        assert found is None or len(found[2]) == len(PAYLOAD), "byte {} of {}".format(bit // 8, len(files.data))
+        assert found is None or len(found[2]) == len(PAYLOAD), "byte {} of {}".format(
+            bit // 8, len(files.data)
+        )
 
 
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_file_cut_anywhere_is_refused(tmp_path, name):
     files = Files(tmp_path, name)
-    for length in range(len(files.data.rstrip(b"\0") if name == "nii.gz of members" else files.data)):
+    for length in range(
+        len(files.data.rstrip(b"\0") if name == "nii.gz of members" else files.data)
+    ):
         assert files.numbers(files.data[:length]) is None, length
 
 
@@ -145,7 +151,15 @@ def test_a_file_cut_anywhere_is_refused(tmp_path, name):
 def test_a_file_with_something_behind_it(tmp_path, name):
     files = Files(tmp_path, name)
     padding = [b"\0", bytes(samples.PACKED + 7), gzip.compress(b"")]
-    garbage = [b"x", b"\0x", b"\x1f", b"\x1f\x8b", bytes(samples.PACKED) + b"x", gzip.compress(b"1"), files.data]
+    garbage = [
+        b"x",
+        b"\0x",
+        b"\x1f",
+        b"\x1f\x8b",
+        bytes(samples.PACKED) + b"x",
+        gzip.compress(b"1"),
+        files.data,
+    ]
     for tail in padding + garbage:
         found = files.numbers(files.data + tail)
         if "npz" in name:  # an archive is found from its end, whatever stands around it
@@ -156,7 +170,11 @@ def test_a_file_with_something_behind_it(tmp_path, name):
 
 @pytest.mark.parametrize(
     "change",
-    [lambda data: data + b"1", lambda data: data + bytes(9 * samples.BLOCK), lambda data: data[:-1]],
+    [
+        lambda data: data + b"1",
+        lambda data: data + bytes(9 * samples.BLOCK),
+        lambda data: data[:-1],
+    ],
 )
 def test_a_whole_stream_of_another_length_is_refused(tmp_path, change):
     head = nrrd(VALUES, "byte skip: 2", encoding="gzip", head=False)
@@ -186,7 +204,11 @@ def damage_of(path) -> str:
         ("nii.gz", lambda data: data[:-1], "damage_cut_short"),
         ("nii.gz", lambda data: data + b"xx", "damage_incomplete"),
         ("nii.gz", lambda data: data[:10] + b"\xff" + data[11:], "damage_incomplete"),
-        ("npz stored", lambda data: data.replace(VALUES.tobytes(), VALUES[::-1].tobytes()), "damage_incomplete"),
+        (
+            "npz stored",
+            lambda data: data.replace(VALUES.tobytes(), VALUES[::-1].tobytes()),
+            "damage_incomplete",
+        ),
         ("npz stored", lambda data: data.replace(b"(3, 4, 5)", b"(3, 4, 4)"), "damage_incomplete"),
         ("nhdr gzip", lambda data: data[:-1], "damage_cut_short"),
         ("raw", lambda data: data[:-1], "damage_size"),
@@ -204,7 +226,9 @@ def test_refusal_names_the_file_the_damage_and_the_remedy(tmp_path, name, damage
 
 def test_samples_at_the_end_of_a_file_do_not_begin_in_its_header(tmp_path):
     head = nrrd(VALUES, "byte skip: -1", head=False)
-    assert np.array_equal(read_scan(written(tmp_path / "a.nrrd", head + b"12" + PAYLOAD)).samples, VALUES)
+    assert np.array_equal(
+        read_scan(written(tmp_path / "a.nrrd", head + b"12" + PAYLOAD)).samples, VALUES
+    )
     assert damage_of(written(tmp_path / "a.nrrd", head + PAYLOAD[1:])) == "damage_size"
 
 

@@ -75,7 +75,14 @@ def test_nrrd_type_names_are_known_and_need_a_byte_order(tmp_path, dtype, names)
 
 def test_the_keys_of_a_nrrd_file_and_its_comments_are_no_fields(tmp_path):
     """A field may contain the separator of a key."""
-    for line in (b"sizes:=9 9 9", b"type:= double", b"# sizes: 9 9 9", b"#sizes: 9 9 9", b"sizes 9 9 9", b"no:=a: b"):
+    for line in (
+        b"sizes:=9 9 9",
+        b"type:= double",
+        b"# sizes: 9 9 9",
+        b"#sizes: 9 9 9",
+        b"sizes 9 9 9",
+        b"no:=a: b",
+    ):
         data = nrrd(values()).replace(b"encoding: raw", line + b"\nencoding: raw\n" + line)
         assert np.array_equal(read_scan(written(tmp_path / "a.nrrd", data)).samples, values())
     with_both = nrrd(values(), "content: a:=b").replace(b"type: float", b"type: float:=")
@@ -83,7 +90,16 @@ def test_the_keys_of_a_nrrd_file_and_its_comments_are_no_fields(tmp_path):
 
 
 def test_units_are_in_meters(tmp_path):
-    sizes = {"m": 1.0, "meter": 1.0, "meters": 1.0, "cm": 1e-2, "nm": 1e-9, "in": 0.0254, "inch": 0.0254, "": None}
+    sizes = {
+        "m": 1.0,
+        "meter": 1.0,
+        "meters": 1.0,
+        "cm": 1e-2,
+        "nm": 1e-9,
+        "in": 0.0254,
+        "inch": 0.0254,
+        "": None,
+    }
     sizes["voxel"] = None
     sizes |= dict.fromkeys(("mm", "millimeter", "millimeters", " MM "), 1e-3)
     sizes |= dict.fromkeys(("um", "µm", "micron", "microns"), 1e-6)
@@ -93,9 +109,20 @@ def test_units_are_in_meters(tmp_path):
                 line = '{}: "{}" "{}" "{}"'.format(field, *[name] * 3).encode(code)
                 data = nrrd(values()).replace(b"# made for a test", line)
                 assert read_scan(written(tmp_path / "a.nrrd", data)).unit == unit
-    mixed = nrrd(values(), 'space units: "mm" "mm" "" "mm"'), nrrd(values(), 'space units: "mm" "mm" "mm" "s"')
+    mixed = (
+        nrrd(values(), 'space units: "mm" "mm" "" "mm"'),
+        nrrd(values(), 'space units: "mm" "mm" "mm" "s"'),
+    )
     assert [read_scan(written(tmp_path / "a.nrrd", data)).unit for data in mixed] == [None, 1e-3]
-    for code, unit in ((0, None), (1, 1.0), (2, 1e-3), (3, 1e-6), (8 + 2, 1e-3), (24 + 3, 1e-6), (4, None)):
+    for code, unit in (
+        (0, None),
+        (1, 1.0),
+        (2, 1e-3),
+        (3, 1e-6),
+        (8 + 2, 1e-3),
+        (24 + 3, 1e-6),
+        (4, None),
+    ):
         assert read_scan(written(tmp_path / "a.nii", nifti(values(), unit=code))).unit == unit
 
 
@@ -105,7 +132,9 @@ def test_units_are_in_meters(tmp_path):
 def test_nifti_of_every_type(tmp_path, kind, order, end):
     expected = values(order + kind)
     data = nifti(expected, spacing=(0.5, 0.25, 2))
-    scan = read_scan(written(tmp_path / ("a" + end), gzip.compress(data) if end == ".nii.gz" else data))
+    scan = read_scan(
+        written(tmp_path / ("a" + end), gzip.compress(data) if end == ".nii.gz" else data)
+    )
     assert np.array_equal(scan.samples, expected)
     assert np.array_equal(np.diag(scan.matrix), [0.5, 0.25, 2, 1])
     assert scan.is_placed and scan.unit == 1e-3
@@ -114,16 +143,22 @@ def test_nifti_of_every_type(tmp_path, kind, order, end):
 
 def test_nifti_placement_is_read(tmp_path):
     sform = [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]]
-    scan = read_scan(written(tmp_path / "s.nii", nifti(values(), sform=sform, quaternion=(0, 0, 0, 1, 2, 3))))
+    scan = read_scan(
+        written(tmp_path / "s.nii", nifti(values(), sform=sform, quaternion=(0, 0, 0, 1, 2, 3)))
+    )
     assert np.array_equal(scan.matrix[:3], sform)
     # half a turn about x (a = 0, b = 1), third axis mirrored
     turned = nifti(values(), spacing=(2, 3, 4), quaternion=(1, 0, 0, 5, 6, 7), qfac=-1.0)
     scan = read_scan(written(tmp_path / "q.nii", turned))
     assert np.array_equal(scan.matrix[:3], [[2, 0, 0, 5], [0, -3, 0, 6], [0, 0, 4, 7]])
-    turned = nifti(values(), spacing=(2, 3, 4), quaternion=(1, 0, 0, 5, 6, 7), qfac=0.0)  # zero stands for 1
+    turned = nifti(
+        values(), spacing=(2, 3, 4), quaternion=(1, 0, 0, 5, 6, 7), qfac=0.0
+    )  # zero stands for 1
     assert np.array_equal(read_scan(written(tmp_path / "q.nii", turned)).matrix[2], [0, 0, -4, 7])
     third = (1 / 3) ** 0.5 * np.sin(np.pi / 3)  # a third of a turn about (1, 1, 1): x to y to z
-    scan = read_scan(written(tmp_path / "t.nii", nifti(values(), quaternion=(third, third, third, 0, 0, 0))))
+    scan = read_scan(
+        written(tmp_path / "t.nii", nifti(values(), quaternion=(third, third, third, 0, 0, 0)))
+    )
     assert np.allclose(scan.matrix[:3, :3], [[0, 0, 1], [1, 0, 0], [0, 1, 0]], atol=1e-7)
 
 
@@ -138,17 +173,25 @@ def test_a_nifti_file_without_any_spacing_is_not_placed(tmp_path):
 
 def test_nifti_scales_and_has_a_fourth_dimension_of_one(tmp_path):
     for dims in (4, 7):
-        scan = read_scan(written(tmp_path / "a.nii", nifti(values("i2"), slope=2.0, intercept=-1024.0, dims=dims)))
+        scan = read_scan(
+            written(
+                tmp_path / "a.nii", nifti(values("i2"), slope=2.0, intercept=-1024.0, dims=dims)
+            )
+        )
         assert (scan.slope, scan.intercept) == (2.0, -1024.0)
         assert scan.samples.shape == (3, 4, 5)
     scan = read_scan(written(tmp_path / "a.nii", nifti(values(), slope=0.0, intercept=5.0)))
     assert (scan.slope, scan.intercept) == (1.0, 0.0)
-    assert np.array_equal(read_scan(written(tmp_path / "a.nii", nifti_with(72, "h", 0))).samples, values())
+    assert np.array_equal(
+        read_scan(written(tmp_path / "a.nii", nifti_with(72, "h", 0))).samples, values()
+    )
 
 
 def test_nrrd_placement_is_read(tmp_path):
     lines = "space: left-posterior-superior", "space directions: (0.5,0,0) (0.25,-2,0) (0,0.125,3)"
-    scan = read_scan(written(tmp_path / "a.nrrd", nrrd(values(), *lines, "space origin: (-9,8,7)", MILLIMETERS)))
+    scan = read_scan(
+        written(tmp_path / "a.nrrd", nrrd(values(), *lines, "space origin: (-9,8,7)", MILLIMETERS))
+    )
     assert np.array_equal(scan.matrix[:3], [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]])
     assert scan.is_placed and scan.unit == 1e-3
     for spacings in ("0.5 -2 3", "0.5 -2 3 nan"):
@@ -163,29 +206,71 @@ def test_nrrd_placement_is_read(tmp_path):
 @pytest.mark.parametrize(
     "lines, spacing, origin, unit",
     [
-        (("axis mins: 0 0 0", "axis maxs: 3 8 20", "centers: cell cell cell"), [1, 2, 4], [0.5, 1, 2], None),
-        (("axismins: 1 0 0", "axismaxs: 3 6 16", "centerings: node node node"), [1, 2, 4], [1, 0, 0], None),
+        (
+            ("axis mins: 0 0 0", "axis maxs: 3 8 20", "centers: cell cell cell"),
+            [1, 2, 4],
+            [0.5, 1, 2],
+            None,
+        ),
+        (
+            ("axismins: 1 0 0", "axismaxs: 3 6 16", "centerings: node node node"),
+            [1, 2, 4],
+            [1, 0, 0],
+            None,
+        ),
         (("axis mins: 0 0 0", "axis maxs: 3 8 20"), [1, 2, 4], [0.5, 1, 2], None),
-        (("spacings: 1 nan 4", "axis mins: 0 8 0", "axis maxs: 2 0 20"), [1, -2, 4], [0, 7, 2], None),
-        (("spacings: 1 2 4", "axis mins: 0 0 0", "centers: cell node ???"), [1, 2, 4], [0.5, 0, 0], None),
-        (("spacings: 1 2 nan", "thicknesses: 9 9 4", "centers: cell cell cell", "axis mins: 0 0 0"),)
+        (
+            ("spacings: 1 nan 4", "axis mins: 0 8 0", "axis maxs: 2 0 20"),
+            [1, -2, 4],
+            [0, 7, 2],
+            None,
+        ),
+        (
+            ("spacings: 1 2 4", "axis mins: 0 0 0", "centers: cell node ???"),
+            [1, 2, 4],
+            [0.5, 0, 0],
+            None,
+        ),
+        (
+            (
+                "spacings: 1 2 nan",
+                "thicknesses: 9 9 4",
+                "centers: cell cell cell",
+                "axis mins: 0 0 0",
+            ),
+        )
         + ([1, 2, 4], [0.5, 1, 2], None),
         (("thicknesses: 1 2 4", 'units: "mm" "mm" "mm"'), [1, 2, 4], [0, 0, 0], 1e-3),
-        (("spacings: 1 20 .4", 'units: "mm" "um" "cm"', "axis mins: 5 0 1"), [1e-3, 2e-5, 4e-3], [5e-3, 0, 0.01], 1),
+        (
+            ("spacings: 1 20 .4", 'units: "mm" "um" "cm"', "axis mins: 5 0 1"),
+            [1e-3, 2e-5, 4e-3],
+            [5e-3, 0, 0.01],
+            1,
+        ),
         (("spacings: 1 2 4", "units: mm in mm"), [1e-3, 0.0508, 4e-3], [0, 0, 0], 1),
     ],
 )
 def test_nrrd_axes_state_spacing_origin_and_unit(tmp_path, lines, spacing, origin, unit):
-    scan = read_scan(written(tmp_path / "a.nrrd", nrrd(values(), *lines, "kinds: domain Space ???")))
+    scan = read_scan(
+        written(tmp_path / "a.nrrd", nrrd(values(), *lines, "kinds: domain Space ???"))
+    )
     assert scan.is_placed and scan.unit == unit
     assert np.allclose(scan.matrix[:3], np.c_[np.diag(spacing), origin], rtol=1e-15, atol=0.0)
     findings = sample_matrix(scan, None, None, None)[1]
-    assert findings == (() if unit else (finding("scan_unstated", part="unit", option="unit-scale"),))
+    assert findings == (
+        () if unit else (finding("scan_unstated", part="unit", option="unit-scale"),)
+    )
 
 
 def test_nrrd_space_units_scale_the_coordinates(tmp_path):
-    lines = "space directions: (1,0,0) (1,2,0) (0,0,3) none", "space origin: (1,2,3)", 'space units: "m" "mm" "cm"'
-    data = nrrd(values(), *lines).replace(b"dimension: 3\nsizes: 3 4 5", b"dimension: 4\nsizes: 3 4 5 1")
+    lines = (
+        "space directions: (1,0,0) (1,2,0) (0,0,3) none",
+        "space origin: (1,2,3)",
+        'space units: "m" "mm" "cm"',
+    )
+    data = nrrd(values(), *lines).replace(
+        b"dimension: 3\nsizes: 3 4 5", b"dimension: 4\nsizes: 3 4 5 1"
+    )
     scan = read_scan(written(tmp_path / "a.nrrd", data))
     assert close(scan.matrix[:3], [[1, 1, 0, 1], [0, 2e-3, 0, 2e-3], [0, 0, 0.03, 0.03]], 1e-15)
     assert scan.unit == 1.0
@@ -196,7 +281,10 @@ def test_nrrd_space_units_scale_the_coordinates(tmp_path):
 @pytest.mark.parametrize(
     "lines, name",
     [
-        *((("kinds: {} domain domain".format(kind),), "kinds") for kind in ("vector", "3-color", "time", "list", "x")),
+        *(
+            (("kinds: {} domain domain".format(kind),), "kinds")
+            for kind in ("vector", "3-color", "time", "list", "x")
+        ),
         (("kinds: domain domain RGB-color",), "kinds"),
         (("kinds: domain domain",), "kinds"),
         (('units: "mm" "mm" "s"', "spacings: 1 1 1"), "units"),
@@ -210,17 +298,29 @@ def test_nrrd_space_units_scale_the_coordinates(tmp_path):
 def test_nrrd_axes_that_are_no_places_are_refused(tmp_path, lines, name):
     with pytest.raises(FileError) as caught:
         read_scan(written(tmp_path / "a.nrrd", nrrd(values(), *lines)))
-    assert (caught.value.finding.code, caught.value.finding.values["field"]) == ("header_field", name)
+    assert (caught.value.finding.code, caught.value.finding.values["field"]) == (
+        "header_field",
+        name,
+    )
 
 
 @pytest.mark.parametrize(
     "mins, origin",
-    [("1 2 3 nan", [1, 2, 3]), ("nan 2 3", [0] * 3), ("1 2 inf", [0] * 3), ("1 -inf 3", [0] * 3), ("1 2", [0] * 3)],
+    [
+        ("1 2 3 nan", [1, 2, 3]),
+        ("nan 2 3", [0] * 3),
+        ("1 2 inf", [0] * 3),
+        ("1 -inf 3", [0] * 3),
+        ("1 2", [0] * 3),
+    ],
 )
 def test_nrrd_with_an_incomplete_axis_begins_at_the_origin(tmp_path, mins, origin):
-    scan = read_scan(written(tmp_path / "a.nrrd", nrrd(values(), "spacings: 0.5 2 3", "axis mins: " + mins)))
+    scan = read_scan(
+        written(tmp_path / "a.nrrd", nrrd(values(), "spacings: 0.5 2 3", "axis mins: " + mins))
+    )
     assert np.array_equal(
-        scan.matrix, [[0.5, 0, 0, origin[0]], [0, 2, 0, origin[1]], [0, 0, 3, origin[2]], [0, 0, 0, 1]]
+        scan.matrix,
+        [[0.5, 0, 0, origin[0]], [0, 2, 0, origin[1]], [0, 0, 3, origin[2]], [0, 0, 0, 1]],
     )
 
 
@@ -257,7 +357,9 @@ def test_numpy_arrays_are_read(tmp_path, layout):
     np.savez_compressed(tmp_path / "a.npz", table=np.eye(3), other=expected + 1, density=expected)
     scan = read_scan(tmp_path / "a.npz")
     assert np.array_equal(scan.samples, expected)
-    assert scan.findings == (finding("others_left_out", kind="array", name="density", others=["other"]),)
+    assert scan.findings == (
+        finding("others_left_out", kind="array", name="density", others=["other"]),
+    )
 
 
 @pytest.mark.parametrize(
@@ -292,16 +394,27 @@ def test_archive_of_python_objects_is_refused_and_runs_nothing(tmp_path):
 def test_placement_decision_is_reported(given):
     """Every combination of the file's and the user's values."""
     has_unit, is_placed, *asked = given
-    own = np.array([[2.0, 0.5, 0.0, 7.0], [0.0, 3.0, 0.0, 8.0], [0.0, 0.0, 4.0, 9.0], [0.0, 0.0, 0.0, 1.0]])
+    own = np.array(
+        [[2.0, 0.5, 0.0, 7.0], [0.0, 3.0, 0.0, 8.0], [0.0, 0.0, 4.0, 9.0], [0.0, 0.0, 0.0, 1.0]]
+    )
     scan = Scan(values(), own, 1e-3 if has_unit else None, is_placed)
-    spacing, origin, unit = (value if one else None for one, value in zip(asked, ((1, 2, 3), (4, 5, 6), 0.1)))
+    spacing, origin, unit = (
+        value if one else None for one, value in zip(asked, ((1, 2, 3), (4, 5, 6), 0.1))
+    )
     matrix, findings = sample_matrix(scan, spacing, origin, unit)
     scale = 1e-3 if has_unit else unit or 1.0
     linear = own[:3, :3] * scale if spacing is None else np.diag(spacing) * (unit or 1.0)
     offset = own[:3, 3] * scale if origin is None else np.array(origin) * (unit or 1.0)
-    assert np.array_equal(matrix[:3], np.column_stack([linear, offset])) and matrix[3].tolist() == [0, 0, 0, 1]
+    assert np.array_equal(matrix[:3], np.column_stack([linear, offset])) and matrix[3].tolist() == [
+        0,
+        0,
+        0,
+        1,
+    ]
     assert own[0, 0] == 2.0
-    fields = [name for name, value in (("spacing", spacing), ("origin", origin)) if value is not None]
+    fields = [
+        name for name, value in (("spacing", spacing), ("origin", origin)) if value is not None
+    ]
     said = [finding("scan_own_unit")] if has_unit and unit else []
     said += [finding("scan_placement_overridden", fields=fields)] if is_placed and fields else []
     if spacing is None and not is_placed:
@@ -346,7 +459,9 @@ def rotation(text):
 def directions(text, shown=None):
     """A header with these directions, and its refusal for their count, or for the one that is shown."""
     wanted = "vectors of three numbers" if shown else "three vectors"
-    return nrrd(values(), "space directions: " + text), field("space directions", wanted, shown or text)
+    return nrrd(values(), "space directions: " + text), field(
+        "space directions", wanted, shown or text
+    )
 
 
 def nifti_with(offset: int, form: str, *numbers) -> bytes:
@@ -376,7 +491,10 @@ DAMAGED_NIFTI = [
     (nifti_with(40, "h", 1), ("scan_size", {"samples": [3]})),
     (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), ("scan_size", {"samples": [3, 4, 5, 2]})),
     (nifti_with(42, "h", -3), ("scan_size", {"samples": [-3, 4, 5]})),
-    (nifti_with(42, "3h", 32767, 32767, 32767), damage("damage_size", bytes=240, total=140724603846652)),
+    (
+        nifti_with(42, "3h", 32767, 32767, 32767),
+        damage("damage_size", bytes=240, total=140724603846652),
+    ),
     (nifti_with(70, "h", 32), ("scan_sample_type", {"type": "NIfTI 32"})),
     (nifti_with(72, "h", 7), nifti_field("bitpix", "the size of its data type", "7")),
     (nifti_with(108, "f", float("nan")), offset("nan")),
@@ -389,7 +507,10 @@ DAMAGED_NIFTI = [
     (nifti(values(), quaternion=(0, 0, 0, 0, np.inf, 0)), rotation("0 0 0 0 inf 0")),
     (nifti_with(112, "f", float("inf")), scaling("inf 0")),
     (nifti_with(112, "2f", 1.0, float("inf")), scaling("1 inf")),
-    (nifti(values(), spacing=(0, 0, 0), quaternion=(0, 0, 0, 1, 2, 3)), spacings("0 0 0", "pixdim", "NIfTI")),
+    (
+        nifti(values(), spacing=(0, 0, 0), quaternion=(0, 0, 0, 1, 2, 3)),
+        spacings("0 0 0", "pixdim", "NIfTI"),
+    ),
     (nifti_with(80, "f", 0.0), spacings("0 1 1", "pixdim", "NIfTI")),
     (nifti(values(), sform=np.zeros((3, 4))), placement(" ".join("0" * 12))),
     (nifti(values(), sform=np.full((3, 4), np.nan)), placement(" ".join(["nan"] * 12))),
@@ -410,19 +531,28 @@ DAMAGED_NRRD = [
     (nrrd_with("sizes: 3 4 5", "sizes: 3 4 0_5"), field("sizes", "a list of numbers", "3 4 0_5")),
     (nrrd(values(), "spacings: 1 2_0 1"), field("spacings", "a list of numbers", "1 2_0 1")),
     (nrrd_with("sizes: 3 4 5", "sizes: 3 4 -5"), ("scan_size", {"samples": [3, 4, -5]})),
-    (nrrd_with("sizes: 3 4 5", "sizes: 3 4 5000000000000"), ("scan_size", {"samples": [3, 4, 5000000000000]})),
+    (
+        nrrd_with("sizes: 3 4 5", "sizes: 3 4 5000000000000"),
+        ("scan_size", {"samples": [3, 4, 5000000000000]}),
+    ),
     (nrrd_with("dimension: 3", "dimension: 4"), field("dimension", "the count of “sizes”", "4")),
     (nrrd_with("encoding: raw", "encoding: bzip2"), field("encoding", "raw or gzip", "bzip2")),
     (nrrd_with("encoding: raw", "encoding: gzip"), NOT_GZIP),
     (NEGATIVE_SKIP, field("byte skip", "one number, not negative", "-1")),
     (nrrd_with("endian: little\n", ""), field("endian", "little or big", "")),
-    *((nrrd(values(), "spacings: " + text), spacings(text)) for text in ("1 0 1", "1 2", "nan nan nan")),
+    *(
+        (nrrd(values(), "spacings: " + text), spacings(text))
+        for text in ("1 0 1", "1 2", "nan nan nan")
+    ),
     (FLAT_DIRECTIONS, placement("1 2 0 0 0 0 0 0 0 0 1 0", ".nrrd")),
     directions("(1,0,0) (0,1,0)"),
     directions("(1,0,0) (0,1,0) (0,0)", "(0,0)"),
     directions("(1,0,0) (0,1_0,0) (0,0,1)", "(0,1_0,0)"),
     *(
-        (nrrd(values(), "data file: " + name), ("named_file_missing", {"file": name, "content": "samples"}))
+        (
+            nrrd(values(), "data file: " + name),
+            ("named_file_missing", {"file": name, "content": "samples"}),
+        )
         for name in ("nowhere.raw", "a b c")
     ),
     *(
@@ -461,7 +591,9 @@ def test_first_volume_of_an_archive_is_taken(tmp_path):
     np.savez(tmp_path / "a.npz", table=np.eye(3), first=values(), second=values() + 1)
     scan = read_scan(tmp_path / "a.npz")
     assert np.array_equal(scan.samples, values())
-    assert scan.findings == (finding("others_left_out", kind="array", name="first", others=["second"]),)
+    assert scan.findings == (
+        finding("others_left_out", kind="array", name="first", others=["second"]),
+    )
     np.savez(tmp_path / "a.npz", first=values(), density=np.eye(3))
     scan = read_scan(tmp_path / "a.npz")
     assert np.array_equal(scan.samples, values()) and scan.findings == ()
@@ -487,7 +619,9 @@ def test_an_archive_cannot_promise_more_than_it_holds(tmp_path, shape):
 SEEDS = {
     ".npy": npy_bytes(),
     ".npz": npz_bytes(),
-    ".nrrd": nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0,1)", "byte skip: 0", MILLIMETERS),
+    ".nrrd": nrrd(
+        values(), "space directions: (1,0,0) (0,1,0) (0,0,1)", "byte skip: 0", MILLIMETERS
+    ),
     ".nrrd gzip": nrrd(values(), "spacings: 1 1 1", encoding="gzip"),
     ".nii": nifti(values(), quaternion=(0, 0, 0.5, 1, 2, 3)),
     ".nii.gz": gzip.compress(nifti(values())),
@@ -510,7 +644,9 @@ def test_damage_anywhere_gives_a_refusal_or_an_array(tmp_path, name):
             elif action == 1:
                 damaged[place] ^= 1 << rng.randrange(8)
             elif action == 2:
-                damaged[place:place] = rng.choice((b"9", b"-", b"\n", b"\0", b"99999999", b"nan", b"(", b"\xff"))
+                damaged[place:place] = rng.choice(
+                    (b"9", b"-", b"\n", b"\0", b"99999999", b"nan", b"(", b"\xff")
+                )
             elif len(damaged) > 1:
                 del damaged[place : place + rng.choice((1, 4, 100))]
             if not damaged:

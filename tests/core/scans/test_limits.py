@@ -68,12 +68,18 @@ NEEDS = {
     "entries": [("a.npz", npz(*[npy()] * 3), 3)],
     "header_bytes": [
         ("a.nrrd", nrrd(VALUES), len(nrrd(VALUES, head=False))),
-        ("a.nrrd", nrrd(VALUES, "# " + 70_000 * "x"), len(nrrd(VALUES, "# " + 70_000 * "x", head=False))),
+        (
+            "a.nrrd",
+            nrrd(VALUES, "# " + 70_000 * "x"),
+            len(nrrd(VALUES, "# " + 70_000 * "x", head=False)),
+        ),
     ],
 }
 
 
-@pytest.mark.parametrize("name, file, data, needed", [(name, *row) for name, rows in NEEDS.items() for row in rows])
+@pytest.mark.parametrize(
+    "name, file, data, needed", [(name, *row) for name, rows in NEEDS.items() for row in rows]
+)
 def test_a_file_at_a_limit_is_read_and_one_beyond_is_refused(tmp_path, name, file, data, needed):
     path = written(tmp_path / file, data)
     assert np.array_equal(read_scan(path, replace(Limits(), **{name: needed})).samples, VALUES)
@@ -87,7 +93,9 @@ def test_a_file_at_a_limit_is_read_and_one_beyond_is_refused(tmp_path, name, fil
     )
     assert values["count"] >= needed and values["next"] >= values["count"]
     assert "BODY_MOMENTS_LIMITS to {}={}".format(name, values["next"]) in str(found)
-    assert np.array_equal(read_scan(path, replace(Limits(), **{name: values["next"]})).samples, VALUES)
+    assert np.array_equal(
+        read_scan(path, replace(Limits(), **{name: values["next"]})).samples, VALUES
+    )
 
 
 def test_raw_samples_of_a_given_shape_are_limited(tmp_path):
@@ -111,7 +119,9 @@ def test_small_files_claiming_terabytes_are_refused_at_once(tmp_path):
     deep = npy().replace(b"'shape': (3, 4, 5)", b"'shape': " + b"(" * 9)
     packer = gzip.compress(bytes(1 << 24))
     packed = packer * (1 << 8)  # 4 GiB and more in 4 MB
-    head = nrrd(VALUES, encoding="gzip", head=False).replace(b"sizes: 3 4 5", b"sizes: 2048 1024 1025")
+    head = nrrd(VALUES, encoding="gzip", head=False).replace(
+        b"sizes: 3 4 5", b"sizes: 2048 1024 1025"
+    )
     array = written(tmp_path / "a.npz", npz(bomb + bytes(1 << 27)))
     tracemalloc.start()
     try:
@@ -135,15 +145,21 @@ HOSTILE = {
     "directions that open only": lambda n: nrrd(VALUES, "space directions: " + "(" * n),
     "directions and words": lambda n: nrrd(VALUES, "space directions: " + "(none" * (n // 5)),
     "many directions": lambda n: nrrd(VALUES, "space directions: " + "(1,0,0)" * (n // 7)),
-    "sizes of one": lambda n: nrrd(VALUES).replace(b"sizes: 3 4 5", b"sizes: 3 4 5" + b" 1" * (n // 2)),
+    "sizes of one": lambda n: nrrd(VALUES).replace(
+        b"sizes: 3 4 5", b"sizes: 3 4 5" + b" 1" * (n // 2)
+    ),
     "a long origin": lambda n: nrrd(
-        VALUES, "space directions: (1,0,0) (0,1,0) (0,0,1)", "space origin: (" + "1," * (n // 2) + "1)"
+        VALUES,
+        "space directions: (1,0,0) (0,1,0) (0,0,1)",
+        "space origin: (" + "1," * (n // 2) + "1)",
     ),
     "long units": lambda n: nrrd(VALUES, 'space units: "' + '" ' * (n // 2)),
     "long spacings": lambda n: nrrd(VALUES, "spacings: " + "9" * n),
     "many fields": lambda n: nrrd(VALUES, *["x: y"] * (n // 5)),
     "line ends": lambda n: nrrd(VALUES, "\r" * n),
-    "empty members": lambda n: nrrd(VALUES, encoding="gzip", head=False) + gzip.compress(b"") * (n // 20),
+    "empty members": lambda n: (
+        nrrd(VALUES, encoding="gzip", head=False) + gzip.compress(b"") * (n // 20)
+    ),
     "padding": lambda n: nrrd(VALUES, encoding="gzip") + bytes(n),
     "arrays": lambda n: npz(*[npy()] * (n // 300)),
 }
@@ -154,7 +170,10 @@ FORMS = {"arrays": "a.npz"}
 def test_the_time_to_read_is_proportional_to_the_bytes(tmp_path, name):
     """A hundred times the bytes may take three hundred times as long; quadratic work takes ten thousand times."""
     limits = Limits(entries=10**6, header_bytes=1 << 30)
-    paths = [written(tmp_path / (str(n) + FORMS.get(name, "a.nrrd")), HOSTILE[name](n)) for n in (10_000, 1_000_000)]
+    paths = [
+        written(tmp_path / (str(n) + FORMS.get(name, "a.nrrd")), HOSTILE[name](n))
+        for n in (10_000, 1_000_000)
+    ]
 
     def seconds(path):
         begin = time.process_time()
@@ -167,11 +186,17 @@ def test_the_time_to_read_is_proportional_to_the_bytes(tmp_path, name):
 
 
 @pytest.mark.parametrize(
-    "text", ["(1,0,0) (0,1,0) (0,0,1)", "(1,0,0)(0,1,0) none (0,0,1)", " none ( 1 , 0, 0) (0,1,0)\t(0,0,1) "]
+    "text",
+    [
+        "(1,0,0) (0,1,0) (0,0,1)",
+        "(1,0,0)(0,1,0) none (0,0,1)",
+        " none ( 1 , 0, 0) (0,1,0)\t(0,0,1) ",
+    ],
 )
 def test_vectors_of_directions(tmp_path, text):
     assert np.array_equal(
-        read_scan(written(tmp_path / "a.nrrd", nrrd(VALUES, "space directions:" + text))).matrix, np.eye(4)
+        read_scan(written(tmp_path / "a.nrrd", nrrd(VALUES, "space directions:" + text))).matrix,
+        np.eye(4),
     )
 
 
@@ -199,7 +224,10 @@ def test_invalid_directions_are_refused(tmp_path, text):
     [
         ("", Limits()),
         ("samples=2e10", Limits(samples=20_000_000_000)),
-        (" entries=5, header_bytes=9 unpacked_bytes=7,", Limits(entries=5, header_bytes=9, unpacked_bytes=7)),
+        (
+            " entries=5, header_bytes=9 unpacked_bytes=7,",
+            Limits(entries=5, header_bytes=9, unpacked_bytes=7),
+        ),
     ],
 )
 def test_limits_are_given_by_a_text(text, limits):
@@ -229,7 +257,8 @@ def test_malformed_limits_are_refused(text):
 @pytest.mark.parametrize("axes, is_read", [(16, True), (17, False)])
 def test_a_header_has_sixteen_axes_at_most(tmp_path, axes, is_read):
     path = written(
-        tmp_path / "a.nrrd", nrrd(VALUES, "space directions: (1,0,0) (0,1,0) (0,0,1)" + " none" * (axes - 3))
+        tmp_path / "a.nrrd",
+        nrrd(VALUES, "space directions: (1,0,0) (0,1,0) (0,0,1)" + " none" * (axes - 3)),
     )
     if is_read:
         assert np.array_equal(read_scan(path).matrix, np.eye(4))
@@ -249,7 +278,14 @@ def test_a_header_names_no_samples_outside_of_its_folder(tmp_path):
     def header(name):
         return written(folder / "a.nhdr", nrrd(VALUES, "data file: " + str(name), head=False))
 
-    for name in ("a.raw", "./a.raw", "deeper/a.raw", "deeper/../a.raw", "near.raw", folder / "a.raw"):
+    for name in (
+        "a.raw",
+        "./a.raw",
+        "deeper/a.raw",
+        "deeper/../a.raw",
+        "near.raw",
+        folder / "a.raw",
+    ):
         assert np.array_equal(read_scan(header(name)).samples, VALUES), name
     for name in ("../in_side/a.raw", other / "a.raw", "link.raw", "deeper/../../in_side/a.raw"):
         found = refusal(header(name))

@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
 from body_moments.core.numerics.quadrature import triangle_rule
-from body_moments.core.shape.registration import _best_angles, flat_symmetry, holds_by_outline, match_flat
+from body_moments.core.shape.registration import (
+    _best_angles,
+    flat_symmetry,
+    holds_by_outline,
+    match_flat,
+)
 from body_moments.core.shape.zernike import degrees, disc_zernike
 
 from tests.core.bodies import rotation
@@ -31,7 +36,9 @@ def test_zernike_moments_of_a_triangle_match_quadrature(radius):
     x, y = np.einsum("kn,ki->in", shares, [a, b, c])
     r, phi = np.hypot(x, y), np.arctan2(y, x)
     truth = [
-        np.sqrt((n + 1) / np.pi) * double * (weights * radial(n, m, r) * np.exp(-1j * m * phi)).sum()
+        np.sqrt((n + 1) / np.pi)
+        * double
+        * (weights * radial(n, m, r) * np.exp(-1j * m * phi)).sum()
         for n, m in degrees(order)
     ]
     assert np.abs(disc_zernike(moments, radius) - truth).max() < 1e-13
@@ -53,7 +60,9 @@ def test_turn_between_two_shapes_maximizes_their_overlap(seed, turn):
     values = np.array([overlap(angle, 0) for angle in found])
     assert (np.diff(values) <= 1e-9 * values[0]).all() and len(values) > 1
     apart = np.abs(np.exp(1j * found[:, None]) - np.exp(1j * found))[np.triu_indices(len(found), 1)]
-    assert np.count_nonzero(apart < 1e-3) <= 1  # one that lies just between two samples comes from both
+    assert (
+        np.count_nonzero(apart < 1e-3) <= 1
+    )  # one that lies just between two samples comes from both
     assert max(abs(overlap(angle, 1)) for angle in found) < 1e-11 * abs(overlap(found[0], 2))
     assert max(overlap(angle, 2) for angle in found) < 0.0
 
@@ -91,7 +100,10 @@ def test_round_shape_has_any_turn_and_a_mirror_in_any_plane(seed):
     assert found.group == "C∞v" and np.array_equal(found.revolution_axes, axes[:, 2][None])
     unit, mirror = found.operations
     assert np.abs(unit - np.eye(3)).max() < 1e-14 and np.linalg.det(mirror) < 0.0
-    assert np.abs(mirror @ axes[:, 2] - axes[:, 2]).max() < 1e-14 and np.abs(mirror @ mirror - np.eye(3)).max() < 1e-14
+    assert (
+        np.abs(mirror @ axes[:, 2] - axes[:, 2]).max() < 1e-14
+        and np.abs(mirror @ mirror - np.eye(3)).max() < 1e-14
+    )
 
 
 @pytest.mark.parametrize("seeds", [(1, 2), (4, 1)])

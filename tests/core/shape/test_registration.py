@@ -16,9 +16,12 @@ from tests.core.recursion import moments
 @pytest.mark.parametrize("is_flat", [False, True])
 @pytest.mark.parametrize("size", [0.5, 7.0])
 @pytest.mark.parametrize(
-    "left, share, is_mirror_image", [(1.01, 0.19, True), (1.01, 0.21, False), (0.99, 0.19, False), (1.5, 0.0, True)]
+    "left, share, is_mirror_image",
+    [(1.01, 0.19, True), (1.01, 0.21, False), (0.99, 0.19, False), (1.5, 0.0, True)],
 )
-def test_shape_fitting_only_a_reflection_is_a_mirror_image(is_flat, size, left, share, is_mirror_image):
+def test_shape_fitting_only_a_reflection_is_a_mirror_image(
+    is_flat, size, left, share, is_mirror_image
+):
     left = left * 1e-3 * size
 
     def residual(way, few):

@@ -41,7 +41,9 @@ PARTS = ("invariants", "zernike", "fourier", "chirality")
 def signed(part, order=20):
     center = moments(part, 1).center
     points = part[0] - center
-    return signature(moments((points, part[1]), order, np.zeros(3)), np.linalg.norm(points, axis=1).max())
+    return signature(
+        moments((points, part[1]), order, np.zeros(3)), np.linalg.norm(points, axis=1).max()
+    )
 
 
 @pytest.mark.parametrize("part", [shapes.WEDGE, shapes.THREE_BOXES, bodies.box(), bodies.sphere(1)])
@@ -116,7 +118,10 @@ def test_hand_of_a_slightly_asymmetric_cube_is_told(height):
     first = signed(part, 12)
     copy = signed(bodies.moved(part, rotation, (1, 2, 3)), 12)
     image = signed(bodies.moved(shapes.mirrored(part), rotation, (1, 2, 3)), 12)
-    assert classify(similarity(first, copy)) == "copy" and classify(similarity(first, image)) == "mirror"
+    assert (
+        classify(similarity(first, copy)) == "copy"
+        and classify(similarity(first, image)) == "mirror"
+    )
 
 
 def test_handedness_within_noise_is_not_told():
@@ -126,18 +131,26 @@ def test_handedness_within_noise_is_not_told():
         if group in ("D4",):
             continue
         for noise in (1e-7, 1e-5, 1e-3):
-            one, other = (signed((part[0] + noise * rng.normal(size=part[0].shape), part[1]), 12) for _ in range(2))
+            one, other = (
+                signed((part[0] + noise * rng.normal(size=part[0].shape), part[1]), 12)
+                for _ in range(2)
+            )
             likeness = similarity(one, other)
             handed = max(np.linalg.norm(found.chirality) for found in (one, other)) > MIN_CHIRALITY
             assert likeness.is_mirror_image is (None if handed else False), (name, noise)
-            assert (classify(likeness) in UNDECIDED_HANDEDNESS) == (handed and likeness.shape <= SAME_SHAPE_DISTANCE)
+            assert (classify(likeness) in UNDECIDED_HANDEDNESS) == (
+                handed and likeness.shape <= SAME_SHAPE_DISTANCE
+            )
 
 
 @pytest.mark.parametrize("size, mirrored", [(0.9e-11, False), (1.1e-11, True)])
 def test_chirality_within_rounding_is_no_hand(size, mirrored):
     one = signed(shapes.WEDGE, 6)
     tiny = one.chirality / np.linalg.norm(one.chirality) * size
-    assert similarity(replace(one, chirality=tiny), replace(one, chirality=-tiny)).is_mirror_image is mirrored
+    assert (
+        similarity(replace(one, chirality=tiny), replace(one, chirality=-tiny)).is_mirror_image
+        is mirrored
+    )
 
 
 def test_different_shapes_are_far_apart_and_noisy_copies_near():
@@ -146,7 +159,9 @@ def test_different_shapes_are_far_apart_and_noisy_copies_near():
     rng = np.random.default_rng(0)
     for name, part in parts.items():
         image = bodies.moved(shapes.refined(part, 1), bodies.rotation(2), (1, 2, 3))
-        noisy = signed((image[0] + rng.normal(size=image[0].shape) * 2e-3 * np.ptp(part[0]), image[1]), 10)
+        noisy = signed(
+            (image[0] + rng.normal(size=image[0].shape) * 2e-3 * np.ptp(part[0]), image[1]), 10
+        )
         distances = {other: similarity(noisy, one).distance() for other, one in found.items()}
         assert min(distances, key=distances.get) == name
 
@@ -163,11 +178,19 @@ def test_a_record_gives_the_signature_back():
     for name in PARTS:
         assert np.array_equal(getattr(found, name), getattr(again, name))
     assert again.size == found.size and list(found.as_record()) == ["size", *PARTS]
-    assert [len(getattr(found, name)) for name in PARTS] == [37, 121, 12, 47]  # libraries on disk hold these lengths
+    assert [len(getattr(found, name)) for name in PARTS] == [
+        37,
+        121,
+        12,
+        47,
+    ]  # libraries on disk hold these lengths
 
 
 def test_flat_record_restores_the_signature_to_order_20():
-    points, edges = np.array([[0, 0], [3, 0.25], [2.5, 1], [1, 1], [1.25, 2.5], [0, 2.0]]), directed_edges([range(6)])
+    points, edges = (
+        np.array([[0, 0], [3, 0.25], [2.5, 1], [1, 1], [1.25, 2.5], [0, 2.0]]),
+        directed_edges([range(6)]),
+    )
     found, more = (flat_signature(region_moments(points, edges, order), 2.5) for order in (20, 21))
     again = Signature.from_record(json.loads(json.dumps(plain(found.as_record()))))
     for name in PARTS:
@@ -176,7 +199,12 @@ def test_flat_record_restores_the_signature_to_order_20():
         assert value.shape == other.shape
         assert np.abs(value - other).max(initial=0.0) <= 1e-9 * np.abs(value).max(initial=0.0)
     assert list(found.as_record()) == ["dimension", "size", *PARTS]
-    assert again.dimension == 2 and [len(getattr(found, name)) for name in PARTS] == [40, 121, 0, 27]
+    assert again.dimension == 2 and [len(getattr(found, name)) for name in PARTS] == [
+        40,
+        121,
+        0,
+        27,
+    ]
     assert np.abs(found.chirality).min() > 1e-6  # this shape has a hand by each of them
 
 
@@ -195,10 +223,16 @@ def test_flat_invariants_are_products_of_complex_moments(turn, scale, is_mirrore
     z = z - (mass * z).sum()
     size = np.sqrt((mass * np.abs(z) ** 2).sum())
     z /= size
-    c = {(n - q, q): (mass * z ** (n - q) * z.conj() ** q).sum() for n in range(7) for q in range(n // 2 + 1)}
+    c = {
+        (n - q, q): (mass * z ** (n - q) * z.conj() ** q).sum()
+        for n in range(7)
+        for q in range(n // 2 + 1)
+    }
     turning = [(p, q) for p, q in c if p > q and p + q > 1]
     low = [key for key in turning if sum(key) < 5]
-    pairs = [(a, b) for a, b in combinations_with_replacement(turning, 2) if a[0] - a[1] == b[0] - b[1]]
+    pairs = [
+        (a, b) for a, b in combinations_with_replacement(turning, 2) if a[0] - a[1] == b[0] - b[1]
+    ]
     couplings = [c[a] * c[b].conjugate() for a, b in pairs]
     is_chiral = [a != b for a, b in pairs]
     for a, b in combinations_with_replacement(low, 2):
@@ -216,7 +250,9 @@ def test_flat_invariants_are_products_of_complex_moments(turn, scale, is_mirrore
     assert close(found.size, scale * size, 1e-13) and len(found.fourier) == 0
 
 
-@pytest.mark.parametrize("damage", [{"zernike": []}, {"size": None}, {"chirality": [1.0]}, {"invariants": [None, "x"]}])
+@pytest.mark.parametrize(
+    "damage", [{"zernike": []}, {"size": None}, {"chirality": [1.0]}, {"invariants": [None, "x"]}]
+)
 def test_a_damaged_record_is_refused(damage):
     record = {**plain(signed(shapes.WEDGE, 6).as_record()), **damage}
     with refused("signature_unrecognized", "signature_incomplete"):
@@ -237,7 +273,11 @@ def test_library_has_entries_and_findings_for_failed_bodies(tmp_path):
     ]
     last = {"objects": [{"name": "E", "signature": shape}]}
     path = tmp_path / "parts.jsonl"
-    lines = [json.dumps({"file": "ä.blend", "objects": records}, ensure_ascii=False), "", json.dumps(last)]
+    lines = [
+        json.dumps({"file": "ä.blend", "objects": records}, ensure_ascii=False),
+        "",
+        json.dumps(last),
+    ]
     path.write_text("\n".join(lines), encoding="utf-8")
     entries, missing = read_library(path)
     assert [entry.label for entry in entries] == ["ä.blend:A", "E"]
@@ -249,7 +289,8 @@ def test_library_has_entries_and_findings_for_failed_bodies(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "line", [b"{", b"[]", b'{"objects": 3}', b'{"objects": [3]}', b'{"objects": [{"name": "\xff"}]}']
+    "line",
+    [b"{", b"[]", b'{"objects": 3}', b'{"objects": [3]}', b'{"objects": [{"name": "\xff"}]}'],
 )
 def test_malformed_line_is_refused_by_its_number(line, tmp_path):
     path = tmp_path / "parts.jsonl"

@@ -56,7 +56,9 @@ def test_ball_by_moments_has_all_axes_and_one_operation():
     axial = pytest.fail  # about which axis should it be asked
     for turn in (np.eye(3), bodies.rotation(3)):
         found = symmetry(Moments(ball(6, 0.7), np.zeros(3)).in_frame(turn, np.ones(3)), axial=axial)
-        assert (found.group, found.order) == ("K", 6) and np.array_equal(found.operations, np.eye(3)[None])
+        assert (found.group, found.order) == ("K", 6) and np.array_equal(
+            found.operations, np.eye(3)[None]
+        )
         assert np.abs(found.revolution_axes @ found.revolution_axes.T - np.eye(3)).max() < 1e-14
 
 
@@ -139,7 +141,8 @@ def orbit(operations, corners):
     """The images of a tetrahedron under all operations, as one body."""
     faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     images = [
-        (corners @ operation.T, faces if np.linalg.det(operation) > 0.0 else faces[:, ::-1]) for operation in operations
+        (corners @ operation.T, faces if np.linalg.det(operation) > 0.0 else faces[:, ::-1])
+        for operation in operations
     ]
     return bodies.joined(*images)
 
@@ -156,7 +159,11 @@ def test_surface_of_turned_orbits_has_their_group(name):
         assert decided(bodies.moved(part, bodies.rotation(seed), (1, 2, 3))) == [name]
     if len(part[1]) <= 4 * 60:  # moments to sixth order cannot tell axes of higher order
         group = symmetry(moments(part, 6)).group
-        assert group == name or name in UNDECIDED.get(group, "").split(", ") or group.startswith(("C∞", "D∞"))
+        assert (
+            group == name
+            or name in UNDECIDED.get(group, "").split(", ")
+            or group.startswith(("C∞", "D∞"))
+        )
 
 
 @pytest.mark.parametrize("name", ["S4", "D3d", "Td"])
@@ -187,10 +194,14 @@ def test_geometry_rules_out_symmetry_of_moments_alone():
     part = shapes.refined(bodies.box((0, 0, 0), (3, 2, 1)))
     points = part[0].copy()
     points[8:] += np.random.default_rng(0).normal(size=(12, 3)) * 1e-6
-    assert symmetry(moments((points, part[1]), 6)).group == "D2h" and decided((points, part[1]), 1e-9) == ["C1"]
+    assert symmetry(moments((points, part[1]), 6)).group == "D2h" and decided(
+        (points, part[1]), 1e-9
+    ) == ["C1"]
 
 
-@pytest.mark.parametrize("off, groups", [(1e-7, ["Oh"]), (5e-6, ["C3v", "D3d", "Oh"]), (1e-3, ["C3v"])])
+@pytest.mark.parametrize(
+    "off, groups", [(1e-7, ["Oh"]), (5e-6, ["C3v", "D3d", "Oh"]), (1e-3, ["C3v"])]
+)
 def test_misfits_near_the_tolerance_leave_both_groups(off, groups):
     points, faces = bodies.box()
     points = points.copy()

@@ -83,11 +83,16 @@ def test_three_points_couple_to_their_spanned_scalar():
     ones = [harmonic_moments(np.prod(v ** monomials(1), axis=1), 1)[1, 1] for v in vectors]
     wanted = (3 / (4 * pi)) ** 1.5 / sqrt(6) * np.linalg.det(vectors)
     assert abs(couple(*ones)) == pytest.approx(abs(wanted))
-    mirrored = [harmonic_moments(np.prod((v * [-1, 1, 1]) ** monomials(1), axis=1), 1)[1, 1] for v in vectors]
+    mirrored = [
+        harmonic_moments(np.prod((v * [-1, 1, 1]) ** monomials(1), axis=1), 1)[1, 1]
+        for v in vectors
+    ]
     assert couple(*mirrored) == pytest.approx(-couple(*ones))
 
 
-@pytest.mark.parametrize("part", [shapes.WEDGE, bodies.torus(12, 8), bodies.sphere(1), shapes.STEPPED])
+@pytest.mark.parametrize(
+    "part", [shapes.WEDGE, bodies.torus(12, 8), bodies.sphere(1), shapes.STEPPED]
+)
 def test_moments_and_quadrature_agree_to_the_reported_loss(part):
     body, found = in_ball(bodies.moved(part, bodies.rotation(3)))
     by_moments = zernike_moments(found.raw, 20)
@@ -127,7 +132,10 @@ def test_high_frequency_power_matches_exact_bessel_functions():
     """For Ω_00 alone 4π/√3 (j_1(q)/q)², and for Ω_20 alone the same with √7 j_3(q)/q."""
     q = np.array([40.0, 150.5, 400.25])
     sine, cosine = np.sin(q), np.cos(q)
-    j1, j3 = (sine / q - cosine) / q, ((15.0 / q**3 - 6.0 / q) * sine - (15.0 / q**2 - 1.0) * cosine) / q
+    j1, j3 = (
+        (sine / q - cosine) / q,
+        ((15.0 / q**3 - 6.0 / q) * sine - (15.0 / q**2 - 1.0) * cosine) / q,
+    )
     scale = (4.0 * pi) ** 2 / 3.0
     for n, j in ((0, j1), (2, j3)):
         one = {(k, l): np.full(2 * l + 1, 0.1 * (k == n and l == 0) + 0j) for k, l in degrees(n)}
@@ -162,5 +170,7 @@ def test_radial_polynomials_are_orthogonal_on_the_disc():
         for n, terms in radial.items():
             assert sum(factor for _, factor in terms) == 1.0
             for k, others in radial.items():
-                product = sum(Fraction(a) * Fraction(b) / (s + t + 2) for s, a in terms for t, b in others)
+                product = sum(
+                    Fraction(a) * Fraction(b) / (s + t + 2) for s, a in terms for t, b in others
+                )
                 assert product == (Fraction(1, 2 * n + 2) if n == k else 0)

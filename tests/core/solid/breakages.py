@@ -26,8 +26,16 @@ from tests.core.bodies import (
 )
 from tests.core.shapes import L_PRISM, prism
 
-CONVEX = [lambda rng: box(), lambda rng: sphere(int(rng.integers(1, 4))), lambda rng: prism(int(rng.integers(3, 12)))]
-WHOLE = [*CONVEX, lambda rng: torus(int(rng.integers(8, 30)), int(rng.integers(5, 20))), lambda rng: welded(L_PRISM)]
+CONVEX = [
+    lambda rng: box(),
+    lambda rng: sphere(int(rng.integers(1, 4))),
+    lambda rng: prism(int(rng.integers(3, 12))),
+]
+WHOLE = [
+    *CONVEX,
+    lambda rng: torus(int(rng.integers(8, 30)), int(rng.integers(5, 20))),
+    lambda rng: welded(L_PRISM),
+]
 LABELS = ("exact", "exact, with a note", "exact, with a warning", "reoriented", "capped", "open")
 
 
@@ -105,7 +113,10 @@ def fin(rng):
     points, triangles = _convex(rng)[0]
     true = volume((points, triangles))
     tip = 2.0 * points[triangles[:1, 0]] - points.mean(axis=0)
-    return (np.concatenate([points, tip]), np.concatenate([triangles, [[*triangles[0, :2], len(points)]]])), true
+    return (
+        np.concatenate([points, tip]),
+        np.concatenate([triangles, [[*triangles[0, :2], len(points)]]]),
+    ), true
 
 
 def parts_apart(rng):
@@ -148,7 +159,9 @@ def touching_and_welded(rng):
     """Boxes in a row, welded, each with faces of its own where they touch, some inside out."""
     count = int(rng.integers(2, 5))
     parts = [box((k, 0, 0), (k + 1, 1, 1)) for k in range(count)]
-    return welded(joined(*(inverted(part) if rng.random() < 0.4 else part for part in parts))), float(count)
+    return welded(
+        joined(*(inverted(part) if rng.random() < 0.4 else part for part in parts))
+    ), float(count)
 
 
 def bent_past_itself(rng):
@@ -160,7 +173,10 @@ def bent_past_itself(rng):
     points = np.stack([x, y, np.broadcast_to(section[:, 1], x.shape)], axis=-1).reshape(-1, 3)
     i, j = (k.ravel() for k in np.meshgrid(np.arange(sections), np.arange(4), indexing="ij"))
     after = (j + 1) % 4
-    sides = np.stack([4 * i + j, 4 * i + 4 + j, 4 * i + 4 + after, 4 * i + j, 4 * i + 4 + after, 4 * i + after], axis=1)
+    sides = np.stack(
+        [4 * i + j, 4 * i + 4 + j, 4 * i + 4 + after, 4 * i + j, 4 * i + 4 + after, 4 * i + after],
+        axis=1,
+    )
     ends = [
         [0, 1, 2],
         [0, 2, 3],
@@ -199,9 +215,36 @@ def flat_sheet(rng):
 
 
 BREAKAGES = [
-    *(sound, inside_out, flipped_faces, missing_faces, missing_side, many_missing_faces, copied_faces),
-    *(faces_without_area, loose_corners, cracks, finer_side, fin, parts_apart, cavity, cavity_through_its_wall),
-    *(nested, overlapping, twice, touching_and_welded, bent_past_itself, bow_tie, inner_wall, one_sided, flat_sheet),
+    *(
+        sound,
+        inside_out,
+        flipped_faces,
+        missing_faces,
+        missing_side,
+        many_missing_faces,
+        copied_faces,
+    ),
+    *(
+        faces_without_area,
+        loose_corners,
+        cracks,
+        finer_side,
+        fin,
+        parts_apart,
+        cavity,
+        cavity_through_its_wall,
+    ),
+    *(
+        nested,
+        overlapping,
+        twice,
+        touching_and_welded,
+        bent_past_itself,
+        bow_tie,
+        inner_wall,
+        one_sided,
+        flat_sheet,
+    ),
 ]
 
 

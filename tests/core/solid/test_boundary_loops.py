@@ -99,8 +99,12 @@ def test_holes_meeting_in_a_vertex_lose_no_side():
 def test_hundreds_of_sides_at_one_vertex_are_joined_in_pairs():
     n = 300
     angle = np.arange(2 * n) * np.pi / n
-    points = np.concatenate([[[0, 0, 0]], np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)])
-    sides = [side for k in range(n) for side in ((0, 2 * k + 1), (2 * k + 1, 2 * k + 2), (2 * k + 2, 0))]
+    points = np.concatenate(
+        [[[0, 0, 0]], np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)]
+    )
+    sides = [
+        side for k in range(n) for side in ((0, 2 * k + 1), (2 * k + 1, 2 * k + 2), (2 * k + 2, 0))
+    ]
     loops = loops_of(points, sides)
     assert loops.complete.all()
     assert close(loops.planar_area.sum(), n * np.sin(np.pi / n) / 2.0, rel=1e-12)

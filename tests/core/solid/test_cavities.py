@@ -23,7 +23,9 @@ def hollow(depth, turned=False):
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("depth", [1e-5, 1e-3, 0.05])
 def test_cavity_breaking_through_counts_as_given(depth, scale, turned):
-    points, triangles = moved(hollow(depth, turned), scale * rotation(3), (2 * scale, -scale, scale))
+    points, triangles = moved(
+        hollow(depth, turned), scale * rotation(3), (2 * scale, -scale, scale)
+    )
     rng = np.random.default_rng(int(-np.log10(depth)))
     triangles = triangles[np.concatenate([rng.permutation(12), 12 + rng.permutation(12)])]
     result = measure_solid(surface((points, triangles)))
@@ -49,7 +51,11 @@ def test_depth_of_a_cavity_includes_walls_reaching_into_it():
     """No vertex of the cavity is outside: the bottom of a groove reaches into it."""
     groove = np.array([[0, 0], [4, 0], [4, 4], [2.5, 4], [2, 1.5], [1.5, 4], [0, 4]], float)
     ring = np.arange(7)
-    faces = [[*ring[::-1]], [*(ring + 7)], *([i, (i + 1) % 7, 7 + (i + 1) % 7, 7 + i] for i in ring)]
+    faces = [
+        [*ring[::-1]],
+        [*(ring + 7)],
+        *([i, (i + 1) % 7, 7 + (i + 1) % 7, 7 + i] for i in ring),
+    ]
     points = np.concatenate([np.insert(groove, 2, z, axis=1) for z in (0.0, 4.0)])
     fans = [(face[0], face[k], face[k + 1]) for face in faces[2:] for k in (1, 2)]
     ends = [(4, 5, 6), (4, 6, 0), (4, 0, 1), (4, 1, 2), (4, 2, 3)]
@@ -64,14 +70,22 @@ def test_depth_of_a_cavity_includes_walls_reaching_into_it():
 def test_inward_part_less_than_half_inside_another_is_inverted(share, turned):
     part = inverted(box((1 - share, 0.1, 0.1), (2 - share, 0.9, 0.9)))
     result = measure_solid(surface(joined(WALL, part)))
-    assert codes(result) == (["inverted_components", "components_overlap"] if turned else ["cavities_break_through"])
+    assert codes(result) == (
+        ["inverted_components", "components_overlap"] if turned else ["cavities_break_through"]
+    )
 
 
 def test_many_cavities_breaking_through_are_measured():
-    cavities = [inverted(moved(sphere(1), 0.3 * np.eye(3), (x, y, 0.25))) for x in range(12) for y in range(12)]
+    cavities = [
+        inverted(moved(sphere(1), 0.3 * np.eye(3), (x, y, 0.25)))
+        for x in range(12)
+        for y in range(12)
+    ]
     plate = box((-0.5, -0.5, 0), (11.5, 11.5, 2))
     result = measure_solid(surface(joined(plate, *cavities)))
     size = np.linalg.norm([12.0, 12.0, 2.05])
-    assert only(result).values["count"] == 144 and close(only(result).values["share"] * size, 0.05, rel=1e-9)
+    assert only(result).values["count"] == 144 and close(
+        only(result).values["share"] * size, 0.05, rel=1e-9
+    )
     solid = measure_solid(surface(sphere(1))).volume.total * 0.027
     assert close(result.volume.total, 288.0 - 144 * solid, rel=1e-12)

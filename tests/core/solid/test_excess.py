@@ -15,7 +15,12 @@ LINES = {
     (0, 1): [(-2.0, 1), (-1.0, 1), (1.5, -1), (2.0, -1)],  # twice for 2.5
     (1, 0): [(-1.0, 1), (1.0, -1)],
     (1, 1): [(-1.0, -1), (0.5, 1)],  # inside out for 1.5
-    (2, 1): [(-1.0, 1), (0.0, 1), (0.0625, -1), (1.0, -1)],  # twice for as little as counts for nothing
+    (2, 1): [
+        (-1.0, 1),
+        (0.0, 1),
+        (0.0625, -1),
+        (1.0, -1),
+    ],  # twice for as little as counts for nothing
     (2, 2): [(-3.0, 1), (-2.0, 1), (-1.0, 1), (1.0, -1), (2.0, -1), (3.0, -1)],  # up to three times
 }
 
@@ -29,14 +34,18 @@ def crossings(parts=1, turned=1, order=None, apart=1):
     ]
     rows = [rows[k] for k in (range(len(rows)) if order is None else order)]
     row, column, triangle, along, sign = (np.array(values) for values in zip(*rows))
-    return Crossings(np.zeros(len(rows), np.intp), row, column, triangle, along, sign, np.array([apart]))
+    return Crossings(
+        np.zeros(len(rows), np.intp), row, column, triangle, along, sign, np.array([apart])
+    )
 
 
 @pytest.mark.parametrize("turned", [1, -1])
 @pytest.mark.parametrize("parts, apart", [(1, 1), (2, 1), (1, 3)])
 @pytest.mark.parametrize("seed", [None, 0, 1])
 def test_repeated_body_is_measured_part_by_part(turned, parts, apart, seed):
-    grids = LineGrids.over_boxes(np.array([[-4.0, -2.0, -3.0]]), np.array([[4.0, 2.0, 3.0]]), np.array([64]))
+    grids = LineGrids.over_boxes(
+        np.array([[-4.0, -2.0, -3.0]]), np.array([[4.0, 2.0, 3.0]]), np.array([64])
+    )
     count = parts * sum(map(len, LINES.values()))
     order = None if seed is None else np.random.default_rng(seed).permutation(count)
     part = np.arange(parts) if parts > 1 else None
@@ -52,7 +61,12 @@ def test_repeated_body_is_measured_part_by_part(turned, parts, apart, seed):
         (2, 2, -1.0, 1.0, 2),
         (2, 2, 1.0, 2.0, 1),
     ):
-        at = np.zeros(1, np.intp), np.array([row]), np.array([column]), np.array([(low + high) / 2.0])
+        at = (
+            np.zeros(1, np.intp),
+            np.array([row]),
+            np.array([column]),
+            np.array([(low + high) / 2.0]),
+        )
         second += times * (high - low) * area * grids.squared_distances(*at)[0]
     assert close(found.second_moment[0], second, rel=1e-12)
 
@@ -61,7 +75,9 @@ def test_lines_meeting_nothing_are_ignored():
     grids = LineGrids.over_boxes(np.zeros((2, 3)), np.ones((2, 3)), np.array([64, 64]))
     none = np.empty(0, np.intp)
     found = measure_excess(
-        Crossings(none, none, none, none, np.empty(0), none, np.ones(2, np.intp)), grids, np.zeros(2)
+        Crossings(none, none, none, none, np.empty(0), none, np.ones(2, np.intp)),
+        grids,
+        np.zeros(2),
     )
     assert (found.volume.tolist(), found.unsure.tolist()) == ([0.0, 0.0], [1.0, 1.0])
     assert found.second_moment.tolist() == [0.0, 0.0]

@@ -36,8 +36,14 @@ def compared(*solids):
 @pytest.mark.parametrize("outer", [np.eye(3), MIRROR, STRETCH, MIRROR @ STRETCH])
 @pytest.mark.parametrize("inner", [np.eye(3), MIRROR, MIRROR @ STRETCH / 4.0])
 def test_part_in_the_material_of_another_is_nested_if_mirrored(outer, inner):
-    found = compared((cube(1.0), places(outer)), (cube(0.25), places(inner, (inner, (9.0, 0.0, 0.0)))))
-    assert found.nested.tolist() == [[1, 0]] and not len(found.overlapping) and not found.undecided_pairs
+    found = compared(
+        (cube(1.0), places(outer)), (cube(0.25), places(inner, (inner, (9.0, 0.0, 0.0))))
+    )
+    assert (
+        found.nested.tolist() == [[1, 0]]
+        and not len(found.overlapping)
+        and not found.undecided_pairs
+    )
 
 
 @pytest.mark.parametrize("way", [np.eye(3), MIRROR])
@@ -58,7 +64,9 @@ def test_instances_sharing_a_part_overlap_once_each(way, shift, overlap):
         (joined(cube(0.25, (0.0, 5.0, 0.0)), cube(0.5)), places(way, (way, (30.0, 0.0, 0.0)))),
         (cube(0.5), places((way, (shift, 0.25, 0.0)), (way, (30.0 - shift, -0.25, 0.0)))),
     )
-    assert found.overlapping.tolist() == ([[0, 1]] * 2 + [[1, 0]] * 2 if overlap else []) and not len(found.nested)
+    assert found.overlapping.tolist() == (
+        [[0, 1]] * 2 + [[1, 0]] * 2 if overlap else []
+    ) and not len(found.nested)
     # and one that meets itself in another place
     twice = compared((cube(0.5), places(way, (way, (shift, 0.25, 0.1)))))
     assert twice.overlapping.tolist() == ([[0, 0]] * 2 if overlap else [])
@@ -71,19 +79,28 @@ def test_own_parts_and_open_parts_are_not_compared():
     lid = without(cube(0.25), *range(2, 12))
     found = compared((cube(0.5), places(np.eye(3))), (lid, places(np.eye(3), MIRROR)))
     assert not len(found.overlapping) and not len(found.nested)
-    points, triangles = welded(joined(cube(0.125), cube(0.125, (0.25, 0.0, 0.0))))  # but for one layer of their wall
+    points, triangles = welded(
+        joined(cube(0.125), cube(0.125, (0.25, 0.0, 0.0)))
+    )  # but for one layer of their wall
     triangles = triangles[np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1]]
     for shift in (0.0, 0.5):
-        found = compared((cube(0.5), places(np.eye(3))), ((points, triangles), places((np.eye(3), (shift, 0.0, 0.0)))))
+        found = compared(
+            (cube(0.5), places(np.eye(3))),
+            ((points, triangles), places((np.eye(3), (shift, 0.0, 0.0)))),
+        )
         assert not len(found.overlapping) and not len(found.nested)
 
 
 def test_plates_without_a_thickness_go_through_nothing():
     """Boxes of tilted plates are as thick as others."""
-    plates = [rotation(seed) @ np.diag([1.0, 1.0, height]) for seed in (1, 2) for height in (1e-18, 1e-3)]
+    plates = [
+        rotation(seed) @ np.diag([1.0, 1.0, height]) for seed in (1, 2) for height in (1e-18, 1e-3)
+    ]
     for first in plates[:2]:
         for second in plates[2:]:
-            found = compared((cube(0.5), places(first)), (cube(0.5), places((second, (0.1, 0.05, 0.0)))))
+            found = compared(
+                (cube(0.5), places(first)), (cube(0.5), places((second, (0.1, 0.05, 0.0))))
+            )
             is_thick = abs(np.linalg.det(first)) > 1e-9 and abs(np.linalg.det(second)) > 1e-9
             assert bool(len(found.overlapping)) == is_thick
 

@@ -96,7 +96,9 @@ def test_cube_without_its_top_is_capped_flat_at_any_place(spin, dtype):
 def test_an_inverted_cube_is_turned():
     result = verdict(inverted(CUBE))
     check_unit_cube(result, [0.5] * 3, "reoriented")
-    assert result.health.inverted_components == 1 and not len(result.health.defective_elements.flipped_faces)
+    assert result.health.inverted_components == 1 and not len(
+        result.health.defective_elements.flipped_faces
+    )
     assert only(result) == Finding("inverted_components", {"count": 1, "total": 1})
 
 
@@ -105,10 +107,14 @@ def test_a_flipped_triangle_is_named_and_turned(face):
     result = verdict(with_flipped(FAR_CUBE, face))
     check_unit_cube(result, [1.5] * 3, "reoriented")
     assert (
-        result.health.defective_elements.flipped_faces.tolist() == [face] == result.health.as_record()["flipped_faces"]
+        result.health.defective_elements.flipped_faces.tolist()
+        == [face]
+        == result.health.as_record()["flipped_faces"]
     )
     assert result.health.closed and result.health.inconsistent_edges == 3
-    assert only(result) == Finding("flipped_faces", {"count": 1}) and only(result).elements.tolist() == [face]
+    assert only(result) == Finding("flipped_faces", {"count": 1}) and only(
+        result
+    ).elements.tolist() == [face]
 
 
 def test_inward_faces_of_a_mostly_inverted_cube_are_named():
@@ -125,11 +131,22 @@ def test_a_doubled_triangle_counts_once(turn):
     points, triangles = FAR_CUBE
     result = verdict((points, np.concatenate([triangles, triangles[2:3, ::turn]])))
     check_unit_cube(result, [1.5] * 3, "exact")
-    assert result.health.duplicate_faces == 1 and result.health.defective_elements.duplicate_faces.tolist() == [12]
-    assert result.health.non_manifold_edges == 3 == len(result.health.defective_elements.non_manifold_edges)
+    assert (
+        result.health.duplicate_faces == 1
+        and result.health.defective_elements.duplicate_faces.tolist() == [12]
+    )
+    assert (
+        result.health.non_manifold_edges
+        == 3
+        == len(result.health.defective_elements.non_manifold_edges)
+    )
     finding = only(result)
-    assert finding == Finding("duplicate_faces_ignored", {"count": 1}) and finding.elements.tolist() == [12]
-    assert close(result.area.total, 6.0, rel=1e-14) and close(result.moments(2, 2)[1].total, 6.0, rel=1e-14)
+    assert finding == Finding(
+        "duplicate_faces_ignored", {"count": 1}
+    ) and finding.elements.tolist() == [12]
+    assert close(result.area.total, 6.0, rel=1e-14) and close(
+        result.moments(2, 2)[1].total, 6.0, rel=1e-14
+    )
 
 
 @pytest.mark.parametrize("turn", [1, -1])
@@ -149,8 +166,13 @@ def test_a_two_sided_body_is_the_body_and_does_not_cancel_itself(layers, apart):
     result = verdict(soup(doubled) if apart else doubled)
     assert close(result.volume.total, 1.0, rel=1e-14) and close(result.area.total, 6.0, rel=1e-14)
     assert result.method == ("exact" if layers[0] > 0 else "reoriented")
-    assert result.health.duplicate_faces == 12 * (len(layers) - 1) and codes(result)[0] == "duplicate_faces_ignored"
-    assert verdict((points, np.concatenate([triangles[:10], triangles[:10, ::-1]]))).method == "open"
+    assert (
+        result.health.duplicate_faces == 12 * (len(layers) - 1)
+        and codes(result)[0] == "duplicate_faces_ignored"
+    )
+    assert (
+        verdict((points, np.concatenate([triangles[:10], triangles[:10, ::-1]]))).method == "open"
+    )
 
 
 @pytest.mark.parametrize(
@@ -160,7 +182,14 @@ def test_a_two_sided_body_is_the_body_and_does_not_cancel_itself(layers, apart):
         ([OUTER, INNER], 72.0, 176.0, 0, 1, 0),
         ([inverted(OUTER), INNER], 56.0, 496.0 / 3.0, 1, 0, 2),
         ([inverted(OUTER), inverted(INNER)], 56.0, 496.0 / 3.0, 1, 0, 1),
-        ([box((-4, -4, -4), (4, 4, 4)), inverted(OUTER), INNER], 456.0, 8.0**5 / 6.0 - 496.0 / 3.0, 1, 0, 0),
+        (
+            [box((-4, -4, -4), (4, 4, 4)), inverted(OUTER), INNER],
+            456.0,
+            8.0**5 / 6.0 - 496.0 / 3.0,
+            1,
+            0,
+            0,
+        ),
     ],
 )
 def test_nested_boxes_count_as_given(parts, volume, moment, cavities, nested, inverted_parts):
@@ -168,7 +197,11 @@ def test_nested_boxes_count_as_given(parts, volume, moment, cavities, nested, in
     assert close(result.volume.total, volume, rel=1e-14)
     np.testing.assert_allclose(inertia(result.volume), moment, rtol=1e-13)
     assert result.method == ("reoriented" if inverted_parts else "exact")
-    counts = {"cavities": cavities, "nested_components": nested, "inverted_components": inverted_parts}
+    counts = {
+        "cavities": cavities,
+        "nested_components": nested,
+        "inverted_components": inverted_parts,
+    }
     expected = {name: count for name, count in counts.items() if count}
     assert marked(result.health) == {"closed": True, "components": len(parts), **expected}
     found = ["cavities_subtracted"] * bool(cavities) + ["components_nested"] * bool(nested)
@@ -196,7 +229,9 @@ def test_overlap_counts_twice_with_a_finding_but_touching_not(parts, volume, ove
     assert result.health.overlapping_components == overlapping
     if overlapping:
         finding = only(result)
-        assert finding == Finding("components_overlap", {"count": 2}) and finding.elements.tolist() == list(range(24))
+        assert finding == Finding(
+            "components_overlap", {"count": 2}
+        ) and finding.elements.tolist() == list(range(24))
     else:
         assert not result.findings
 
@@ -207,10 +242,17 @@ def test_boxes_welded_along_a_face_or_an_edge_are_closed():
     assert wall.method == "exact" and not wall.findings and wall.health.closed
     assert wall.health.non_manifold_edges == 5
     edge = joined(CUBE, box((1, 1, 0), (2, 2, 1)))
-    for part, method in ((edge, "exact"), (joined(CUBE, inverted(box((1, 1, 0), (2, 2, 1)))), "reoriented")):
+    for part, method in (
+        (edge, "exact"),
+        (joined(CUBE, inverted(box((1, 1, 0), (2, 2, 1)))), "reoriented"),
+    ):
         result = verdict(welded(part))
         assert close(result.volume.total, 2.0, rel=1e-14) and result.method == method
-        assert result.health.components == 2 and result.health.non_manifold_edges == 1 and result.health.closed
+        assert (
+            result.health.components == 2
+            and result.health.non_manifold_edges == 1
+            and result.health.closed
+        )
 
 
 @pytest.mark.parametrize(
@@ -235,7 +277,10 @@ def test_copied_face_with_mostly_odd_edges_is_left_out(others, is_left_out, turn
             faces.append([edge, (edge + 1) % 3, len(points)])
             points.append(corners[edge] + [0.1 * page, 0.2 * page, 1.0 + page])
     found = codes(verdict((np.array(points), np.array([*faces, faces[0]]))))
-    assert ("duplicate_faces_ignored" in found, "duplicate_faces_counted" in found) == (is_left_out, not is_left_out)
+    assert ("duplicate_faces_ignored" in found, "duplicate_faces_counted" in found) == (
+        is_left_out,
+        not is_left_out,
+    )
 
 
 @pytest.mark.parametrize("numbered", [False, True])
@@ -254,14 +299,20 @@ def test_copied_faces_are_named_without_the_walls_of_two_bodies(turn):
     points, triangles = welded(joined(CUBE, turn(box((1, 0, 0), (2, 1, 1)))))
     low, high = (int(np.flatnonzero((points == [0.0, 0.0, z]).all(axis=1))[0]) for z in (0.0, 1.0))
     fin = [[low, high, len(points)]]
-    result = verdict((np.concatenate([points, [[-1.0, -1.0, 0.5]]]), np.concatenate([triangles, fin, fin])))
+    result = verdict(
+        (np.concatenate([points, [[-1.0, -1.0, 0.5]]]), np.concatenate([triangles, fin, fin]))
+    )
     (copies,) = [found for found in result.findings if found.code.startswith("duplicate_faces")]
-    assert copies == Finding("duplicate_faces_counted", {"count": 1}) and copies.elements.tolist() == [25]
+    assert copies == Finding(
+        "duplicate_faces_counted", {"count": 1}
+    ) and copies.elements.tolist() == [25]
 
 
 def test_an_inner_wall_makes_a_box_open():
     points, triangles = welded(joined(CUBE, box((1, 0, 0), (2, 1, 1))))
-    triangles = triangles[np.sort(np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1])]
+    triangles = triangles[
+        np.sort(np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1])
+    ]
     result = verdict((points, triangles))
     assert result.method == "open" and not result.health.closed
     assert result.health.non_manifold_edges == 4 and only(result) == Finding(
@@ -318,7 +369,11 @@ def test_a_one_sided_surface_is_open(part):
 )
 def test_flat_mesh_encloses_nothing(part, dtype):
     result = verdict(part, dtype)
-    assert result.method == "open" and not result.volume.raw.any() and result.health.cap_area_share == 0.0
+    assert (
+        result.method == "open"
+        and not result.volume.raw.any()
+        and result.health.cap_area_share == 0.0
+    )
     assert codes(result)[-1] == "flat_surface" and "flat_components" not in codes(result)
 
 
@@ -340,11 +395,19 @@ def test_two_sided_polygon_turned_in_float32_is_flat(corners):
 
 def test_copies_left_out_count_in_no_number():
     points, faces = CORNERS + np.eye(8)[:, 7:] * (0.1, 0.2, 0.3), SIDES.tolist()
-    once, thrice = (measure_solid(mesh(points, [*faces, *copies])) for copies in ([], [*faces, *faces]))
-    for one, other in ((once.area.total, thrice.area.total), (once.volume.total, thrice.volume.total)):
+    once, thrice = (
+        measure_solid(mesh(points, [*faces, *copies])) for copies in ([], [*faces, *faces])
+    )
+    for one, other in (
+        (once.area.total, thrice.area.total),
+        (once.volume.total, thrice.volume.total),
+    ):
         assert close(one, other, rel=1e-15)
     assert once.health.volume_spread == thrice.health.volume_spread > 0.01
-    assert once.health.non_planar_faces == thrice.health.non_planar_faces and thrice.health.duplicate_faces == 12
+    assert (
+        once.health.non_planar_faces == thrice.health.non_planar_faces
+        and thrice.health.duplicate_faces == 12
+    )
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -354,7 +417,9 @@ def test_plate_flat_to_rounding_is_not_called_inverted(turned):
         result = verdict(inverted(plate) if turned else plate)
         assert codes(result) == ["flat_surface"] and result.health.inverted_components == 0
         thicker = size * CUBE[0] * [1.0, 1.0, 1e-12], CUBE[1]
-        assert verdict(inverted(thicker) if turned else thicker).health.inverted_components == turned
+        assert (
+            verdict(inverted(thicker) if turned else thicker).health.inverted_components == turned
+        )
 
 
 @pytest.mark.parametrize("spin", [None, 5])
@@ -363,7 +428,11 @@ def test_a_tube_is_capped_at_both_ends(spin):
     angle = np.arange(n) * 2 * np.pi / n
     circle = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
     quads = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
-    part = moved((np.concatenate([circle, circle + [0, 0, 3]]), split(quads)), spin and rotation(spin), (0, 50, 0))
+    part = moved(
+        (np.concatenate([circle, circle + [0, 0, 3]]), split(quads)),
+        spin and rotation(spin),
+        (0, 50, 0),
+    )
     result = verdict(part)
     end = n / 2 * np.sin(2 * np.pi / n)
     assert result.method == "capped"
@@ -388,12 +457,16 @@ def test_bowl_is_closed_by_its_rim_and_curved_hole_by_a_cone():
     length = np.linalg.norm(np.roll(rim, -1, axis=0) - rim, axis=1)
     apex = ((rim + np.roll(rim, -1, axis=0)) / 2 * length[:, None]).sum(axis=0) / length.sum()
     cone = [[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]]
-    expected = volume((np.concatenate([bent, [apex]]), np.concatenate([without(CUBE, *TOP)[1], cone])))
+    expected = volume(
+        (np.concatenate([bent, [apex]]), np.concatenate([without(CUBE, *TOP)[1], cone]))
+    )
     assert result.findings[0].values["curved"] == 1
     assert close(result.volume.total, expected, rel=1e-14)
 
 
-@pytest.mark.parametrize("cells", [((1, 1), (1, 2), (2, 1)), ((1, 1), (2, 2))], ids=["concave", "meeting in a vertex"])
+@pytest.mark.parametrize(
+    "cells", [((1, 1), (1, 2), (2, 1)), ((1, 1), (2, 2))], ids=["concave", "meeting in a vertex"]
+)
 def test_holes_have_their_true_share_of_the_area(cells):
     points, triangles = moved(grid(4), None, (0, 0, 1))
     holes = [2 * (4 * i + j) + k for i, j in cells for k in (0, 1)]
@@ -403,7 +476,9 @@ def test_holes_have_their_true_share_of_the_area(cells):
     assert close(result.health.cap_area_share, share / (6 - share), rel=1e-12)
 
 
-@pytest.mark.parametrize("spin, dtype, rel", [(None, np.float64, 1e-14), (7, np.float64, 1e-13), (7, np.float32, 1e-6)])
+@pytest.mark.parametrize(
+    "spin, dtype, rel", [(None, np.float64, 1e-14), (7, np.float64, 1e-13), (7, np.float32, 1e-6)]
+)
 @pytest.mark.parametrize("flip", [False, True])
 def test_a_box_with_one_side_subdivided_is_closed_in_space(spin, dtype, rel, flip):
     top = moved(grid(5), None, (0, 0, 1))
@@ -411,11 +486,17 @@ def test_a_box_with_one_side_subdivided_is_closed_in_space(spin, dtype, rel, fli
     result = verdict(moved(part, spin and rotation(spin), (3, 4, 5)), dtype)
     assert close(result.volume.total, 1.0, rel=rel)
     np.testing.assert_allclose(inertia(result.volume), 1.0 / 6.0, rtol=100 * rel)
-    assert result.health.closed and result.health.boundary_edges == 0 and result.health.components == 1
+    assert (
+        result.health.closed and result.health.boundary_edges == 0 and result.health.components == 1
+    )
     assert result.method == ("reoriented" if flip else "exact")
     assert result.findings[0] == Finding("t_junctions", {"count": 4})
-    assert len(result.repaired_surface.points) == len(part[0])  # gaps are closed between their own vertices
-    assert result.health.defective_elements.flipped_faces.tolist() == (list(range(10, 60)) if flip else [])
+    assert len(result.repaired_surface.points) == len(
+        part[0]
+    )  # gaps are closed between their own vertices
+    assert result.health.defective_elements.flipped_faces.tolist() == (
+        list(range(10, 60)) if flip else []
+    )
 
 
 def test_the_sides_of_a_box_may_all_be_cut_differently():
@@ -428,7 +509,10 @@ def test_the_sides_of_a_box_may_all_be_cut_differently():
         [[1, 0, 0], [0, 0, -1], [0, 1, 0]],
         [[1, 0, 0], [0, 0, 1], [0, -1, 0]],
     ]
-    centred = [moved(moved(grid(n), None, (-0.5, -0.5, 0.5)), turn) for n, turn in zip((2, 3, 5, 7, 4, 1), turns)]
+    centred = [
+        moved(moved(grid(n), None, (-0.5, -0.5, 0.5)), turn)
+        for n, turn in zip((2, 3, 5, 7, 4, 1), turns)
+    ]
     result = verdict(joined(*centred))
     assert result.method == "exact" and result.health.closed
     assert close(result.volume.total, 1.0, rel=1e-14)
@@ -450,7 +534,11 @@ def test_nearly_equal_positions_are_welded_along_open_edges_only():
     result = verdict((part[0] + noise, part[1]))
     assert result.method == "exact" and result.health.closed and result.health.welded
     welded = result.findings[0]
-    assert welded.code == "vertices_welded" and welded.values["slight"] and 0.0 < welded.values["share"] < 1e-6
+    assert (
+        welded.code == "vertices_welded"
+        and welded.values["slight"]
+        and 0.0 < welded.values["share"] < 1e-6
+    )
     assert close(result.volume.total, volume(sphere(3)), rel=1e-6)
 
 
@@ -459,7 +547,11 @@ def test_a_small_open_part_is_not_welded_away():
     result = verdict(joined(small, box((10, 10, 10), (11, 11, 11))))
     assert result.method == "capped" and result.health.components == 2
     assert close(result.volume.total, 1.0 + 1e-15, rel=1e-14)
-    small = verdict(joined(moved(without(sphere(2), 0), 1e-6 * np.eye(3)), box((10, 10, 10), (10.1, 10.1, 10.1))))
+    small = verdict(
+        joined(
+            moved(without(sphere(2), 0), 1e-6 * np.eye(3)), box((10, 10, 10), (10.1, 10.1, 10.1))
+        )
+    )
     assert small.health.boundary_edges == 3
 
 
@@ -468,7 +560,9 @@ def test_crack_of_a_small_part_is_welded_within_its_triangles(share, is_welded):
     lid = moved((CUBE[0], CUBE[1][list(TOP)]), None, (share * np.sqrt(2.0), 0, 0))
     small = moved(joined(without(CUBE, *TOP), lid), 1e-3 * np.eye(3))
     result = verdict(joined(small, box((10, 10, 10), (11, 11, 11))))
-    assert result.health.welded is is_welded and result.health.boundary_edges == (0 if is_welded else 8)
+    assert result.health.welded is is_welded and result.health.boundary_edges == (
+        0 if is_welded else 8
+    )
 
 
 @pytest.mark.parametrize("scale", [2.0**-100, 1e-9, 1e-3, 1e5, 2.0**100])
@@ -483,10 +577,16 @@ def test_crack_of_a_small_part_is_welded_within_its_triangles(share, is_welded):
         grid(3),
         joined(without(CUBE, *TOP), moved(grid(3), None, (0, 0, 1))),
         soup(torus()),
-        (CORNERS * [1.0, 1.0, 1.5] - [[0.0, 0.0, 0.5 * (0 < k < 7)] for k in range(8)], without(CUBE, *TOP)[1]),
+        (
+            CORNERS * [1.0, 1.0, 1.5] - [[0.0, 0.0, 0.5 * (0 < k < 7)] for k in range(8)],
+            without(CUBE, *TOP)[1],
+        ),
         joined(CUBE, inverted(box((0.5, 0.5, 0.25), (0.75, 0.75, 1.25)))),
         welded(joined(CUBE, inverted(box((1, 0, 0), (2, 1, 1))))),
-        (np.concatenate([CUBE[0], [[0.5, -0.5, -0.5]]]), np.concatenate([CUBE[1], [[0, 1, 8], [0, 1, 8]]])),
+        (
+            np.concatenate([CUBE[0], [[0.5, -0.5, -0.5]]]),
+            np.concatenate([CUBE[1], [[0, 1, 8], [0, 1, 8]]]),
+        ),
     ],
 )
 def test_the_verdict_does_not_depend_on_the_size(part, scale):
@@ -495,7 +595,9 @@ def test_the_verdict_does_not_depend_on_the_size(part, scale):
         assert scaled.method == plain.method and codes(scaled) == codes(plain)
         assert close(scaled.volume.total, plain.volume.total * scale**3, rel=1e-6)
         assert close(scaled.health.cap_area_share, plain.health.cap_area_share, rel=1e-5)
-        before, after = (replace(result.health, cap_area_share=0).as_record() for result in (plain, scaled))
+        before, after = (
+            replace(result.health, cap_area_share=0).as_record() for result in (plain, scaled)
+        )
         assert before == after
 
 
@@ -511,7 +613,9 @@ def test_spread_matches_the_extremes_of_the_diagonals(points, faces, spread):
     assert close(result.health.volume_spread, spread, rel=1e-14)
     assert result.health.non_planar_faces == (1 if spread else 0)
     low, high = 1 + 0.5 / 6, 1 + 0.5 / 3
-    assert not spread or min(abs(result.volume.total - low), abs(result.volume.total - high)) < 1e-14
+    assert (
+        not spread or min(abs(result.volume.total - low), abs(result.volume.total - high)) < 1e-14
+    )
     assert codes(result) == ["non_planar_faces"] * bool(spread)
 
 
@@ -529,10 +633,17 @@ def test_spread_of_polygons_is_reported():
     raised = measure_solid(mesh(*prism([1, 1, 1, 1.3, 1, 1])))
     assert raised.health.non_planar_faces == 1
     # The raised corner is in two of the tetrahedra between the fans, over the triangles 0, 1, 2 and 0, 1, 4.
-    assert close(raised.health.volume_spread, 0.3 * (np.sqrt(3) / 4 + np.sqrt(3) / 2) / 3, rel=1e-14)
+    assert close(
+        raised.health.volume_spread, 0.3 * (np.sqrt(3) / 4 + np.sqrt(3) / 2) / 3, rel=1e-14
+    )
     points, faces = prism([1, 1, 1, 1.3, 1, 1])
-    beside = mesh(np.concatenate([[[9.0, 9.0, 9.0]], points]), [[corner + 1 for corner in face] for face in faces])
-    assert measure_solid(beside).health.as_record() == raised.health.as_record()  # a vertex of no face is left out
+    beside = mesh(
+        np.concatenate([[[9.0, 9.0, 9.0]], points]),
+        [[corner + 1 for corner in face] for face in faces],
+    )
+    assert (
+        measure_solid(beside).health.as_record() == raised.health.as_record()
+    )  # a vertex of no face is left out
     far = mesh(moved(CUBE, rotation(1), (300, 200, 100))[0], SIDES.tolist(), np.float32)
     assert measure_solid(far).health.non_planar_faces == 0  # bending by float32 does not count
 
@@ -554,7 +665,8 @@ def test_loose_vertices_and_edges_change_nothing():
     hole = replace(loose, quads=loose.quads[1:], quad_faces=None, corner_edges=None)
     rim = measure_solid(hole).health.defective_elements.boundary_edges
     assert {tuple(edge) for edge in rim.tolist()} == {
-        tuple(sorted(edge)) for edge in zip(loose.quads[0].tolist(), np.roll(loose.quads[0], -1).tolist())
+        tuple(sorted(edge))
+        for edge in zip(loose.quads[0].tolist(), np.roll(loose.quads[0], -1).tolist())
     }
 
 
@@ -579,7 +691,9 @@ def test_unmeasurable_mesh_is_refused_with_a_remedy():
         with pytest.raises(MeasureError) as caught:
             verdict((points, CUBE[1]))
         finding = caught.value.finding
-        assert finding == Finding("non_finite_vertices", {"count": 1, "total": 8}) and finding.elements.tolist() == [5]
+        assert finding == Finding(
+            "non_finite_vertices", {"count": 1, "total": 8}
+        ) and finding.elements.tolist() == [5]
     with refused("invalid_faces"):
         verdict((CORNERS[:7], CUBE[1]))
     points[:, 1] = np.inf  # so that their box has no extent
@@ -597,7 +711,18 @@ def test_shell_has_area_moments_to_third_order_without_caps():
     assert verdict(CUBE).area.order == 0
 
 
-BREAKAGES = ["holes", "flips", "copies", "turned copies", "no area", "loose", "fin", "soup", "random faces", "part"]
+BREAKAGES = [
+    "holes",
+    "flips",
+    "copies",
+    "turned copies",
+    "no area",
+    "loose",
+    "fin",
+    "soup",
+    "random faces",
+    "part",
+]
 BREAKAGES.append("inverted")
 
 
@@ -613,9 +738,13 @@ def broken(seed):
     done = set(rng.choice(BREAKAGES, size=rng.integers(1, 4), replace=False).tolist())
     count = len(triangles)
     if "holes" in done:
-        triangles = np.delete(triangles, rng.integers(0, count, size=rng.integers(1, count // 20 + 2)), axis=0)
+        triangles = np.delete(
+            triangles, rng.integers(0, count, size=rng.integers(1, count // 20 + 2)), axis=0
+        )
     if "flips" in done:
-        triangles = with_flipped((points, triangles), *rng.integers(0, len(triangles), size=count // 6 + 1))[1]
+        triangles = with_flipped(
+            (points, triangles), *rng.integers(0, len(triangles), size=count // 6 + 1)
+        )[1]
     for name, turn in (("copies", 1), ("turned copies", -1)):
         if name in done:
             again = triangles[rng.integers(0, len(triangles), size=rng.integers(1, 4))]
@@ -624,14 +753,18 @@ def broken(seed):
         ends = rng.integers(0, len(points), size=(3, 2))
         triangles = np.concatenate([triangles, ends[:, [0, 1, 0]]])
     if "fin" in done:
-        points = np.concatenate([points, 2 * points[triangles[:1, 0]] - points.mean(axis=0)]).astype(points.dtype)
+        points = np.concatenate(
+            [points, 2 * points[triangles[:1, 0]] - points.mean(axis=0)]
+        ).astype(points.dtype)
         triangles = np.concatenate([triangles, [[*triangles[0, :2], len(points) - 1]]])
     if "loose" in done:
         points = np.concatenate([points, points[:1] + np.array([[1e3 * size, 0, 0]], points.dtype)])
     if "soup" in done:
         points, triangles = soup((points, triangles))
     if "random faces" in done:
-        triangles = np.concatenate([triangles, rng.integers(0, len(points), size=(rng.integers(1, 10), 3))])
+        triangles = np.concatenate(
+            [triangles, rng.integers(0, len(points), size=(rng.integers(1, 10), 3))]
+        )
     if "part" in done:
         other = (whole[0] + np.array([3 * size, 0, 0], points.dtype)).astype(points.dtype), whole[1]
         points, triangles = joined((points, triangles), other)
@@ -646,7 +779,9 @@ def test_broken_meshes_give_no_unlabeled_wrong_volume(block):
     for seed in range(50 * block, 50 * block + 50):
         (points, triangles), true, done = broken(seed)
         result = measure_solid(Surface(points, triangles))
-        assert np.isfinite(result.volume.raw).all() and np.isfinite(result.volume.rounding_error).all(), seed
+        assert (
+            np.isfinite(result.volume.raw).all() and np.isfinite(result.volume.rounding_error).all()
+        ), seed
         assert result.volume.total >= 0.0, seed
         json.dumps(result.health.as_record(), allow_nan=False)
         # Closing rounding gaps may move a vertex by a millionth of the size.
@@ -667,9 +802,13 @@ def test_arbitrary_faces_over_arbitrary_points_are_survived(block):
     for seed in range(50 * block, 50 * block + 50):
         rng = np.random.default_rng(seed)
         n, m = int(rng.integers(3, 60)), int(rng.integers(1, 200))
-        points = rng.normal(size=(n, 3)) if seed % 2 else rng.integers(0, 4, size=(n, 3)).astype(float)
+        points = (
+            rng.normal(size=(n, 3)) if seed % 2 else rng.integers(0, 4, size=(n, 3)).astype(float)
+        )
         points[:, 2] *= rng.random() < 0.7
-        points = (points * 10.0 ** rng.integers(-30, 30)).astype(np.float32 if seed % 3 else np.float64)
+        points = (points * 10.0 ** rng.integers(-30, 30)).astype(
+            np.float32 if seed % 3 else np.float64
+        )
         quads = rng.integers(0, n, size=(int(rng.integers(0, 40)), 4))
         result = measure_solid(
             Surface(
@@ -706,9 +845,17 @@ def test_change_by_welding_is_bounded(seed):
     points, triangles = soup(moved(sphere(2), rotation(seed), (1, 2, 3)))
     points = points + rng.uniform(-3e-7, 3e-7, points.shape)
     order = rng.permutation(len(points))
-    one, other = verdict((points, triangles)), verdict((points[order], np.argsort(order)[triangles]))
+    one, other = (
+        verdict((points, triangles)),
+        verdict((points[order], np.argsort(order)[triangles])),
+    )
     assert one.method == other.method == "exact"
-    assert 1e-12 < abs(one.volume.total - other.volume.total) < one.volume.input_error[0] < 1e-4 * one.volume.total
+    assert (
+        1e-12
+        < abs(one.volume.total - other.volume.total)
+        < one.volume.input_error[0]
+        < 1e-4 * one.volume.total
+    )
     assert verdict(soup(sphere(2))).volume.input_error[0] == 0.0
 
 
@@ -743,17 +890,23 @@ def test_complex_coordinates_are_refused():
         Surface.from_triangles(CUBE[0].astype(complex), CUBE[1])
 
 
-OUTLINE = np.array([[-2, 0], [0, -1], [0, 1], [0, 0], [2, 0], [1, 3]], float)  # runs past its fourth point and back
+OUTLINE = np.array(
+    [[-2, 0], [0, -1], [0, 1], [0, 0], [2, 0], [1, 3]], float
+)  # runs past its fourth point and back
 REGION = np.array([[0, 1, 3], [3, 2, 0], [2, 3, 4], [4, 5, 2], [0, 2, 5]])
 
 
 def letter(outline, height=0.5):
     """An extruded outline as Blender makes it of a glyph: walls along the outline, caps over the region."""
     count = len(outline)
-    points = np.concatenate([np.c_[outline, np.zeros(count)], np.c_[outline, np.full(count, height)]])
+    points = np.concatenate(
+        [np.c_[outline, np.zeros(count)], np.c_[outline, np.full(count, height)]]
+    )
     i = np.arange(count)
     j = (i + 1) % count
-    walls = np.concatenate([np.stack([i, j, j + count], axis=1), np.stack([i, j + count, i + count], axis=1)])
+    walls = np.concatenate(
+        [np.stack([i, j, j + count], axis=1), np.stack([i, j + count, i + count], axis=1)]
+    )
     return points, np.concatenate([REGION[:, ::-1], REGION + count, walls])
 
 
@@ -762,27 +915,41 @@ def test_outline_turning_back_on_itself_closes(apart):
     part = letter(OUTLINE)
     if apart:  # walls with vertices of their own, welded at the same places
         points, triangles = part
-        part = np.concatenate([points, points]), np.concatenate([triangles[:10], triangles[10:] + len(points)])
+        part = (
+            np.concatenate([points, points]),
+            np.concatenate([triangles[:10], triangles[10:] + len(points)]),
+        )
     for offset in (0.0, 4096.0):
         order = np.random.default_rng(int(offset)).permutation(len(part[0]))
         part = part[0][order], np.argsort(order)[part[1]]
         result = measure_solid(surface(moved(part, offset=(offset, offset, 0.0))))
-        assert result.method == "exact" and result.health.closed and result.health.boundary_edges == 0
+        assert (
+            result.method == "exact" and result.health.closed and result.health.boundary_edges == 0
+        )
         assert result.health.non_manifold_edges == 2
         assert only(result) == Finding("t_junctions", {"count": 2})
-        exact = volume_moments(result.repaired_surface.points, result.repaired_surface.triangles, result.volume.about)
-        assert abs(result.volume.total - 3.5) <= result.volume.rounding_error[0] and exact[0] == Fraction(7, 2)
+        exact = volume_moments(
+            result.repaired_surface.points, result.repaired_surface.triangles, result.volume.about
+        )
+        assert abs(result.volume.total - 3.5) <= result.volume.rounding_error[0] and exact[
+            0
+        ] == Fraction(7, 2)
     wide = OUTLINE.copy()
     wide[1, 0] = 0.5  # the remaining faces have an area
     assert measure_solid(surface(letter(wide))).method == "open"
     beside = joined(letter(OUTLINE), moved(letter(wide), offset=(9, 0, 0)))
     result = measure_solid(surface(beside))
-    assert result.method == "open" and Finding("non_manifold_components", {"count": 1, "total": 2}) in result.findings
+    assert (
+        result.method == "open"
+        and Finding("non_manifold_components", {"count": 1, "total": 2}) in result.findings
+    )
 
 
 def bent(height):
     """A cube with one corner moved."""
-    return measure_solid(mesh(CORNERS + np.array([[0, 0, height * (k == 7)] for k in range(8)]), SIDES.tolist()))
+    return measure_solid(
+        mesh(CORNERS + np.array([[0, 0, height * (k == 7)] for k in range(8)]), SIDES.tolist())
+    )
 
 
 @pytest.mark.parametrize("count, total", [(7, 0.25), (8, 0.0), (9, 0.25)])
@@ -791,4 +958,6 @@ def test_more_cavities_than_material_make_no_body(count, total):
     holes = [inverted(box((0.5, 0.25, 0.25), (1.5, 0.75, 0.75)))] * count
     result = verdict(joined(box((0, 0, 0), (2, 1, 1)), *holes))
     assert result.method == ("open" if count > 8 else "exact") and result.volume.total == total
-    assert codes(result) == ["cavities_subtracted", "components_overlap"] + ["self_intersecting"] * (count > 8)
+    assert codes(result) == ["cavities_subtracted", "components_overlap"] + [
+        "self_intersecting"
+    ] * (count > 8)

@@ -89,34 +89,81 @@ def test_winding_numbers_match_the_bodies(spin):
         ("one in another", [OUTER, INNER], {(1, 0)}, set()),
         ("one in another, listed first", [INNER, OUTER], {(0, 1)}, set()),
         ("a cavity", [OUTER, inverted(INNER)], {(1, 0)}, set()),
-        ("a cavity that touches the wall", [OUTER, inverted(box((-2, -1, -1), (1, 1, 1)))], {(1, 0)}, set()),
-        ("a thin cavity along the wall", [OUTER, inverted(box((-2, -1, -1), (-1.999, 1, 1)))], {(1, 0)}, set()),
-        ("overlapping by half, faces in common planes", [box(), box((0.5, 0, 0), (1.5, 1, 1))], set(), {(0, 1)}),
-        ("overlapping in a corner", [box(), box((0.5, 0.5, 0.5), (1.5, 1.5, 1.5))], set(), {(0, 1)}),
+        (
+            "a cavity that touches the wall",
+            [OUTER, inverted(box((-2, -1, -1), (1, 1, 1)))],
+            {(1, 0)},
+            set(),
+        ),
+        (
+            "a thin cavity along the wall",
+            [OUTER, inverted(box((-2, -1, -1), (-1.999, 1, 1)))],
+            {(1, 0)},
+            set(),
+        ),
+        (
+            "overlapping by half, faces in common planes",
+            [box(), box((0.5, 0, 0), (1.5, 1, 1))],
+            set(),
+            {(0, 1)},
+        ),
+        (
+            "overlapping in a corner",
+            [box(), box((0.5, 0.5, 0.5), (1.5, 1.5, 1.5))],
+            set(),
+            {(0, 1)},
+        ),
         (
             "crossing bars, no vertex in the other",
             [box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -0.9), (1, 3, 0.9))],
             set(),
             {(0, 1)},
         ),
-        ("crossing bars of one height", [box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -1), (1, 3, 1))], set(), {(0, 1)}),
+        (
+            "crossing bars of one height",
+            [box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -1), (1, 3, 1))],
+            set(),
+            {(0, 1)},
+        ),
         ("the same twice", [box(), box()], set(), {(0, 1)}),
         ("the same twice, one inverted", [box(), inverted(box())], set(), {(0, 1)}),
         ("touching in a face", [box(), box((1, 0, 0), (2, 1, 1))], set(), set()),
         ("touching in a part of a face", [box(), box((1, 0.5, 0.3), (2, 1.5, 1.3))], set(), set()),
         ("touching in an edge", [box(), box((1, 1, 0), (2, 2, 1))], set(), set()),
         ("touching in a corner", [box(), box((1, 1, 1), (2, 2, 2))], set(), set()),
-        ("boxes overlap, bodies do not", [torus(), moved(sphere(2), 0.3 * np.eye(3))], set(), set()),
-        ("linked rings", [torus(), moved(torus(), [[1, 0, 0], [0, 0, -1], [0, 1, 0]], (1, 0, 0))], set(), set()),
-        ("a ring through a ring", [torus(), moved(torus(), np.eye(3), (0.9, 0.05, 0.02))], set(), {(0, 1)}),
-        ("three deep", [box((-k, -k, -k), (k, k, k)) for k in (3, 1, 2)], {(1, 0), (1, 2), (2, 0)}, set()),
+        (
+            "boxes overlap, bodies do not",
+            [torus(), moved(sphere(2), 0.3 * np.eye(3))],
+            set(),
+            set(),
+        ),
+        (
+            "linked rings",
+            [torus(), moved(torus(), [[1, 0, 0], [0, 0, -1], [0, 1, 0]], (1, 0, 0))],
+            set(),
+            set(),
+        ),
+        (
+            "a ring through a ring",
+            [torus(), moved(torus(), np.eye(3), (0.9, 0.05, 0.02))],
+            set(),
+            {(0, 1)},
+        ),
+        (
+            "three deep",
+            [box((-k, -k, -k), (k, k, k)) for k in (3, 1, 2)],
+            {(1, 0), (1, 2), (2, 0)},
+            set(),
+        ),
     ],
 )
 def test_known_pairs_are_related_as_built(name, parts, inside, crossing, spin):
     if spin is not None:
         parts = [moved(part, rotation(spin) * 0.7, (5, -3, 2)) for part in parts]
         # Stored as in Blender, touching faces now miss or enter by an ulp.
-        parts = [(points.astype(np.float32).astype(float), triangles) for points, triangles in parts]
+        parts = [
+            (points.astype(np.float32).astype(float), triangles) for points, triangles in parts
+        ]
     assert relation(*parts) == (inside, crossing, 0)
 
 
@@ -133,7 +180,10 @@ def test_random_spheres_are_related_by_centers_and_radii(seed):
             margin = 0.02 * (radius[i] + radius[j])  # the facets lie inside their spheres
             if i != j and apart + radius[i] < radius[j] - margin:
                 assert (i, j) in inside
-            elif i < j and abs(radius[i] - radius[j]) + margin < apart < radius[i] + radius[j] - margin:
+            elif (
+                i < j
+                and abs(radius[i] - radius[j]) + margin < apart < radius[i] + radius[j] - margin
+            ):
                 assert (i, j) in crossing
             elif i < j and apart > radius[i] + radius[j]:
                 assert (i, j) not in inside | crossing and (j, i) not in inside
@@ -167,7 +217,9 @@ def test_thousands_of_cavities_are_found_in_one_body():
 def test_nested_shells_are_turned_outside_any_material(signs, turned, nested, cavities):
     count = len(signs)
     parts = [
-        (inverted if sign == "-" else (lambda part: part))(moved(sphere(1), (count - k) * np.eye(3)))
+        (inverted if sign == "-" else (lambda part: part))(
+            moved(sphere(1), (count - k) * np.eye(3))
+        )
         for k, sign in enumerate(signs)
     ]
     order = np.random.default_rng(count).permutation(count)
@@ -193,17 +245,25 @@ def test_caps_in_one_plane_do_not_pierce_each_other(turn):
     walls, area = [], 0.0
     for loop in loops:
         n, i = len(loop), np.arange(len(loop))
-        area += np.cross(np.c_[loop, i * 0], np.c_[np.roll(loop, -1, axis=0), i * 0])[:, 2].sum() / 2.0
+        area += (
+            np.cross(np.c_[loop, i * 0], np.c_[np.roll(loop, -1, axis=0), i * 0])[:, 2].sum() / 2.0
+        )
         j = np.roll(i, -1)
         walls.append(
             (
                 np.concatenate([np.c_[loop, i * 0.0], np.c_[loop, i * 0.0 + 1.0]]),
-                np.concatenate([np.stack([i, j, n + j], axis=1), np.stack([i, n + j, n + i], axis=1)]),
+                np.concatenate(
+                    [np.stack([i, j, n + j], axis=1), np.stack([i, n + j, n + i], axis=1)]
+                ),
             )
         )
     points, triangles = moved(joined(*walls), rotation(turn), (0.3, 0.3, 0.3))
     body = measure_solid(Surface(points.astype(np.float32), triangles))
-    assert (body.method, body.health.cavities, body.health.overlapping_components) == ("capped", 1, 0)
+    assert (body.method, body.health.cavities, body.health.overlapping_components) == (
+        "capped",
+        1,
+        0,
+    )
     assert close(body.volume.total, area, rel=1e-6)
 
 
@@ -238,11 +298,16 @@ def test_the_order_of_components_changes_nothing(seed):
         points, triangles = joined(*(parts[k] for k in order))
         body = measure_solid(Surface(points, triangles))
         found = {
-            item.code: (item.values, sorted(order[k] for k in np.unique(item.elements // 12))) for item in body.findings
+            item.code: (item.values, sorted(order[k] for k in np.unique(item.elements // 12)))
+            for item in body.findings
         }
         results.append((body.health.as_record(), found, body.volume.total))
     for record, found, total in results[1:]:
-        assert record == results[0][0] and found == results[0][1] and close(total, results[0][2], rel=1e-12)
+        assert (
+            record == results[0][0]
+            and found == results[0][1]
+            and close(total, results[0][2], rel=1e-12)
+        )
 
 
 def test_rod_in_a_drilled_hole_breaks_through_nothing():
@@ -252,7 +317,11 @@ def test_rod_in_a_drilled_hole_breaks_through_nothing():
     points, triangles = joined(block, hole, rod)
     body = measure_solid(Surface(points, triangles))
     found = {item.code: np.unique(item.elements // 12).tolist() for item in body.findings}
-    assert found == {"inverted_components": [2], "cavities_break_through": [1], "components_overlap": [0, 2]}
+    assert found == {
+        "inverted_components": [2],
+        "cavities_break_through": [1],
+        "components_overlap": [0, 2],
+    }
 
 
 @holds(30)

@@ -6,7 +6,17 @@ import pytest
 from body_moments.core import MassProperties, measure_solid, polyhedron_moments
 
 from tests.close import close
-from tests.core.bodies import TOP, box, inverted, joined, moved, surface, torus, with_flipped, without
+from tests.core.bodies import (
+    TOP,
+    box,
+    inverted,
+    joined,
+    moved,
+    surface,
+    torus,
+    with_flipped,
+    without,
+)
 from tests.core.findings import refused
 
 HIGH = box((0, 0, 0), (1, 2, 3))
@@ -16,7 +26,9 @@ def box_moment(p, q, r):
     return 1.0 / (p + 1) * 2.0 ** (q + 1) / (q + 1) * 3.0 ** (r + 1) / (r + 1)
 
 
-@pytest.mark.parametrize("part", [HIGH, inverted(HIGH), with_flipped(HIGH, 1, 7), without(HIGH, *TOP)])
+@pytest.mark.parametrize(
+    "part", [HIGH, inverted(HIGH), with_flipped(HIGH, 1, 7), without(HIGH, *TOP)]
+)
 @pytest.mark.parametrize("order", [0, 2, 3, 4, 12])
 def test_repaired_body_has_moments_to_any_order(part, order):
     body = measure_solid(surface(moved(part, offset=(5, 6, 7))))
@@ -30,10 +42,18 @@ def test_repaired_body_has_moments_to_any_order(part, order):
 
 
 def test_area_counts_only_the_given_faces():
-    for part, area in ((HIGH, 22.0), (without(HIGH, *TOP), 20.0), (joined(HIGH, moved(HIGH, offset=(9, 0, 0))), 44.0)):
+    for part, area in (
+        (HIGH, 22.0),
+        (without(HIGH, *TOP), 20.0),
+        (joined(HIGH, moved(HIGH, offset=(9, 0, 0))), 44.0),
+    ):
         body = measure_solid(surface(part))
         found = body.moments(2, area_order=4)[1]
-        assert close(found.total, area, rel=1e-13) and close(body.area.total, area, rel=1e-13) and found.order == 4
+        assert (
+            close(found.total, area, rel=1e-13)
+            and close(body.area.total, area, rel=1e-13)
+            and found.order == 4
+        )
         assert found.about.tolist() == body.volume.about.tolist()
 
 
@@ -53,7 +73,8 @@ def test_nearly_flat_body_has_no_moments_within_bounds(order):
 
 
 @pytest.mark.parametrize(
-    "part", [with_flipped(HIGH, 1), without(HIGH, 4), without(HIGH, *TOP, 0, 1), without(torus(), 3)]
+    "part",
+    [with_flipped(HIGH, 1), without(HIGH, 4), without(HIGH, *TOP, 0, 1), without(torus(), 3)],
 )
 @pytest.mark.parametrize("order", [0, 3, 8])
 def test_open_faces_are_refused_unless_intended(part, order):

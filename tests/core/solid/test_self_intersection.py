@@ -39,13 +39,23 @@ def bar(turn, sections=90, sides=12, radius=0.2):
     """A round bar bent about the z axis by so many full turns."""
     around = np.linspace(0.0, 2.0 * np.pi * turn, sections + 1)
     side = np.arange(sides) * 2.0 * np.pi / sides
-    distance, height = 1.0 + radius * np.cos(side), np.tile(radius * np.sin(side), (sections + 1, 1))
-    points = np.stack([np.cos(around)[:, None] * distance, np.sin(around)[:, None] * distance, height], axis=-1)
+    distance, height = (
+        1.0 + radius * np.cos(side),
+        np.tile(radius * np.sin(side), (sections + 1, 1)),
+    )
+    points = np.stack(
+        [np.cos(around)[:, None] * distance, np.sin(around)[:, None] * distance, height], axis=-1
+    )
     i, j = (k.ravel() for k in np.meshgrid(np.arange(sections), np.arange(sides), indexing="ij"))
     after = (j + 1) % sides
-    mantle = np.stack([i * sides + j, (i + 1) * sides + j, (i + 1) * sides + after, i * sides + after], axis=1)
+    mantle = np.stack(
+        [i * sides + j, (i + 1) * sides + j, (i + 1) * sides + after, i * sides + after], axis=1
+    )
     ends = [(0, k, k + 1) for k in range(1, sides - 1)]
-    far = [(sections * sides, sections * sides + k + 1, sections * sides + k) for k in range(1, sides - 1)]
+    far = [
+        (sections * sides, sections * sides + k + 1, sections * sides + k)
+        for k in range(1, sides - 1)
+    ]
     return points.reshape(-1, 3), np.concatenate([split(mantle), ends, far])
 
 
@@ -60,11 +70,17 @@ def twice_around(count=24, rings=12):
     """A closed surface that goes around its center twice, all its faces outward: two balls, branched at the poles."""
     longitude = np.arange(2 * count) * 2.0 * np.pi / count
     latitude = np.linspace(-np.pi / 2.0, np.pi / 2.0, rings + 1)[1:-1]
-    points = [[np.cos(b) * np.cos(a), np.cos(b) * np.sin(a), np.sin(b)] for b in latitude for a in longitude]
+    points = [
+        [np.cos(b) * np.cos(a), np.cos(b) * np.sin(a), np.sin(b)]
+        for b in latitude
+        for a in longitude
+    ]
     width, south, north = 2 * count, len(points), len(points) + 1
     i, j = (k.ravel() for k in np.meshgrid(np.arange(rings - 2), np.arange(width), indexing="ij"))
     after = (j + 1) % width
-    belt = np.stack([i * width + j, i * width + after, (i + 1) * width + after, (i + 1) * width + j], axis=1)
+    belt = np.stack(
+        [i * width + j, i * width + after, (i + 1) * width + after, (i + 1) * width + j], axis=1
+    )
     top = (rings - 2) * width
     caps = [(south, (k + 1) % width, k) for k in range(width)]
     caps += [(north, top + k, top + (k + 1) % width) for k in range(width)]
@@ -83,7 +99,10 @@ def hull(seed, count=30):
     return points, np.concatenate([triple[below], triple[above][:, ::-1]])
 
 
-CORNER = np.eye(4, 3, -1), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])  # the middle of whose box is outside
+CORNER = (
+    np.eye(4, 3, -1),
+    np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]),
+)  # the middle of whose box is outside
 
 
 @pytest.mark.parametrize(
@@ -116,7 +135,9 @@ def test_one_reversed_triangle_leaves_a_body_unproved(tip, height, agree, first,
     """A cube with a corner that leans over a side next to it, for each face and each half of a quad."""
     points = 2.0 * CORNERS - 1.0
     points[4, 2], points[7] = height, tip
-    quads = np.array([[5, 7, 6, 4], [0, 2, 3, 1], [0, 1, 5, 4], [6, 7, 3, 2], [0, 4, 6, 2], [3, 7, 5, 1]])
+    quads = np.array(
+        [[5, 7, 6, 4], [0, 2, 3, 1], [0, 1, 5, 4], [6, 7, 3, 2], [0, 4, 6, 2], [3, 7, 5, 1]]
+    )
     quads = np.concatenate([np.roll(quads[:1], turn, axis=1), np.roll(quads[1:], others, axis=1)])
     cut = Surface(points, quads=quads if first else quads[::-1])
     triangles = cut.all_triangles()[0]
@@ -136,7 +157,9 @@ def test_random_convex_bodies_are_proved(seed, scale, turned):
 
 
 def assert_convex_is_proved(part, scale, turned):
-    part = moved(inverted(part) if turned else part, scale * rotation(7), (3 * scale, -5 * scale, scale))
+    part = moved(
+        inverted(part) if turned else part, scale * rotation(7), (3 * scale, -5 * scale, scale)
+    )
     result = measure_solid(surface(part))
     assert result.health.self_intersection is Intersection.EXCLUDED
     assert codes(result) == (["inverted_components"] if turned else [])
@@ -145,19 +168,26 @@ def assert_convex_is_proved(part, scale, turned):
 def test_surface_around_its_center_twice_is_found():
     result = measure_solid(surface(twice_around()))
     assert result.health.self_intersection is Intersection.FOUND
-    assert only(result).code == "self_intersection" and close(only(result).values["share"], 0.5, rel=0.02)
+    assert only(result).code == "self_intersection" and close(
+        only(result).values["share"], 0.5, rel=0.02
+    )
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize("turn, share", [(1.1, 0.1 / 1.1), (1.5, 0.5 / 1.5), (2.5, 1.5 / 2.5), (0.97, 0.0), (1.0, 0.0)])
+@pytest.mark.parametrize(
+    "turn, share", [(1.1, 0.1 / 1.1), (1.5, 0.5 / 1.5), (2.5, 1.5 / 2.5), (0.97, 0.0), (1.0, 0.0)]
+)
 def test_bar_bent_past_a_full_ring_counts_its_overlap_twice(turn, share, dtype, scale):
     for seed in range(3):
         part = moved(bar(turn), scale * rotation(seed), (2 * scale, scale, -3 * scale))
         result = measure_solid(surface(part, dtype))
         assert result.method == "exact"
         if share:
-            assert result.health.self_intersection is Intersection.FOUND and codes(result)[0] == "self_intersection"
+            assert (
+                result.health.self_intersection is Intersection.FOUND
+                and codes(result)[0] == "self_intersection"
+            )
             assert close(result.findings[0].values["share"], share, rel=0.15)
         else:
             assert result.health.self_intersection is Intersection.NOT_FOUND and not result.findings
@@ -169,7 +199,9 @@ def test_a_vertex_pushed_through_the_other_side_is_found(far, share):
     for seed in range(8):
         result = measure_solid(surface(moved(pushed(far), rotation(seed))))
         assert result.method == "exact" and result.health.self_intersection is Intersection.FOUND
-        assert only(result).code == "self_intersection" and close(only(result).values["share"], share, rel=0.5)
+        assert only(result).code == "self_intersection" and close(
+            only(result).values["share"], share, rel=0.5
+        )
 
 
 def test_negligible_region_is_a_note():
@@ -211,9 +243,18 @@ def test_ordinary_bodies_raise_no_alarm(part, dtype):
 def test_each_component_is_looked_at_by_itself():
     """Overlaps of two components are reported as such, and none of them goes through itself."""
     result = measure_solid(surface(joined(torus(), moved(torus(), offset=(0.4, 0, 0)))))
-    assert codes(result) == ["components_overlap"] and result.health.self_intersection is Intersection.NOT_FOUND
+    assert (
+        codes(result) == ["components_overlap"]
+        and result.health.self_intersection is Intersection.NOT_FOUND
+    )
     result = measure_solid(
-        surface(joined(bar(1.2), moved(box(), offset=(5, 0, 0)), inverted(moved(bar(1.2), offset=(0, 5, 0)))))
+        surface(
+            joined(
+                bar(1.2),
+                moved(box(), offset=(5, 0, 0)),
+                inverted(moved(bar(1.2), offset=(0, 5, 0))),
+            )
+        )
     )
     assert codes(result) == ["inverted_components", "self_intersection"]
     (found,) = [item for item in result.findings if item.code == "self_intersection"]
@@ -226,11 +267,18 @@ def test_the_order_of_faces_and_points_changes_nothing():
     rng = np.random.default_rng(0)
     order = rng.permutation(len(points))
     number = np.argsort(order)
-    shuffled = Surface.from_triangles(points[order], number[triangles][rng.permutation(len(triangles))])
-    first, second = (only(measure_solid(body)).values["share"] for body in (surface((points, triangles)), shuffled))
+    shuffled = Surface.from_triangles(
+        points[order], number[triangles][rng.permutation(len(triangles))]
+    )
+    first, second = (
+        only(measure_solid(body)).values["share"]
+        for body in (surface((points, triangles)), shuffled)
+    )
     assert close(first, second, rel=1e-12)
 
 
-@pytest.mark.parametrize("part", [grid(3), joined(moebius(), moved(box(), offset=(5, 5, 5)))], ids=["flat", "open"])
+@pytest.mark.parametrize(
+    "part", [grid(3), joined(moebius(), moved(box(), offset=(5, 5, 5)))], ids=["flat", "open"]
+)
 def test_flat_or_open_part_is_not_examined(part):
     assert measure_solid(surface(part)).health.self_intersection is Intersection.NOT_CHECKED

@@ -10,12 +10,26 @@ from body_moments.core.solid.measure import measure_solid
 from hypothesis import given
 
 from tests.close import close
-from tests.core.bodies import CORNERS, SIDES, box, inverted, joined, mesh, moved, rotation, surface, welded, without
+from tests.core.bodies import (
+    CORNERS,
+    SIDES,
+    box,
+    inverted,
+    joined,
+    mesh,
+    moved,
+    rotation,
+    surface,
+    welded,
+    without,
+)
 from tests.core.findings import codes, only
 from tests.core.strategies import holds, seeds
 
 ROW = [box((k, 0, 0), (k + 1, 1, 1)) for k in range(3)]
-BLOCK = [box((i, j, k), (i + 1, j + 1, k + 1)) for i in range(2) for j in range(2) for k in range(2)]
+BLOCK = [
+    box((i, j, k), (i + 1, j + 1, k + 1)) for i in range(2) for j in range(2) for k in range(2)
+]
 
 
 def quads(cells):
@@ -31,15 +45,26 @@ def quads(cells):
 def test_cubes_in_a_row_are_turned_one_by_one(turned, cut):
     row = list(ROW)
     if cut:  # the shared sides are cut along the other diagonal
-        row[1] = row[1][0], np.concatenate([row[1][1][:8], [[0, 4, 2], [4, 6, 2], [1, 3, 5], [3, 7, 5]]])
+        row[1] = (
+            row[1][0],
+            np.concatenate([row[1][1][:8], [[0, 4, 2], [4, 6, 2], [1, 3, 5], [3, 7, 5]]]),
+        )
     row = [inverted(part) if flip else part for part, flip in zip(row, turned)]
     points, triangles = joined(*row)
-    for seed in (None, 0, 1, 2):  # in whatever order its faces are: which copy of a face comes first says nothing
+    for seed in (
+        None,
+        0,
+        1,
+        2,
+    ):  # in whatever order its faces are: which copy of a face comes first says nothing
         order = np.arange(36) if seed is None else np.random.default_rng(seed).permutation(36)
         turn = np.eye(3) if seed is None else rotation(seed)
         result = measure_solid(surface(welded(moved((points, triangles[order]), turn, (4, 5, 6)))))
         assert close(result.volume.total, 3.0, rel=1e-12)
-        assert result.method == ("reoriented" if any(turned) else "exact") and result.health.components == 3
+        assert (
+            result.method == ("reoriented" if any(turned) else "exact")
+            and result.health.components == 3
+        )
         assert codes(result) == ["inverted_components"] * any(turned)
         if any(turned):
             assert only(result).values == {"count": sum(turned), "total": 3}
@@ -47,7 +72,9 @@ def test_cubes_in_a_row_are_turned_one_by_one(turned, cut):
             found = only(result).elements
             assert len(found) == (0 if all(turned) else len(whole))
             walls = np.isin(order % 12, (8, 9, 10, 11))  # either layer may belong to either body
-            assert set(found) - set(np.flatnonzero(walls)) == (set() if all(turned) else set(whole[~walls[whole]]))
+            assert set(found) - set(np.flatnonzero(walls)) == (
+                set() if all(turned) else set(whole[~walls[whole]])
+            )
 
 
 @holds(8)
@@ -57,11 +84,16 @@ def test_a_block_of_cubes_whichever_are_inside_out(seed):
     corners = [corner for corner in itertools.product(range(2), repeat=3)]
     for body in (
         quads(list(zip(corners, turned))),
-        surface(welded(joined(*(inverted(part) if flip else part for part, flip in zip(BLOCK, turned))))),
+        surface(
+            welded(joined(*(inverted(part) if flip else part for part, flip in zip(BLOCK, turned))))
+        ),
     ):
         result = measure_solid(body)
         assert close(result.volume.total, 8.0, rel=1e-12)
-        assert result.health.inverted_components == np.count_nonzero(turned) and result.health.components == 8
+        assert (
+            result.health.inverted_components == np.count_nonzero(turned)
+            and result.health.components == 8
+        )
         assert codes(result) == ["inverted_components"] * bool(turned.any())
 
 
@@ -79,7 +111,9 @@ def test_body_meeting_itself_at_a_wall_is_closed():
     points, index = np.unique(points, axis=0, return_inverse=True)
     faces = index.reshape(-1)[faces]
     middle = points[faces].mean(axis=1)
-    inner = [(0.5, 1.0)] + [tuple((np.array(a) + b) / 2.0 + 0.5) for a, b in zip(places, [*places[1:], places[0]])]
+    inner = [(0.5, 1.0)] + [
+        tuple((np.array(a) + b) / 2.0 + 0.5) for a, b in zip(places, [*places[1:], places[0]])
+    ]
     first = inner[1]
     keep = [not any(np.allclose(place[:2], at) for at in inner[2:]) for place in middle]
     body = mesh(points, faces[keep].tolist())
@@ -91,7 +125,11 @@ def test_body_meeting_itself_at_a_wall_is_closed():
 @pytest.mark.parametrize(
     "gap, reported, scale",
     [
-        *((gap, gap == 1e-6, scale) for gap in (3e-17, 2e-8, 5e-8, 1e-6) for scale in (1e-6, 1.0, 1e6)),
+        *(
+            (gap, gap == 1e-6, scale)
+            for gap in (3e-17, 2e-8, 5e-8, 1e-6)
+            for scale in (1e-6, 1.0, 1e6)
+        ),
         (1e-6, True, 1e40),  # beyond what float32 has numbers for
     ],
 )
@@ -99,7 +137,9 @@ def test_welding_within_float32_precision_is_not_reported(gap, reported, scale):
     """Along the open edges of a box that has no top, and of the top."""
     top = box()[0], box()[1][2:4]
     part = joined(without(box(), 2, 3), moved(top, offset=(gap, 0, 0)))
-    part = moved(part, scale * np.eye(3), (-0.5 * scale,) * 3)  # small numbers are finer there than large ones
+    part = moved(
+        part, scale * np.eye(3), (-0.5 * scale,) * 3
+    )  # small numbers are finer there than large ones
     result = measure_solid(surface(part))
     assert result.method == "exact" and result.health.welded
     assert codes(result) == ["vertices_welded"] * reported

@@ -24,7 +24,9 @@ def cube(side, center=(0.0, 0.0, 0.0)):
 
 def codes(part, scale=1.0, shift=(0.0, 0.0, 0.0)):
     points, triangles = part
-    solid = measure_solid(Surface.from_triangles(scale * points + np.array(shift) * scale, triangles))
+    solid = measure_solid(
+        Surface.from_triangles(scale * points + np.array(shift) * scale, triangles)
+    )
     return {(str(found.code), severity(found)) for found in solid.findings}
 
 
@@ -36,7 +38,10 @@ def codes(part, scale=1.0, shift=(0.0, 0.0, 0.0)):
     [
         ("components_nested", lambda side: joined(cube(2.0), cube(side))),
         ("components_overlap", lambda side: joined(cube(2.0), cube(side, (1.0, 0.0, 0.0)))),
-        ("inverted_components", lambda side: joined(cube(2.0), inverted(cube(side, (1.0 + side, 0.0, 0.0))))),
+        (
+            "inverted_components",
+            lambda side: joined(cube(2.0), inverted(cube(side, (1.0 + side, 0.0, 0.0)))),
+        ),
     ],
 )
 def test_negligible_components_are_a_note(code, body, scale, shift):
@@ -50,7 +55,9 @@ def test_negligible_flipped_faces_are_a_note():
         points, triangles = joined(cube(2.0), cube(side, (3.0, 0.0, 0.0)))
         triangles = triangles.copy()
         triangles[-2:] = triangles[-2:, ::-1]
-        assert [each for code, each in codes((points, triangles)) if code == "flipped_faces"] == [level]
+        assert [each for code, each in codes((points, triangles)) if code == "flipped_faces"] == [
+            level
+        ]
 
 
 def test_inverted_body_is_never_negligible():
@@ -58,7 +65,9 @@ def test_inverted_body_is_never_negligible():
 
 
 @pytest.mark.parametrize("size", [1.0, 2.0**-20, 2.0**20])
-@pytest.mark.parametrize("height, level", [(0.25, Severity.WARNING), (8e-4, Severity.WARNING), (4e-4, Severity.NOTE)])
+@pytest.mark.parametrize(
+    "height, level", [(0.25, Severity.WARNING), (8e-4, Severity.WARNING), (4e-4, Severity.NOTE)]
+)
 def test_spread_of_diagonals_is_a_share_of_the_volume(size, height, level):
     """A cube with one raised corner: the diagonals of its side differ by a pyramid of a sixth of that."""
     points = np.array(CORNERS, float)
@@ -76,10 +85,16 @@ def test_spread_over_many_faces_of_a_smooth_body_is_a_note(count, level):
     """A torus of twisted quads; a few that are bent as much, or many that are bent more, are a warning."""
     u, v = np.meshgrid(*2 * [np.arange(count) * 2.0 * np.pi / count], indexing="ij")
     radius = 2.0 + np.cos(u + v)
-    points = np.stack([radius * np.cos(u), radius * np.sin(u), np.sin(u + v)], axis=-1).reshape(-1, 3)
+    points = np.stack([radius * np.cos(u), radius * np.sin(u), np.sin(u + v)], axis=-1).reshape(
+        -1, 3
+    )
     i, j = np.indices((count, count)).reshape(2, -1)
     along, around = (i + 1) % count, (j + 1) % count
-    faces = np.stack([i * count + j, along * count + j, along * count + around, i * count + around], axis=1)
+    faces = np.stack(
+        [i * count + j, along * count + j, along * count + around, i * count + around], axis=1
+    )
     (found,) = measure_solid(mesh(points, faces.tolist())).findings
     assert found.code == "non_planar_faces" and severity(found) == level
-    assert (found.values["share"] < 0.03) == (level == Severity.NOTE) and found.values["share"] > 1e-3
+    assert (found.values["share"] < 0.03) == (level == Severity.NOTE) and found.values[
+        "share"
+    ] > 1e-3

@@ -6,7 +6,11 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure import measure_left_over, measure_solid
-from body_moments.core.solid.solid_stack import can_be_stacked, measure_stack, small_moments_to_order
+from body_moments.core.solid.solid_stack import (
+    can_be_stacked,
+    measure_stack,
+    small_moments_to_order,
+)
 from body_moments.core.verdict.health import Intersection
 from body_moments.core.verdict.method import Procedure
 
@@ -20,7 +24,9 @@ SIDES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [
 
 def prism(n, height):
     angle = np.arange(n) * 2.0 * np.pi / n
-    points = np.concatenate([np.stack([np.cos(angle), np.sin(angle), np.full(n, z)], axis=1) for z in (0, height)])
+    points = np.concatenate(
+        [np.stack([np.cos(angle), np.sin(angle), np.full(n, z)], axis=1) for z in (0, height)]
+    )
     sides = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
     return points, [list(range(n - 1, -1, -1)), list(range(n, 2 * n)), *sides]
 
@@ -29,7 +35,10 @@ def lattice(n, m, noise, rng):
     """A torus of quads."""
     i, j = np.divmod(np.arange(n * m), m)
     u, v = i * 2.0 * np.pi / n, j * 2.0 * np.pi / m
-    points = np.stack([(1 + 0.4 * np.cos(v)) * np.cos(u), (1 + 0.4 * np.cos(v)) * np.sin(u), 0.4 * np.sin(v)], axis=1)
+    points = np.stack(
+        [(1 + 0.4 * np.cos(v)) * np.cos(u), (1 + 0.4 * np.cos(v)) * np.sin(u), 0.4 * np.sin(v)],
+        axis=1,
+    )
     corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
     faces = np.stack([a % n * m + b % m for a, b in corners], axis=1)
     return points + noise * rng.normal(size=points.shape), faces.tolist()
@@ -68,7 +77,9 @@ def broken(rng):
             faces = [[one if corner == other else corner for corner in each] for each in faces]
             faces = [each for each in faces if len(set(each)) == len(each)]
         elif fault == 8:
-            points[rng.integers(len(points))] += rng.normal(size=3) * rng.choice([1e-8, 1e-6, 1e-3, 0.3, 2.0])
+            points[rng.integers(len(points))] += rng.normal(size=3) * rng.choice(
+                [1e-8, 1e-6, 1e-3, 0.3, 2.0]
+            )
         elif fault == 9:
             points = points * rng.choice([1e-6, 1e5]) + rng.normal(size=3)
         else:
@@ -87,14 +98,20 @@ def body(rng):
     apart = 6.0 * rng.integers(2)
     first = np.cumsum([0, *(len(points) for points, _ in parts)])
     points = np.concatenate([points + [apart * k, 0, 0] for k, (points, _) in enumerate(parts)])
-    faces = [[corner + int(start) for corner in face] for start, (_, own) in zip(first, parts) for face in own]
+    faces = [
+        [corner + int(start) for corner in face]
+        for start, (_, own) in zip(first, parts)
+        for face in own
+    ]
     return mesh(points, faces, np.float32)
 
 
 def agree(one, other):
     """Compare nested values; floats to a relative 1e-9, because a stack may add in another order."""
     if isinstance(one, dict):
-        return one.keys() == other.keys() and all(agree(value, other[key]) for key, value in one.items())
+        return one.keys() == other.keys() and all(
+            agree(value, other[key]) for key, value in one.items()
+        )
     if isinstance(one, (list, tuple)):
         return len(one) == len(other) and all(map(agree, one, other))
     if isinstance(one, (float, np.ndarray)):
@@ -126,7 +143,9 @@ def assert_alike(stack, i, surface):
 @pytest.mark.parametrize("seed", range(4))
 def test_stacked_bodies_match_single_measurements(seed):
     rng = np.random.default_rng(seed)
-    surfaces = [surface for surface in (body(rng) for _ in range(250)) if can_be_stacked([surface])[0]]
+    surfaces = [
+        surface for surface in (body(rng) for _ in range(250)) if can_be_stacked([surface])[0]
+    ]
     stack = measure_stack(surfaces)
     measured = np.flatnonzero(stack.is_measured)
     assert 20 < np.count_nonzero(stack.caps.is_capped[measured]) < len(measured) - 20
@@ -192,7 +211,9 @@ def test_bodies_needing_more_than_caps_are_left_to_repair(name):
 
 def test_a_diagonal_along_an_edge_is_left_to_be_repaired():
     """The repair counts it with the edge's own sides."""
-    points = np.array([[0, 0, 0], [2, 0, 0.5], [2, 2, 0], [0, 2, 0.5], [1, 1, 2], [1, 1, 0.1]], float)
+    points = np.array(
+        [[0, 0, 0], [2, 0, 0.5], [2, 2, 0], [0, 2, 0.5], [1, 1, 2], [1, 1, 0.1]], float
+    )
     faces = [[3, 2, 1, 0], [0, 1, 4], [1, 2, 4], [3, 0, 4], [0, 2, 5], [2, 0, 4]]
     surface = mesh(points, faces, np.float32)
     cuts = surface.all_triangles()[0]
@@ -200,14 +221,23 @@ def test_a_diagonal_along_an_edge_is_left_to_be_repaired():
     assert len(sides) > len({tuple(side) for side in sides})
     for first in range(6):  # whichever vertex has the lowest number
         numbers = (np.arange(6) - first) % 6
-        renumbered = mesh(points[np.argsort(numbers)], [numbers[face].tolist() for face in faces], np.float32)
-        assert measure_stack([open_box(), renumbered, open_box()]).is_measured.tolist() == [True, False, True]
+        renumbered = mesh(
+            points[np.argsort(numbers)], [numbers[face].tolist() for face in faces], np.float32
+        )
+        assert measure_stack([open_box(), renumbered, open_box()]).is_measured.tolist() == [
+            True,
+            False,
+            True,
+        ]
 
 
 @pytest.mark.parametrize("way", [1, -1])
 def test_bodies_needing_scaled_sums_are_measured_alone(way):
     """Sizes from a hundred powers of two on."""
-    near, far = 2.0 ** (100 * way) * (1.0 - way * 2.0**-20), 2.0 ** (100 * way) * (1.0 + way * 2.0**-20)
+    near, far = (
+        2.0 ** (100 * way) * (1.0 - way * 2.0**-20),
+        2.0 ** (100 * way) * (1.0 + way * 2.0**-20),
+    )
     surfaces = [mesh((2.0 * CORNERS - 1.0) * size, SIDES, np.float32) for size in (1.0, far, near)]
     stack = measure_stack(surfaces)
     assert stack.is_measured.tolist() == [True, False, True]
@@ -216,7 +246,11 @@ def test_bodies_needing_scaled_sums_are_measured_alone(way):
 
 
 def test_star_shaped_bodies_are_proved_together():
-    parts = [moved(hourglass(heavy), offset=place) for heavy in (0.3, 1.5) for place in ((0, 0, 0), (8, -16, 4))]
+    parts = [
+        moved(hourglass(heavy), offset=place)
+        for heavy in (0.3, 1.5)
+        for place in ((0, 0, 0), (8, -16, 4))
+    ]
     surfaces = [mesh(points, triangles.tolist(), np.float32) for points, triangles in parts]
     for several in (surfaces, surfaces[:2], surfaces[2:]):
         stack = measure_stack(several)
@@ -236,7 +270,9 @@ def test_warped_quads_are_compared_as_drawn():
         surface = mesh(points, faces, np.float32)
         cuts = surface.all_triangles()[0]
         drawn, cut = measure_solid(surface), measure_solid(mesh(points, cuts.tolist(), np.float32))
-        assert drawn.method is cut.method and drawn.volume.total == pytest.approx(cut.volume.total, rel=1e-12)
+        assert drawn.method is cut.method and drawn.volume.total == pytest.approx(
+            cut.volume.total, rel=1e-12
+        )
         assert {found.code for found in cut.findings} == {
             found.code for found in drawn.findings if not found.code.startswith("non_planar")
         }

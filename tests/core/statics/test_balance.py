@@ -21,7 +21,9 @@ HORIZONTAL = np.eye(3)[:2]
 
 
 def center(points, triangles, shell=False):
-    return polyhedron_moments(bodies.surface((points, triangles)), area_order=3, allow_open=shell)[shell].center
+    return polyhedron_moments(bodies.surface((points, triangles)), area_order=3, allow_open=shell)[
+        shell
+    ].center
 
 
 def upper(part, share=0.6):
@@ -31,7 +33,9 @@ def upper(part, share=0.6):
 
 def areas(part):
     corners = part[0][part[1]]
-    double = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    double = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
     return np.bincount(part[1].ravel(), np.repeat(double / 6, 3), len(part[0]))
 
 
@@ -48,7 +52,9 @@ def test_the_center_comes_to_the_point_and_nothing_else_moves(shell, across, pla
     target = start + np.array([0.03, -0.02, 0.04]) * (0.3 if shell else 1.0)
     movable = upper(part)
     found = balance(bodies.surface(part), movable, target, across=across, shell=shell)
-    assert np.abs(across @ (center(found.points, part[1], shell) - target)).max() < 1e-13 * (1 + np.abs(place).max())
+    assert np.abs(across @ (center(found.points, part[1], shell) - target)).max() < 1e-13 * (
+        1 + np.abs(place).max()
+    )
     rest = np.setdiff1d(np.arange(len(part[0])), movable)
     assert np.array_equal(found.points[rest], part[0][rest])
     assert np.abs(found.before - start).max() < 1e-12
@@ -65,9 +71,13 @@ def test_no_other_move_is_smaller_to_first_order(shell):
     off = []
     for size in (1e-3, 1e-4):
         step = size * np.array([1.0, 0.5, 0.0])
-        found = balance(bodies.surface(part), movable, moments.center + step, across=HORIZONTAL, shell=shell)
+        found = balance(
+            bodies.surface(part), movable, moments.center + step, across=HORIZONTAL, shell=shell
+        )
         ours = (found.points - part[0])[movable].ravel() * root
-        least = np.linalg.lstsq(rows, step[:2], rcond=None)[0]  # the shortest of all moves to the point
+        least = np.linalg.lstsq(rows, step[:2], rcond=None)[
+            0
+        ]  # the shortest of all moves to the point
         off.append(np.linalg.norm(ours - least) / np.linalg.norm(least))
     assert off[0] < 100 * 1e-3 and 8.0 < off[0] / off[1] < 12.0
 
@@ -78,7 +88,9 @@ def test_limit_holds_for_every_vertex_and_the_point_is_reached(shell):
     target = np.array([0.02, 0.01, 0.0])
     free = balance(bodies.surface(part), movable, target, across=HORIZONTAL, shell=shell)
     most = np.linalg.norm(free.points - part[0], axis=1).max()
-    held = balance(bodies.surface(part), movable, target, across=HORIZONTAL, limit=0.8 * most, shell=shell)
+    held = balance(
+        bodies.surface(part), movable, target, across=HORIZONTAL, limit=0.8 * most, shell=shell
+    )
     lengths = np.linalg.norm(held.points - part[0], axis=1)
     assert lengths.max() <= 0.8 * most * (1 + 1e-12) and np.count_nonzero(lengths > 0.79 * most) > 3
     assert np.abs((center(held.points, part[1], shell) - target)[:2]).max() < 1e-13
@@ -102,7 +114,14 @@ def test_limit_above_the_least_moves_changes_nothing(shell, count, spare):
         except MeasureError:
             continue
         most = np.linalg.norm(free.points - part[0], axis=1).max()
-        held = balance(bodies.surface(part), movable, target, across=HORIZONTAL, limit=spare * most, shell=shell)
+        held = balance(
+            bodies.surface(part),
+            movable,
+            target,
+            across=HORIZONTAL,
+            limit=spare * most,
+            shell=shell,
+        )
         assert np.abs(held.points - free.points).max() <= 1e-13
 
 
@@ -113,7 +132,10 @@ def test_inverted_body_is_moved_like_its_reverse(shell):
         balance(bodies.surface(each), upper(part), target, across=HORIZONTAL, shell=shell)
         for each in (part, bodies.inverted(part))
     )
-    assert np.abs(found.points - other.points).max() < 1e-12 and np.abs(found.before - other.before).max() < 1e-12
+    assert (
+        np.abs(found.points - other.points).max() < 1e-12
+        and np.abs(found.before - other.before).max() < 1e-12
+    )
 
 
 def test_willing_vertices_move_more():
@@ -157,7 +179,10 @@ def test_one_vertex_cannot_move_the_center_every_way():
     with refused("balance_no_effect"):
         balance(bodies.surface(part), np.array([8]), (0.6, 0.5, 0.5))
     two = [[4, 5, 8], [5, 7, 9], [5, 9, 8], [7, 6, 9], [6, 8, 9], [6, 4, 8]]
-    part = np.concatenate([flat[0], [[0.3, 0.4, 1.0], [0.7, 0.6, 1.0]]]), np.concatenate([part[1][:10], two])
+    part = (
+        np.concatenate([flat[0], [[0.3, 0.4, 1.0], [0.7, 0.6, 1.0]]]),
+        np.concatenate([part[1][:10], two]),
+    )
     with refused("balance_no_effect"):
         balance(bodies.surface(part), np.array([8, 9]), (0.6, 0.5, 0.5))
 
@@ -192,11 +217,19 @@ def test_moves_are_independent_of_face_diagonals(shell, sides):
     ]
     fans = _Fans(bodies.mesh(points, faces), shell)
     gradient = fans.center_gradient(np.array([0.0, 0.0, 1.0]))
-    mirror = np.concatenate([k + (-np.arange(sides)) % sides for k in (0, sides, 2 * sides)])  # y → -y
+    mirror = np.concatenate(
+        [k + (-np.arange(sides)) % sides for k in (0, sides, 2 * sides)]
+    )  # y → -y
     flip = np.diag([1.0, -1.0, 1.0])
     assert np.abs(flip @ gradient[mirror] @ flip - gradient).max() < 1e-14
     turned = np.concatenate([k + (np.arange(sides) + 1) % sides for k in (0, sides, 2 * sides)])
-    turn = np.array([[np.cos(angle[1]), -np.sin(angle[1]), 0], [np.sin(angle[1]), np.cos(angle[1]), 0], [0, 0, 1]])
+    turn = np.array(
+        [
+            [np.cos(angle[1]), -np.sin(angle[1]), 0],
+            [np.sin(angle[1]), np.cos(angle[1]), 0],
+            [0, 0, 1],
+        ]
+    )
     assert np.abs(turn @ gradient @ turn.T - gradient[turned]).max() < 1e-14
     assert np.abs(fans.areas - fans.areas[turned]).max() < 1e-14
 
@@ -204,7 +237,9 @@ def test_moves_are_independent_of_face_diagonals(shell, sides):
 def test_concave_face_pulls_by_its_true_area(shell):
     outline = np.array([[0, 0], [2, 0], [2, 1], [1, 0.2], [0, 1]], float)
     points = np.concatenate([np.column_stack([outline, np.full(5, z)]) for z in (0.0, 1.0)])
-    faces = [[0, 4, 3, 2, 1], [5, 6, 7, 8, 9]] + [[i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5] for i in range(5)]
+    faces = [[0, 4, 3, 2, 1], [5, 6, 7, 8, 9]] + [
+        [i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5] for i in range(5)
+    ]
     cut = np.array([[3, 0, 1], [3, 1, 2], [3, 4, 0]])
     triangles = np.concatenate([cut[:, ::-1], cut + 5, bodies.split(faces[2:])])
     owner = np.array([0] * 3 + [1] * 3 + [2, 2, 3, 3, 4, 4, 5, 5, 6, 6])
@@ -216,7 +251,11 @@ def test_concave_face_pulls_by_its_true_area(shell):
     turned = np.einsum("nik,nk->i", fans.center_gradient(middle), np.cross([0, 0, 1.0], points))
     assert np.abs(turned - np.cross([0, 0, 1.0], middle)).max() < 1e-14
     assert (
-        abs(fans.areas.sum() - polyhedron_moments(bodies.surface((points, triangles)), area_order=0)[1].total) < 1e-14
+        abs(
+            fans.areas.sum()
+            - polyhedron_moments(bodies.surface((points, triangles)), area_order=0)[1].total
+        )
+        < 1e-14
     )
 
 
@@ -225,4 +264,9 @@ def test_a_body_without_volume_has_no_center_to_move(far):
     flat = bodies.moved(bodies.box(), np.diag([1.0, 1.0, 0.0]), (0.0, 0.0, far))
     with refused("no_certain_volume"):
         balance(bodies.surface(flat), np.arange(8), (0.6, 0.5, far), across=HORIZONTAL)
-    assert balance(bodies.surface(flat), np.arange(8), (0.6, 0.5, far), across=HORIZONTAL, shell=True).after[0] > 0.59
+    assert (
+        balance(
+            bodies.surface(flat), np.arange(8), (0.6, 0.5, far), across=HORIZONTAL, shell=True
+        ).after[0]
+        > 0.59
+    )

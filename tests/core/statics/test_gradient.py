@@ -20,7 +20,9 @@ BODIES = {
     "torus": bodies.moved(bodies.torus(9, 7), SHEAR, (0.5, -0.25, 0.125)),
     "far": bodies.moved(bodies.sphere(1), SHEAR, (1000.0, -500.0, 250.0)),
     "tiny": bodies.moved(bodies.torus(6, 5), 1e-4 * SHEAR, (1e-3, 0.0, 0.0)),
-    "hollow": bodies.joined(bodies.box(high=(3, 3, 3)), bodies.inverted(bodies.box((1, 1, 1), (2, 2, 2)))),
+    "hollow": bodies.joined(
+        bodies.box(high=(3, 3, 3)), bodies.inverted(bodies.box((1, 1, 1), (2, 2, 2)))
+    ),
 }
 KINDS = {"volume": volume_gradient, "area": area_gradient}
 
@@ -86,7 +88,9 @@ def test_volume_derivatives_match_rational_arithmetic(name):
                 return exact.volume_moments(moved, triangles, about)[:10]
 
             near, far = ([a - b for a, b in zip(at(k), at(-k))] for k in (1, 2))
-            truth = [(8 * one - other) / (12 * Fraction(h)) for one, other in zip(near, far)]  # exact to degree 4
+            truth = [
+                (8 * one - other) / (12 * Fraction(h)) for one, other in zip(near, far)
+            ]  # exact to degree 4
             for i in range(10):
                 assert abs(Fraction(float(gradient[vertex, i, axis])) - truth[i]) <= 1e-13
 
@@ -125,7 +129,10 @@ def test_center_follows_with_nothing_more(kind):
         return MassProperties.from_moments(measured((part[0] + scale * step, part[1]), kind))
 
     one, other = at(h), at(-h)
-    assert np.abs((one.center - other.center) / (2 * h) - np.einsum("nik,nk->i", center, step)).max() < 1e-8
+    assert (
+        np.abs((one.center - other.center) / (2 * h) - np.einsum("nik,nk->i", center, step)).max()
+        < 1e-8
+    )
 
 
 def test_distant_derivatives_match_near_ones():
@@ -148,10 +155,16 @@ def test_box_corner_moves_volume_by_a_third_of_its_sides():
     points, triangles = bodies.box(high=(3, 2, 1))
     gradient = volume_gradient(bodies.surface((points, triangles)), np.zeros(3))[:, 0]
     normals = np.cross(
-        points[triangles[:, 1]] - points[triangles[:, 0]], points[triangles[:, 2]] - points[triangles[:, 0]]
+        points[triangles[:, 1]] - points[triangles[:, 0]],
+        points[triangles[:, 2]] - points[triangles[:, 0]],
     )
     for vertex in range(8):
-        assert np.abs(gradient[vertex] - normals[(triangles == vertex).any(axis=1)].sum(axis=0) / 6).max() < 1e-14
+        assert (
+            np.abs(
+                gradient[vertex] - normals[(triangles == vertex).any(axis=1)].sum(axis=0) / 6
+            ).max()
+            < 1e-14
+        )
 
 
 def test_a_triangle_without_area_and_a_loose_vertex_give_nothing():
@@ -178,6 +191,8 @@ def test_derivatives_scale_with_the_body(part, kind, power):
     points, triangles = part
     about = np.array([0.25, -0.5, 0.125])
     one = KINDS[kind](bodies.surface(part), about)
-    other = KINDS[kind](bodies.surface((np.ldexp(points, power), triangles)), np.ldexp(about, power))
+    other = KINDS[kind](
+        bodies.surface((np.ldexp(points, power), triangles)), np.ldexp(about, power)
+    )
     degree = power * (monomials(1).sum(axis=1) + (2 if kind == "volume" else 1))
     assert np.array_equal(other, np.ldexp(one, degree[:, None]))

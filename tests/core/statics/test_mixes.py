@@ -16,7 +16,9 @@ from tests.close import close
 def body(seed=1):
     """A lumpy closed surface of 48 triangles away from the origin, and offsets that change all of it."""
     random = np.random.default_rng(seed)
-    grid = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+    grid = np.array(
+        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    )
     points = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
     surface = Surface(points + (7.0, -3.0, 2.0) + 0.1 * random.standard_normal((8, 3)), quads=grid)
     triangles, _ = surface.all_triangles()
@@ -54,6 +56,8 @@ def test_flat_or_inverted_mix_has_no_volume():
     surface, _ = body()
     whole, _ = polyhedron_moments(surface, 1)
     center = whole.center
-    volumes, centers = fit_mixes(surface, (center - surface.points)[None]).at([[0.9], [0.999], [1.0], [1.001], [3.0]])
+    volumes, centers = fit_mixes(surface, (center - surface.points)[None]).at(
+        [[0.9], [0.999], [1.0], [1.001], [3.0]]
+    )
     assert close(volumes[0] / whole.total, 1e-3, 1e-9) and np.abs(centers[0] - center).max() <= 1e-9
     assert np.isnan(volumes[1:]).all() and np.isnan(centers[1:]).all()

@@ -29,7 +29,9 @@ def box(a, b, c):
 
 def prism(outline, height):
     outline = np.asarray(outline, float)
-    return np.concatenate([np.column_stack([outline, np.full(len(outline), z)]) for z in (0.0, height)])
+    return np.concatenate(
+        [np.column_stack([outline, np.full(len(outline), z)]) for z in (0.0, height)]
+    )
 
 
 def ring(count, radius):
@@ -61,7 +63,8 @@ def rectangle_share(corners):
     planes = np.cross(corners, np.roll(corners, -1, axis=0))
     planes /= np.linalg.norm(planes, axis=1, keepdims=True)
     angles = [
-        pi - acos(np.clip(before @ after, -1.0, 1.0)) for before, after in zip(np.roll(planes, 1, axis=0), planes)
+        pi - acos(np.clip(before @ after, -1.0, 1.0))
+        for before, after in zip(np.roll(planes, 1, axis=0), planes)
     ]
     return (sum(angles) - (len(corners) - 2) * pi) / (4.0 * pi)
 
@@ -87,8 +90,12 @@ def test_a_box_rests_on_each_face_by_its_solid_angle(matrix, offset):
 @pytest.mark.parametrize("count", [3, 6, 64])
 def test_a_cylinder_rests_on_its_ends_and_its_sides(count):
     radius, height = 1.0, 1.5
-    normals, shares, margins, _ = poses_of(prism(ring(count, radius), height), np.array([0.0, 0.0, height / 2.0]))
-    end = (2.0 * pi - 2.0 * count * atan(tan(pi / count) / sqrt(1.0 + (2.0 * radius / height) ** 2))) / (4.0 * pi)
+    normals, shares, margins, _ = poses_of(
+        prism(ring(count, radius), height), np.array([0.0, 0.0, height / 2.0])
+    )
+    end = (
+        2.0 * pi - 2.0 * count * atan(tan(pi / count) / sqrt(1.0 + (2.0 * radius / height) ** 2))
+    ) / (4.0 * pi)
     assert len(shares) == count + 2
     for sign in (1.0, -1.0):
         place = facing(normals, (0.0, 0.0, sign))
@@ -101,9 +108,13 @@ def test_a_cylinder_rests_on_its_ends_and_its_sides(count):
 
 def test_a_cone_rests_on_its_base_and_its_sides():
     count, radius, height = 32, 1.0, 2.0
-    points = np.concatenate([np.column_stack([ring(count, radius), np.zeros(count)]), [[0.0, 0.0, height]]])
+    points = np.concatenate(
+        [np.column_stack([ring(count, radius), np.zeros(count)]), [[0.0, 0.0, height]]]
+    )
     normals, shares, margins, heights = poses_of(points, np.array([0.0, 0.0, height / 4.0]))
-    base = (2.0 * pi - 2.0 * count * atan(tan(pi / count) / sqrt(1.0 + (4.0 * radius / height) ** 2))) / (4.0 * pi)
+    base = (
+        2.0 * pi - 2.0 * count * atan(tan(pi / count) / sqrt(1.0 + (4.0 * radius / height) ** 2))
+    ) / (4.0 * pi)
     place = facing(normals, (0.0, 0.0, -1.0))
     assert close(shares[place], base, 1e-11)
     assert close(margins[place], radius * cos(pi / count), EXACT)
@@ -123,7 +134,9 @@ def test_l_prism_tips_from_its_leg_ends_onto_the_slope(matrix, offset):
     outline = [(0, 0), (6, 0), (6, 0.5), (0.5, 0.5), (0.5, 4), (0, 4)]
     area, width = 3.0 + 1.75, 2.0
     x, y = (3.0 * 3.0 + 1.75 * 0.25) / area, (3.0 * 0.25 + 1.75 * 2.25) / area
-    normals, shares, margins, _ = poses_of(prism(outline, width), np.array([x, y, width / 2.0]), matrix, offset)
+    normals, shares, margins, _ = poses_of(
+        prism(outline, width), np.array([x, y, width / 2.0]), matrix, offset
+    )
 
     def side(first, last):
         (x0, y0), (x1, y1) = first, last
@@ -137,7 +150,10 @@ def test_l_prism_tips_from_its_leg_ends_onto_the_slope(matrix, offset):
         (-1, 0, 0): (side((0, 4), (0, 0)), min(y, width / 2.0)),
         (3.5, 5.5, 0): (
             side((6, 0), (6, 0.5)) + side((6, 0.5), (0.5, 4)) + side((0.5, 4), (0, 4)),
-            min(abs((np.array([x, y]) - end) @ slope) / hypot(*slope) for end in ((6, 0.5), (0.5, 4))),
+            min(
+                abs((np.array([x, y]) - end) @ slope) / hypot(*slope)
+                for end in ((6, 0.5), (0.5, 4))
+            ),
         ),
     }
     for direction, (share, margin) in truth.items():
@@ -160,7 +176,11 @@ def test_a_plate_without_thickness_rests_on_both_sides():
 def test_flat_faces_of_many_triangles_are_one():
     grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, 12)] * 3), axis=-1).reshape(-1, 3)
     turn = np.linalg.qr(np.random.default_rng(9).standard_normal((3, 3)))[0]
-    for points, exact in ((grid, EXACT), (grid @ turn.T, 1e-8), ((grid @ turn.T).astype(np.float32), 1e-5)):
+    for points, exact in (
+        (grid, EXACT),
+        (grid @ turn.T, 1e-8),
+        ((grid @ turn.T).astype(np.float32), 1e-5),
+    ):
         hull = convex_hull(points, tolerance=1e-6 if points.dtype == np.float32 else 1e-8)
         poses = resting_poses(hull, points.astype(float).mean(axis=0))
         assert len(poses.shares) == 6
@@ -202,8 +222,12 @@ def test_a_round_side_is_no_face():
     """A dome on a base: its facets are smaller than the tolerance, and together they are not flat."""
     angles, heights = np.meshgrid(2.0 * pi / 160 * np.arange(160), np.linspace(0.0, 1.0, 60)[:-1])
     radius = np.sqrt(1.0 - heights**2)
-    dome = np.stack([radius * np.cos(angles), radius * np.sin(angles), heights], axis=-1).reshape(-1, 3)
-    poses = resting_poses(convex_hull(np.concatenate([dome, [[0.0, 0.0, 1.0]]])), [0.0, 0.0, 0.375], tolerance=0.02)
+    dome = np.stack([radius * np.cos(angles), radius * np.sin(angles), heights], axis=-1).reshape(
+        -1, 3
+    )
+    poses = resting_poses(
+        convex_hull(np.concatenate([dome, [[0.0, 0.0, 1.0]]])), [0.0, 0.0, 0.375], tolerance=0.02
+    )
     assert facing(poses.normals, (0, 0, -1)) == 0
     assert len(poses.shares) == 1
 
@@ -212,7 +236,9 @@ def test_noise_on_edges_changes_no_face():
     """Corners of a cube doubled by points that stand out by half of the tolerance."""
     corners = box(2, 2, 2) - 1.0
     noise = corners * (1.0 - 1e-5, 1.0 + 5e-7, 1.0)
-    poses = resting_poses(convex_hull(np.concatenate([corners, noise]), tolerance=1e-6), np.zeros(3))
+    poses = resting_poses(
+        convex_hull(np.concatenate([corners, noise]), tolerance=1e-6), np.zeros(3)
+    )
     assert len(poses.shares) == 6
     assert close(poses.shares, 1.0 / 6.0, 1e-5) and close(poses.margins, 1.0, 1e-5)
 

@@ -37,7 +37,9 @@ def test_corners_go_counter_clockwise_seen_from_above():
 
 def test_a_wedge_tips_over_its_edge():
     """A leaning prism with its center beyond its base by 1/4."""
-    wedge = np.array([(x, y, z) for y in (0.0, 1.0) for x, z in ((0.0, 0.0), (1.0, 0.0), (2.5, 2.0), (1.5, 2.0))])
+    wedge = np.array(
+        [(x, y, z) for y in (0.0, 1.0) for x, z in ((0.0, 0.0), (1.0, 0.0), (2.5, 2.0), (1.5, 2.0))]
+    )
     center = np.array([1.25, 0.5, 1.0])
     support = find_support(wedge, center)
     assert not support.stands
@@ -73,10 +75,16 @@ def test_tolerance_is_relative_to_the_body():
 @pytest.mark.parametrize("turn", [np.eye(3), TURN], ids=["upright", "turned"])
 def test_support_polygon_is_on_the_ground_below_the_body(turn):
     place = np.array([7.0, -3.0, 11.0])
-    support = find_support(BOX @ turn.T + place, turn @ (2.0, 1.25, 3.0) + place, turn @ (0.0, 0.0, -1.0))
+    support = find_support(
+        BOX @ turn.T + place, turn @ (2.0, 1.25, 3.0) + place, turn @ (0.0, 0.0, -1.0)
+    )
     wanted = BOX[BOX[:, 2] == 0.0] @ turn.T + place
     apart = np.linalg.norm(support.polygon[:, None] - wanted, axis=2)
-    assert apart.shape == (4, 4) and apart.min(axis=0).max() < 1e-13 and apart.min(axis=1).max() < 1e-13
+    assert (
+        apart.shape == (4, 4)
+        and apart.min(axis=0).max() < 1e-13
+        and apart.min(axis=1).max() < 1e-13
+    )
     assert np.abs(support.up - turn[:, 2]).max() < 1e-14
 
 
@@ -94,7 +102,10 @@ def test_support_polygon_is_on_the_ground_below_the_body(turn):
 def test_three_legged_stool_stands_or_falls_by_the_nearest_side(foot, margin, direction, size):
     legs = size * np.array([(0, 0, 0), (4, 0, 0), (0, 3, 0)])
     support = support_of_contacts(legs, size * np.array((*foot, 1.0)))
-    assert close(support.margin, size * margin, EXACT) and np.abs(support.direction - (*direction, 0)).max() < EXACT
+    assert (
+        close(support.margin, size * margin, EXACT)
+        and np.abs(support.direction - (*direction, 0)).max() < EXACT
+    )
 
 
 def test_body_on_an_edge_or_a_point_does_not_stand():
@@ -117,7 +128,11 @@ def test_body_above_a_line_falls_across_it(size, shares):
     support = support_of_contacts(ends, (0.0, 0.0, size))
     assert support.margin == 0.0 and support.height == size
     across = support.direction @ (1.0, 2.0, 0.0)
-    assert close(np.linalg.norm(support.direction), 1.0, EXACT) and abs(across) < EXACT and support.direction[2] == 0.0
+    assert (
+        close(np.linalg.norm(support.direction), 1.0, EXACT)
+        and abs(across) < EXACT
+        and support.direction[2] == 0.0
+    )
     support = support_of_contacts(np.zeros((1, 3)), (0.0, 0.0, size))
     assert support.margin == 0.0 and close(np.linalg.norm(support.direction), 1.0, EXACT)
     assert support.direction[2] == 0.0
@@ -150,7 +165,9 @@ def test_axes_of_the_ground_are_a_rotation_with_up(down):
 def test_middle_of_a_triangle_is_its_centroid():
     corners = np.array([(0.0, 0.0, 1.0), (3.0, 0.0, 1.0), (0.0, 6.0, 1.0)])
     assert close(support_of_contacts(corners, (9.0, 9.0, 5.0)).target(None), (1.0, 2.0, 1.0), EXACT)
-    assert close(support_of_contacts(corners[:2], (9.0, 9.0, 5.0)).target(None), (1.5, 0.0, 1.0), EXACT)
+    assert close(
+        support_of_contacts(corners[:2], (9.0, 9.0, 5.0)).target(None), (1.5, 0.0, 1.0), EXACT
+    )
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -184,5 +201,8 @@ def test_foot_near_an_edge_is_known(x, near):
 def test_tolerance_leaves_out_corners_of_no_weight():
     angles = 2.0 * pi / 2000 * np.arange(2000)
     rim = np.stack([np.cos(angles), np.sin(angles), np.zeros(2000)], axis=1)
-    coarse, exact = support_of_contacts(rim, (0, 0, 1), tolerance=1e-4), support_of_contacts(rim, (0, 0, 1))
+    coarse, exact = (
+        support_of_contacts(rim, (0, 0, 1), tolerance=1e-4),
+        support_of_contacts(rim, (0, 0, 1)),
+    )
     assert len(coarse.polygon) < 300 and 0.0 <= exact.margin - coarse.margin < 3e-4

@@ -14,15 +14,57 @@ from body_moments.core.verdict.number_text import parse_number, parse_numbers, p
 
 from tests.core.findings import refused
 
-NO_NUMBERS = ["1.0x0", "1.0D0", "l.0", "1,0", "--1", "+-1", "1e", "1e+", "e1", ".", "+", "1.0.0", "0x1", "0x1p3", "1_0"]
-NO_NUMBERS += ["1e1.5", "1.0f", "½", "٣", "１", "−1", "1;", "#1", "(1)", "1/2", "1%", "None", "infinite", "1\xa0"]
+NO_NUMBERS = [
+    "1.0x0",
+    "1.0D0",
+    "l.0",
+    "1,0",
+    "--1",
+    "+-1",
+    "1e",
+    "1e+",
+    "e1",
+    ".",
+    "+",
+    "1.0.0",
+    "0x1",
+    "0x1p3",
+    "1_0",
+]
+NO_NUMBERS += [
+    "1e1.5",
+    "1.0f",
+    "½",
+    "٣",
+    "１",
+    "−1",
+    "1;",
+    "#1",
+    "(1)",
+    "1/2",
+    "1%",
+    "None",
+    "infinite",
+    "1\xa0",
+]
 NO_NUMBERS.append("\x001")
-NUMBERS = ["+1", ".5", "5.", "1E-3", "-0", "1e+000", "1.e05", "-.5e-3", "0001", "1" * 35, "0." + "3" * 70, "1e-999"]
+NUMBERS = [
+    "+1",
+    ".5",
+    "5.",
+    "1E-3",
+    "-0",
+    "1e+000",
+    "1.e05",
+    "-.5e-3",
+    "0001",
+    "1" * 35,
+    "0." + "3" * 70,
+    "1e-999",
+]
 NO_WHOLES = ["1.0", "1e0", "x", "1_0", "٣", "--1", "1/1", "0x1", ""]
 
-FACET = (
-    "facet normal {} {} {}\n outer loop\n  vertex {} {} {}\n  vertex {} {} {}\n  vertex {} {} {}\n endloop\nendfacet\n"
-)
+FACET = "facet normal {} {} {}\n outer loop\n  vertex {} {} {}\n  vertex {} {} {}\n  vertex {} {} {}\n endloop\nendfacet\n"
 FIELDS = [*"001", *"000", *"100", *"010"]
 LINES = [2, 2, 2, 4, 4, 4, 5, 5, 5, 6, 6, 6]
 HEADER = """ply
@@ -43,7 +85,13 @@ property list uchar int vertex_indices
 property float quality
 end_header
 """
-ROWS = ["7 2 0.5 .5", "8 0", *["{} 0 0 0 255".format(x) for x in range(4)], "2 0.5 1 3 0 1 2 1", "0 4 0 1 2 3 nan"]
+ROWS = [
+    "7 2 0.5 .5",
+    "8 0",
+    *["{} 0 0 0 255".format(x) for x in range(4)],
+    "2 0.5 1 3 0 1 2 1",
+    "0 4 0 1 2 3 nan",
+]
 
 
 def write(path, text):
@@ -58,7 +106,10 @@ def misread(line, expected, text):
 def test_decimal_numbers_follow_xml_schema():
     for text in NUMBERS:
         assert parse_number(text) == float(text)
-    assert parse_numbers(" 1\t.5\r\n-INF NaN ")[:3] == [1.0, 0.5, -float("inf")] and parse_whole("-07") == -7
+    assert (
+        parse_numbers(" 1\t.5\r\n-INF NaN ")[:3] == [1.0, 0.5, -float("inf")]
+        and parse_whole("-07") == -7
+    )
     for text in (*NO_NUMBERS, "", " 1", "1 ", "1\n"):
         with pytest.raises(ValueError, match=".*") as caught:
             parse_number(text)
@@ -103,7 +154,13 @@ def test_stl_without_a_number_is_refused(tmp_path, place):
         ("loop\n", "loops\n", 3, "loops", "loop"),
         (" endloop", " endloops", 7, "endloops", "endloop"),
         ("endfacet", "endfacets", 8, "endfacets", "endfacet"),
-        ("endsolid a b", "endsolid a\nsolid vertex 1 2 3\n" + FACET.format(*FIELDS), 10, "vertex", "facet"),
+        (
+            "endsolid a b",
+            "endsolid a\nsolid vertex 1 2 3\n" + FACET.format(*FIELDS),
+            10,
+            "vertex",
+            "facet",
+        ),
     ],
 )
 def test_stl_with_other_words_is_refused(tmp_path, old, new, line, word, expected):
@@ -123,8 +180,14 @@ def test_stl_words_may_stand_on_any_lines():
         text.replace("\n ", "\n\t"),
         text * 2,
     ]
-    others += ["solid vertex 1 2 3 facet\n" + body + "endsolid", "solid\n" + body.replace(" ", "\n") + "endsolid"]
-    others += ["solid\n" + body.replace("\n", " ") + "\nendsolid", text.replace("0", "+.0e-00").replace("1", "\f1.")]
+    others += [
+        "solid vertex 1 2 3 facet\n" + body + "endsolid",
+        "solid\n" + body.replace(" ", "\n") + "endsolid",
+    ]
+    others += [
+        "solid\n" + body.replace("\n", " ") + "\nendsolid",
+        text.replace("0", "+.0e-00").replace("1", "\f1."),
+    ]
     for other in others:
         check_stl_text(other.encode())
 
@@ -136,8 +199,22 @@ def ply(number, place, word):
 
 
 # Row, field and whether it is a number that places a point ("point"), another one, a whole one, or an index.
-PLY_FIELDS = [(0, 0, "number"), (0, 1, "whole"), (0, 3, "number"), (2, 0, "point"), (3, 1, "point"), (4, 2, "point")]
-PLY_FIELDS += [(5, 3, "number"), (5, 4, "number"), (6, 0, "whole"), (6, 2, "number"), (6, 3, "whole"), (6, 4, "index")]
+PLY_FIELDS = [
+    (0, 0, "number"),
+    (0, 1, "whole"),
+    (0, 3, "number"),
+    (2, 0, "point"),
+    (3, 1, "point"),
+    (4, 2, "point"),
+]
+PLY_FIELDS += [
+    (5, 3, "number"),
+    (5, 4, "number"),
+    (6, 0, "whole"),
+    (6, 2, "number"),
+    (6, 3, "whole"),
+    (6, 4, "index"),
+]
 PLY_FIELDS += [(7, 0, "whole"), (7, 1, "whole"), (7, 5, "index"), (7, 6, "number")]
 
 
@@ -167,7 +244,12 @@ def test_ply_row_with_another_count_is_refused(tmp_path, row):
 
 def test_ply_rows_may_have_other_spaces(tmp_path):
     text = HEADER + "\n".join(ROWS)
-    for other in (text, text + "\n\n \n", text.replace("\n", "\r\n"), HEADER + " \t\n ".join(ROWS).replace(" ", "\t ")):
+    for other in (
+        text,
+        text + "\n\n \n",
+        text.replace("\n", "\r\n"),
+        HEADER + " \t\n ".join(ROWS).replace(" ", "\t "),
+    ):
         open_mesh_file(write(tmp_path / "a.ply", other))
     with misread(26, COUNT, text="3 0 1 2"):
         open_mesh_file(write(tmp_path / "a.ply", text + "\n3 0 1 2\n"))
@@ -176,8 +258,12 @@ def test_ply_rows_may_have_other_spaces(tmp_path):
 def test_ply_polygons_of_many_sides_are_read(tmp_path):
     count = 20
     rows = ["{0} {0} 1 0 0".format(number) for number in range(count)]
-    faces = ["0 {} {} 1".format(sides, " ".join(map(str, range(sides)))) for sides in range(3, count + 1)]
-    head = HEADER.replace("element vertex 4", "element vertex 20").replace("element face 2", "element face 18")
+    faces = [
+        "0 {} {} 1".format(sides, " ".join(map(str, range(sides)))) for sides in range(3, count + 1)
+    ]
+    head = HEADER.replace("element vertex 4", "element vertex 20").replace(
+        "element face 2", "element face 18"
+    )
     text = head + "\n".join([*ROWS[:2], *rows, *faces, ""])
     open_mesh_file(write(tmp_path / "a.ply", text))
     with misread(57, VERTEX, text="20"):
@@ -187,7 +273,9 @@ def test_ply_polygons_of_many_sides_are_read(tmp_path):
 def test_ply_header_of_many_properties_is_read_soon():
     """Expressions for all of them would take minutes."""
     lists = "".join("property list uchar int p{}\n".format(number) for number in range(10_000))
-    elements = "".join("element e{} 1\nproperty float x\n".format(number) for number in range(10_000))
+    elements = "".join(
+        "element e{} 1\nproperty float x\n".format(number) for number in range(10_000)
+    )
     text = "ply\nformat ascii 1.0\nelement a 30\n" + lists + elements + "end_header\n"
     text += 30 * (10_000 * "0 " + "\n") + 9_999 * "1\n" + "x"
     start = time.process_time()

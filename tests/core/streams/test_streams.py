@@ -14,7 +14,18 @@ from body_moments.core.streams.measure import measure_stream, open_mesh_file
 from body_moments.core.streams.ply_rows import Element, Property
 
 from tests.close import close
-from tests.core.bodies import box, inverted, joined, ring, rotation, soup, sphere, torus, with_flipped, without
+from tests.core.bodies import (
+    box,
+    inverted,
+    joined,
+    ring,
+    rotation,
+    soup,
+    sphere,
+    torus,
+    with_flipped,
+    without,
+)
 from tests.core.findings import refused
 from tests.core.mesh_files import ply, stl, stl_text
 
@@ -51,7 +62,9 @@ def measured(tmp_path, name, data, *args, **options):
 
 
 def in_memory(part, order, about):
-    return polyhedron_moments(Surface(*part), order, area_order=order, about=about, exact=True, allow_open=True)
+    return polyhedron_moments(
+        Surface(*part), order, area_order=order, about=about, exact=True, allow_open=True
+    )
 
 
 def same(found, truth):
@@ -102,7 +115,9 @@ def test_open_streamed_mesh_is_detected(tmp_path, small_blocks, name, part, clos
     found = measured(tmp_path, name, FORMS[name](part), 3)
     assert found.closed == closed
     if closed:
-        assert close(found.volume.total, -in_memory(moved(torus(9, 7)), 3, (0, 0, 0))[0].total, rel=1e-6)
+        assert close(
+            found.volume.total, -in_memory(moved(torus(9, 7)), 3, (0, 0, 0))[0].total, rel=1e-6
+        )
 
 
 def test_minus_zero_is_zero(tmp_path):
@@ -128,10 +143,18 @@ def test_faces_of_any_number_of_sides(tmp_path, small_blocks, order, extra):
     )
     assert found.closed and found.face_count == len(faces)
     same(found, truth)
-    prism = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (2, 0), (3, 1), (2, 2), (0, 2))], float)
+    prism = np.array(
+        [[x, y, z] for z in (0, 1) for x, y in ((0, 0), (2, 0), (3, 1), (2, 2), (0, 2))], float
+    )
     sides = [[k, (k + 1) % 5, 5 + (k + 1) % 5, 5 + k] for k in range(5)]
-    found = measured(tmp_path, "b.ply", ply(prism, [[1, 2], [4, 3, 2, 1, 0], [5, 6, 7, 8, 9], *sides, [1, 2]], order))
-    assert found.closed and close([found.volume.total, found.area.total], [5.0, 16.0 + 2.0**1.5 - 0.0], rel=1e-12)
+    found = measured(
+        tmp_path,
+        "b.ply",
+        ply(prism, [[1, 2], [4, 3, 2, 1, 0], [5, 6, 7, 8, 9], *sides, [1, 2]], order),
+    )
+    assert found.closed and close(
+        [found.volume.total, found.area.total], [5.0, 16.0 + 2.0**1.5 - 0.0], rel=1e-12
+    )
 
 
 @pytest.mark.parametrize("place", [0.0, 1e9, -1e9])
@@ -146,7 +169,9 @@ def test_body_far_beyond_its_first_faces_is_read_again(tmp_path, small_blocks, p
         for data in (stl(part), stl_text(part)):
             seen = []
             found = measured(tmp_path, "a.stl", data, 20, progress=seen.append)
-            assert found.closed and close(found.volume.about[:1], (low / 2.0 + high / 2.0)[:1], rel=1e-6)
+            assert found.closed and close(
+                found.volume.about[:1], (low / 2.0 + high / 2.0)[:1], rel=1e-6
+            )
             assert found.face_count == len(triangles) < sum(seen)
 
 
@@ -167,7 +192,11 @@ def test_truncated_or_damaged_ply_is_refused(tmp_path, small_blocks, order):
         with refused("file_damaged", "file_unrecognized", "line_misread"):
             measured(tmp_path, "a.ply", ply(part[0], faces, order))
     with refused("file_without_objects"):
-        measured(tmp_path, "a.ply", b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n")
+        measured(
+            tmp_path,
+            "a.ply",
+            b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n",
+        )
 
 
 @pytest.mark.parametrize("cut", [1, 10, 49, 50, 500])
@@ -226,7 +255,12 @@ def test_signaling_nans_beside_doubles_are_refused(tmp_path):
     table = np.zeros(4, row)
     table["x"][2] = 0x7FA00000
     head = VERTICES.replace("double x", "float x").replace("double z", "float z") + FACES
-    whole = b"ply\nformat binary_little_endian 1.0\n" + head.encode() + b"end_header\n" + table.tobytes()
+    whole = (
+        b"ply\nformat binary_little_endian 1.0\n"
+        + head.encode()
+        + b"end_header\n"
+        + table.tobytes()
+    )
     faces = np.array([(3, (0, 2, 1))] * 4, np.dtype([("n", "u1"), ("corners", "<i4", 3)]))
     with refused("non_finite_coordinates", count=1):
         measured(tmp_path, "a.ply", whole + faces.tobytes())
@@ -236,7 +270,11 @@ def test_concave_polygons_are_cut_into_their_own_triangles(tmp_path):
     """A prism over an arrow: a fan of triangles would count what is outside of the arrow, too."""
     arrow = np.array([[0, 0], [2, 1], [0, 2], [0.5, 1.5], [0.5, 0.5]])
     points = np.concatenate([np.insert(arrow, 2, z, axis=1) for z in (0.0, 3.0)])
-    faces = [[4, 3, 2, 1, 0], [5, 6, 7, 8, 9], *([i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5] for i in range(5))]
+    faces = [
+        [4, 3, 2, 1, 0],
+        [5, 6, 7, 8, 9],
+        *([i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5] for i in range(5)),
+    ]
     found = measured(tmp_path, "a.ply", ply(points, faces))
     sides = np.linalg.norm(arrow - np.roll(arrow, 1, axis=0), axis=1).sum()
     assert found.volume.total == pytest.approx(3.0 * 1.25, rel=1e-14)
@@ -264,7 +302,11 @@ def test_ply_without_vertices_or_with_late_indices_is_refused(tmp_path):
     with refused("file_unrecognized"):
         measured(tmp_path, "a.ply", ply_text(FACES, TETRAHEDRON))
     with refused("line_misread"):
-        measured(tmp_path, "a.ply", ply_text(VERTICES + FACES, TETRAHEDRON.replace("3 1 2 3", "3 1.5 2 3")))
+        measured(
+            tmp_path,
+            "a.ply",
+            ply_text(VERTICES + FACES, TETRAHEDRON.replace("3 1 2 3", "3 1.5 2 3")),
+        )
 
 
 def test_a_header_has_a_million_bytes_at_most(tmp_path):
@@ -286,7 +328,9 @@ def test_elements_without_properties_take_nothing(tmp_path):
     assert measured(tmp_path, "a.ply", ply_text(empty + VERTICES + FACES, TETRAHEDRON)).closed
     for order in ("<", ">"):
         whole = ply(*moved(sphere(0)), order)
-        assert measured(tmp_path, "a.ply", whole.replace(b"element face", empty.encode() + b"element face")).closed
+        assert measured(
+            tmp_path, "a.ply", whole.replace(b"element face", empty.encode() + b"element face")
+        ).closed
 
 
 @pytest.mark.parametrize("order", ["<", ">"])
@@ -299,14 +343,18 @@ def test_rows_with_empty_lists_take_only_their_counts(tmp_path, order):
     before = head[:first] + empty + head[first:] + end + bytes(5000) + body
     assert measured(tmp_path, "a.ply", before).closed
     with refused("file_damaged"):
-        measured(tmp_path, "a.ply", head + empty.replace(b"5000", b"50000") + end + body + bytes(5000))
+        measured(
+            tmp_path, "a.ply", head + empty.replace(b"5000", b"50000") + end + body + bytes(5000)
+        )
 
 
 @pytest.mark.parametrize("order", [3, 4])
 def test_coordinates_beyond_float32(tmp_path, order):
     points, faces = box()
     found = measured(tmp_path, "a.ply", ply(points * 1e39, faces, kind="f8"), order)
-    assert found.closed and close(found.volume.total / 1e117, in_memory((points, faces), 3, None)[0].total, rel=1e-12)
+    assert found.closed and close(
+        found.volume.total / 1e117, in_memory((points, faces), 3, None)[0].total, rel=1e-12
+    )
 
 
 @pytest.mark.parametrize("size", [1e-13, 6e12])
@@ -327,7 +375,9 @@ def test_moments_beyond_all_numbers_are_refused(tmp_path):
 
 @pytest.mark.parametrize("order", [3, 5, 20])
 def test_collapsed_body_has_no_volume(tmp_path, order):
-    found = measured(tmp_path, "a.stl", stl((np.full((3, 3), 0.1), np.array([[0, 1, 2]]))), order, order)
+    found = measured(
+        tmp_path, "a.stl", stl((np.full((3, 3), 0.1), np.array([[0, 1, 2]]))), order, order
+    )
     assert found.volume.total == 0.0 == found.area.total
 
 
@@ -365,7 +415,12 @@ def test_senseless_header_is_refused(tmp_path, data):
 @pytest.mark.parametrize(
     "old, new, code, values",
     [
-        ("vertex 4", "vertex 4000000000000", "damage_ply_rows", {"name": "vertex", "count": 4000000000000}),
+        (
+            "vertex 4",
+            "vertex 4000000000000",
+            "damage_ply_rows",
+            {"name": "vertex", "count": 4000000000000},
+        ),
         ("face 4", "face 40", "damage_ply_rows", {"name": "face", "count": 40}),
     ],
 )

@@ -17,7 +17,9 @@ def test_refusal_and_memory_error_are_findings(capsys):
     assert capsys.readouterr().err == ""
 
 
-@pytest.mark.parametrize("text, said", [("of\n  two lines.", "of two lines"), ("", "-"), (".", "-")])
+@pytest.mark.parametrize(
+    "text, said", [("of\n  two lines.", "of two lines"), ("", "-"), (".", "-")]
+)
 def test_foreign_fault_prints_its_kind_message_and_traceback(text, said, capsys):
     try:
         raise KeyboardError(text)

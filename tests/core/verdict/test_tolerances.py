@@ -19,7 +19,8 @@ def measured(part):
 
 
 @pytest.mark.parametrize(
-    "size, code", [(9.9e49, ""), (1.01e50, "object_too_large"), (1.01e-60, ""), (9.9e-61, "object_too_small")]
+    "size, code",
+    [(9.9e49, ""), (1.01e50, "object_too_large"), (1.01e-60, ""), (9.9e-61, "object_too_small")],
 )
 def test_body_size_is_limited_only_by_finite_moments(size, code):
     rod = box((0, 0, 0), (size, 0.01 * size, 0.01 * size))
@@ -32,7 +33,10 @@ def test_body_size_is_limited_only_by_finite_moments(size, code):
 
 @pytest.mark.parametrize("size", [1e-62, 1e-120, 1e-200, 1e-310])
 def test_bodies_too_small_for_a_volume_are_refused(size):
-    points, triangles = size * np.eye(4, 3, -1), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    points, triangles = (
+        size * np.eye(4, 3, -1),
+        np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]),
+    )
     surface, line = Surface(points, triangles), clamped_space(2)
     patch = Patch((line, line), size * np.array([[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]]))
     for measure in (

@@ -20,7 +20,9 @@ def exact_root(a, b, c, error=(0, 0, 0)):
     if square < 0:
         return None
     digits = 10**60
-    root = Fraction(isqrt(square.numerator * square.denominator * digits**2), square.denominator * digits)
+    root = Fraction(
+        isqrt(square.numerator * square.denominator * digits**2), square.denominator * digits
+    )
     return 2 * a / (root - b) if root > b else None
 
 
@@ -28,9 +30,25 @@ def exact_root(a, b, c, error=(0, 0, 0)):
 @pytest.mark.parametrize("unit", [1.0, 2.0**-12, 2.0**12])
 def test_a_prism_is_good_up_to_the_first_root_and_no_farther(scale, unit):
     """Real roots of either sign, of sizes far apart; none; double ones, which rounding may have split."""
-    roots = [(3.0, 7.0), (3.0, -7.0), (-3.0, 7.0), (-3.0, -7.0), (1.0, 1e9), (-1.0, 1e9), (1e9, -1e-3), (0.3, 0.31)]
+    roots = [
+        (3.0, 7.0),
+        (3.0, -7.0),
+        (-3.0, 7.0),
+        (-3.0, -7.0),
+        (1.0, 1e9),
+        (-1.0, 1e9),
+        (1e9, -1e-3),
+        (0.3, 0.31),
+    ]
     rows = [(1.0, -1.0 / p - 1.0 / q, 1.0 / p / q) for p, q in roots]
-    rows += [(1.0, 0.0, 1.0), (1.0, -1.9, 1.0), (1.0, 1.0, 4.0), (1.0, -0.1, 0.0), (1.0, 0.5, 0.0), (1.0, 0.0, 0.0)]
+    rows += [
+        (1.0, 0.0, 1.0),
+        (1.0, -1.9, 1.0),
+        (1.0, 1.0, 4.0),
+        (1.0, -0.1, 0.0),
+        (1.0, 0.5, 0.0),
+        (1.0, 0.0, 0.0),
+    ]
     rows += [(1.0, 0.25, -1e-13), (1.0, -0.25, -1e-13), (0.125, 0.0, -2.0)]
     columns = scale * np.array(rows).T * np.array([[1.0], [1.0 / unit], [1.0 / unit**2]])
     found = first_positive_root(np.repeat(columns[:, None], 3, axis=1), np.zeros_like(columns))

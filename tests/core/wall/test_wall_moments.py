@@ -37,19 +37,29 @@ def quadrature(wall, inward, outward, order):
 
 
 @pytest.mark.parametrize(
-    "part", [sphere(1), without(sphere(1), 0, 1), grid(2), without(box(), 2, 3)], ids=["closed", "open", "flat", "tub"]
+    "part",
+    [sphere(1), without(sphere(1), 0, 1), grid(2), without(box(), 2, 3)],
+    ids=["closed", "open", "flat", "tub"],
 )
 @pytest.mark.parametrize("inward, outward", [(0.05, 0.0), (0.0, 0.2), (0.03, 0.07)])
 @pytest.mark.parametrize("order", [4, 9])
 def test_wall_moments_match_their_prisms(part, inward, outward, order):
-    points = part[0] @ np.array([[1.0, 0.2, 0.0], [0.0, 0.8, 0.1], [0.1, 0.0, 1.3]]) + [3.0, -1.0, 2.0]
+    points = part[0] @ np.array([[1.0, 0.2, 0.0], [0.0, 0.8, 0.1], [0.1, 0.0, 1.3]]) + [
+        3.0,
+        -1.0,
+        2.0,
+    ]
     wall = offset_solid(Surface(points, part[1]))
     found = wall_moments(wall, inward, outward, order)
     raw, size = quadrature(wall, inward, outward, order)
     assert (np.abs(found.raw - raw) <= found.rounding_error + 1e-13 * size).all()
-    assert (found.rounding_error[20:] <= 1e-9 * size[20:].max()).all()  # a bound that says something
+    assert (
+        found.rounding_error[20:] <= 1e-9 * size[20:].max()
+    ).all()  # a bound that says something
     assert not found.input_error.any()
-    assert (np.abs(found.raw[:20] - wall.moments(inward, outward).raw) <= found.rounding_error[:20]).all()
+    assert (
+        np.abs(found.raw[:20] - wall.moments(inward, outward).raw) <= found.rounding_error[:20]
+    ).all()
 
 
 @pytest.mark.parametrize("thickness", [Fraction(1, 4), Fraction(1, 1024)])
@@ -60,7 +70,8 @@ def test_a_hollow_box_is_a_difference_of_boxes(thickness):
         exact = Fraction(0)
         if not any(power % 2 for power in powers):
             whole, hollow = (
-                math.prod(2 * side ** (n + 1) / (n + 1) for n in powers) for side in (Fraction(1), 1 - thickness)
+                math.prod(2 * side ** (n + 1) / (n + 1) for n in powers)
+                for side in (Fraction(1), 1 - thickness)
             )
             exact = whole - hollow
         assert abs(Fraction(value) - exact) <= Fraction(bound)
@@ -74,7 +85,9 @@ def test_storing_points_as_float32_is_in_the_bounds():
     found, truth = (wall_moments(wall, 0.0, 0.1, 8) for wall in (stored, exact))
     apart = np.abs(found.raw - truth.about_point(found.about).raw)
     assert (apart <= found.input_error + found.rounding_error + truth.rounding_error).all()
-    assert (found.input_error[20:] < 1e-4 * np.abs(found.raw[20:]).max()).all() and apart[20:].max() > 0.0
+    assert (found.input_error[20:] < 1e-4 * np.abs(found.raw[20:]).max()).all() and apart[
+        20:
+    ].max() > 0.0
 
 
 def product(*polynomials):
@@ -98,7 +111,14 @@ def strip_truth(corners, powers):
             place[i][1, 1] = a[i] - b[i] + c[i] - d[i]
         along = [{(0, 0): p[1, 0], (0, 1): p[1, 1]} for p in place]
         across = [{(0, 0): p[0, 1], (1, 0): p[1, 1]} for p in place]
-        for i, j, k, sign in ((0, 1, 2, 1), (1, 2, 0, 1), (2, 0, 1, 1), (0, 2, 1, -1), (1, 0, 2, -1), (2, 1, 0, -1)):
+        for i, j, k, sign in (
+            (0, 1, 2, 1),
+            (1, 2, 0, 1),
+            (2, 0, 1, 1),
+            (0, 2, 1, -1),
+            (1, 0, 2, -1),
+            (2, 1, 0, -1),
+        ):
             factors = [place[n] for n in range(3) for _ in range(powers[n])]
             flux = product(place[i], along[j], across[k], *factors)
             total += sign * sum(value / ((m + 1) * (n + 1)) for (m, n), value in flux.items())
@@ -121,6 +141,9 @@ def test_third_order_matches_the_wall_moments(order):
     points, triangles = box((-1, -1, -1), (1, 1, 1))
     wall = offset_solid(Surface(points, triangles))
     found, own = wall_moments(wall, 0.25, 0.0, order), wall.moments(0.25, 0.0)
-    assert found.order == order and (np.abs(found.raw - own.raw[: len(found.raw)]) <= found.rounding_error).all()
+    assert (
+        found.order == order
+        and (np.abs(found.raw - own.raw[: len(found.raw)]) <= found.rounding_error).all()
+    )
     assert close(found.rounding_error, own.rounding_error[: len(found.raw)], 1e-9)
     assert close(found.total, 8.0 - 1.5**3, rel=1e-14)

@@ -56,7 +56,10 @@ def test_the_shell_of_a_cube_is_the_cube_less_the_smaller_cube(t):
 @pytest.mark.parametrize(("side", "high"), [("inward", 1.0), ("outward", 1.5), ("centered", 1.25)])
 def test_box_of_a_shell_ends_at_its_outside(side, high):
     offset = offset_solid(bodies.surface(cube()))
-    assert [corner.tolist() for corner in offset.box(*split_thickness(side, 0.25))] == [[-high / 2] * 3, [high / 2] * 3]
+    assert [corner.tolist() for corner in offset.box(*split_thickness(side, 0.25))] == [
+        [-high / 2] * 3,
+        [high / 2] * 3,
+    ]
 
 
 @pytest.mark.parametrize(("side", "low", "high"), [("outward", 1.0, 1.5), ("centered", 0.75, 1.25)])
@@ -94,7 +97,9 @@ def test_every_moment_is_a_difference_of_two_closed_bodies(part, side):
     size = min(found.max_thickness(side), np.ptp(part[0], axis=0).min())
     low, high = split_thickness(side, 0.6 * size if side == "inward" else 0.2 * size)
     body = found.moments(low, high)
-    truth = np.array(exact_difference(part, offset_directions(*part).vectors, -low, high, body.about), float)
+    truth = np.array(
+        exact_difference(part, offset_directions(*part).vectors, -low, high, body.about), float
+    )
     reach = np.abs(part[0] - body.about).max(axis=0) + size
     scale = body.total * np.multiply.reduce(reach ** monomials(3), axis=1)
     assert (np.abs(body.raw - truth) <= body.rounding_error).all()
@@ -169,7 +174,12 @@ def test_a_flat_sheet_is_a_plate_and_says_nothing_of_an_inside():
     properties = MassProperties.from_moments(body)
     assert abs(body.total - 3.0) < 1e-14
     assert np.abs(properties.center - (1.0, 1.5, 0.0)).max() < 1e-14
-    assert np.abs(np.diag(properties.inertia) - [3 * (9 + 0.25) / 12, 3 * (4 + 0.25) / 12, 3 * 13 / 12]).max() < 1e-14
+    assert (
+        np.abs(
+            np.diag(properties.inertia) - [3 * (9 + 0.25) / 12, 3 * (4 + 0.25) / 12, 3 * 13 / 12]
+        ).max()
+        < 1e-14
+    )
 
 
 def test_a_bent_sheet_is_mitred_at_its_crease():
@@ -180,7 +190,9 @@ def test_a_bent_sheet_is_mitred_at_its_crease():
     assert abs(wall(part, "inward", t).total - t * (5 - t)) < 1e-14
 
 
-@pytest.mark.parametrize(("sizes", "limit"), [((1, 1, 1), 0.5), ((4, 1, 2), 0.5), ((1, 1, 0.2), 0.1)])
+@pytest.mark.parametrize(
+    ("sizes", "limit"), [((1, 1, 1), 0.5), ((4, 1, 2), 0.5), ((1, 1, 0.2), 0.1)]
+)
 def test_a_box_folds_over_at_half_its_least_side(sizes, limit):
     found = offset_solid(bodies.surface(bodies.box(high=sizes)))
     assert limit * (1 - 1e-6) < found.inward <= limit
@@ -237,7 +249,9 @@ def test_a_face_without_area_is_carried_along():
     row = next(row for row in triangles if {0, 1} <= set(row))
     c = next(int(v) for v in row if v not in (0, 1))
     a, b = (0, 1) if list(row)[(list(row).index(0) + 1) % 3] == 1 else (1, 0)
-    triangles = np.concatenate([triangles[~(triangles == row).all(axis=1)], [[a, 8, c], [8, b, c], [a, b, 8]]])
+    triangles = np.concatenate(
+        [triangles[~(triangles == row).all(axis=1)], [[a, 8, c], [8, b, c], [a, b, 8]]]
+    )
     found = offset_solid(bodies.surface((points, triangles)))
     assert found.degenerate_triangles == 1
     assert abs(found.moments(0.1, 0.0).total - (1 - 0.8**3)) <= 1e-14
@@ -246,7 +260,10 @@ def test_a_face_without_area_is_carried_along():
 def test_noise_on_a_flat_side_does_not_send_its_edge_sliding():
     rng = np.random.default_rng(0)
     part = bodies.welded(
-        bodies.joined(bodies.grid(8), bodies.moved(bodies.grid(8), np.array([[0, 0, -1], [0, 1, 0], [-1, 0, 0.0]])))
+        bodies.joined(
+            bodies.grid(8),
+            bodies.moved(bodies.grid(8), np.array([[0, 0, -1], [0, 1, 0], [-1, 0, 0.0]])),
+        )
     )
     part = part[0] + 1e-5 * rng.normal(size=part[0].shape), part[1]
     found = offset_directions(*part)
@@ -258,7 +275,10 @@ def test_noise_on_a_flat_side_does_not_send_its_edge_sliding():
     [
         (bodies.with_flipped(cube(), 0), "wall_inconsistent_faces"),
         (bodies.moebius(), "wall_inconsistent_faces"),
-        (bodies.welded(bodies.joined(bodies.box(), bodies.box((0, 1, 1), (1, 2, 2)))), "wall_non_manifold"),
+        (
+            bodies.welded(bodies.joined(bodies.box(), bodies.box((0, 1, 1), (1, 2, 2)))),
+            "wall_non_manifold",
+        ),
         ((bodies.CORNERS, np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4]])), "wall_non_manifold"),
         ((np.zeros((3, 3)), np.array([[0, 1, 2]])), "no_face_area"),
     ],
@@ -276,7 +296,11 @@ def test_surface_without_sides_is_refused_with_the_remedy(part, code):
             "wall_non_manifold",
             [[[0, 1, 1], [1, 1, 1]]],
         ),
-        ((SQUARE, np.array([[0, 1, 2], [0, 3, 2]])), "wall_inconsistent_faces", [[[0, 0, 0], [1, 1, 0]]]),
+        (
+            (SQUARE, np.array([[0, 1, 2], [0, 3, 2]])),
+            "wall_inconsistent_faces",
+            [[[0, 0, 0], [1, 1, 0]]],
+        ),
     ],
 )
 def test_unusable_edges_are_named_by_given_vertices(part, code, edges):
@@ -293,7 +317,12 @@ def test_first_order_is_the_area_and_thin_wall_a_thin_shell():
     part = bodies.moved(cube(), bodies.rotation(3) @ SHEAR)
     found = offset_solid(bodies.surface(part))
     corners = part[0][part[1]]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+    area = (
+        np.linalg.norm(
+            np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+        ).sum()
+        / 2
+    )
     assert abs(found.coefficients[0, 0] - area) < 1e-14 * area
 
 
@@ -336,12 +365,16 @@ def test_wall_of_a_pyramid_is_a_difference_of_similar_pyramids():
 def test_any_float32_rounding_stays_within_the_bound(part, side, t):
     rng = np.random.default_rng(5)
     single = part[0].astype(np.float32)
-    given = offset_solid(bodies.surface((single, part[1]), np.float32)).moments(*split_thickness(side, t))
+    given = offset_solid(bodies.surface((single, part[1]), np.float32)).moments(
+        *split_thickness(side, t)
+    )
     half = np.spacing(np.abs(single).max(axis=0)).astype(float) / 2
     for _ in range(5):
         moved = single.astype(float) + half * rng.choice([-1.0, 1.0], single.shape)
         found = wall((moved, part[1]), side, t).about_point(given.about)
-        assert (np.abs(found.raw - given.raw) <= given.input_error + 2 * given.rounding_error)[:10].all()
+        assert (np.abs(found.raw - given.raw) <= given.input_error + 2 * given.rounding_error)[
+            :10
+        ].all()
     assert given.input_error[0] < 0.01 * given.total
 
 
@@ -355,7 +388,9 @@ def fine_box(n, size=(1.0, 1.0, 1.0)):
         (np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0]]), (0, 1, 0)),
         (np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]), (0, 0, 0)),
     ]
-    part = bodies.welded(bodies.joined(*(bodies.moved(bodies.grid(n), turn, offset) for turn, offset in faces)))
+    part = bodies.welded(
+        bodies.joined(*(bodies.moved(bodies.grid(n), turn, offset) for turn, offset in faces))
+    )
     return part[0] * size, part[1]
 
 
@@ -370,7 +405,9 @@ def test_a_finely_cut_cube_has_the_wall_of_a_cube(n, t):
 
 
 def test_turned_fine_float32_box_has_the_wall_of_a_box():
-    points, triangles = bodies.moved(fine_box(16, (1.0, 2.0, 3.0)), bodies.rotation(3), (5.0, 7.0, -3.0))
+    points, triangles = bodies.moved(
+        fine_box(16, (1.0, 2.0, 3.0)), bodies.rotation(3), (5.0, 7.0, -3.0)
+    )
     found = offset_solid(bodies.surface((points.astype(np.float32), triangles), np.float32))
     assert found.inward > 0.49
     body = found.moments(0.3, 0.0)
@@ -382,12 +419,27 @@ def test_a_finely_cut_sheet_keeps_its_rim():
     body = wall(bodies.grid(8), "outward", 0.7)
     assert abs(body.total - 0.7) < 1e-14
     other = bodies.moved(bodies.grid(8), offset=(-1.0, 0.0, 0.0))
-    part = bodies.welded(bodies.joined(bodies.grid(8), bodies.moved(other, [[0, 0, -1], [0, 1, 0], [1, 0, 0]])))
+    part = bodies.welded(
+        bodies.joined(bodies.grid(8), bodies.moved(other, [[0, 0, -1], [0, 1, 0], [1, 0, 0]]))
+    )
     assert abs(wall(part, "outward", 0.1).total - (0.2 + 0.01)) < 1e-14
     assert abs(wall(part, "inward", 0.1).total - (0.2 - 0.01)) < 1e-14
 
 
-JAWS = [(0, 0), (4, 0), (4, 1.9), (3, 1.9), (3, 1), (1, 1), (1, 3), (3, 3), (3, 2.1), (4, 2.1), (4, 4), (0, 4)]
+JAWS = [
+    (0, 0),
+    (4, 0),
+    (4, 1.9),
+    (3, 1.9),
+    (3, 1),
+    (1, 1),
+    (1, 3),
+    (3, 3),
+    (3, 2.1),
+    (4, 2.1),
+    (4, 4),
+    (0, 4),
+]
 CAP = [(0, 1, 4, 5), (1, 2, 3, 4), (0, 5, 6, 11), (6, 7, 10, 11), (7, 8, 9, 10)]
 
 
@@ -406,15 +458,35 @@ OUTER, INNER = bodies.box((0, 0, 0), (4, 4, 4)), bodies.box((1, 1, 1), (3, 3, 3)
 @pytest.mark.parametrize(
     ("part", "side", "apart", "through"),
     [
-        (bodies.joined(OUTER, bodies.inverted(INNER)), "inward", (0.1, 0.49, 0.5), (0.501, 0.6, 1.0, 1.5)),
+        (
+            bodies.joined(OUTER, bodies.inverted(INNER)),
+            "inward",
+            (0.1, 0.49, 0.5),
+            (0.501, 0.6, 1.0, 1.5),
+        ),
         (bodies.joined(OUTER, bodies.inverted(INNER)), "centered", (0.5, 0.99), (1.01, 1.5)),
         (bodies.joined(OUTER, bodies.inverted(INNER)), "outward", (0.5, 0.9), ()),
         (bodies.joined(OUTER, INNER), "outward", (0.5, 0.99), (1.01, 3.0)),
         (bodies.joined(OUTER, INNER), "inward", (0.5, 0.9), ()),
-        (bodies.joined(bodies.box(), bodies.moved(bodies.box(), offset=(4, 0, 0))), "outward", (1.0, 1.5), (1.51, 5.0)),
+        (
+            bodies.joined(bodies.box(), bodies.moved(bodies.box(), offset=(4, 0, 0))),
+            "outward",
+            (1.0, 1.5),
+            (1.51, 5.0),
+        ),
         (clamp(), "outward", (0.05, 0.09), (0.11, 0.15, 0.3)),
-        (bodies.joined(SHEET, bodies.moved(SHEET, offset=(0, 0, 0.25))), "inward", (0.1, 0.25), (0.26, 0.5)),
-        (bodies.joined(SHEET, bodies.moved(SHEET, offset=(0.5, 0.5, 0.25))), "centered", (0.1, 0.25), (0.26, 0.5)),
+        (
+            bodies.joined(SHEET, bodies.moved(SHEET, offset=(0, 0, 0.25))),
+            "inward",
+            (0.1, 0.25),
+            (0.26, 0.5),
+        ),
+        (
+            bodies.joined(SHEET, bodies.moved(SHEET, offset=(0.5, 0.5, 0.25))),
+            "centered",
+            (0.1, 0.25),
+            (0.26, 0.5),
+        ),
         (bodies.joined(SHEET, bodies.moved(SHEET, offset=(2, 0, 0.25))), "outward", (0.1, 0.5), ()),
     ],
 )
@@ -428,8 +500,13 @@ def test_meeting_walls_without_piercing_edges_are_found(part, side, apart, throu
 def test_float32_bound_grows_with_the_reach_of_a_wall():
     found = offset_solid(bodies.surface(bodies.sphere(2), dtype=np.float32))
     for ways in ((0.0, 1.0), (0.2, 1.0)):
-        errors = [found.moments(min(t * ways[0], 0.5), t * ways[1]).input_error for t in (0.1, 0.5, 2.0, 8.0)]
-        assert all((more > less).all() and (less > 0.0).all() for less, more in zip(errors, errors[1:]))
+        errors = [
+            found.moments(min(t * ways[0], 0.5), t * ways[1]).input_error
+            for t in (0.1, 0.5, 2.0, 8.0)
+        ]
+        assert all(
+            (more > less).all() and (less > 0.0).all() for less, more in zip(errors, errors[1:])
+        )
 
 
 @pytest.mark.parametrize("angle", [1e-3, 1e-2])
@@ -437,14 +514,19 @@ def test_faint_float32_crease_is_offset_as_a_crease(angle):
     points, triangles = bodies.grid(6)
     points[:, 2] = angle * np.maximum(points[:, 0] - np.unique(points[:, 0])[2], 0.0)
     found = offset_solid(bodies.surface((points, triangles), dtype=np.float32))
-    assert found.inexact_vertices == 0 and max(1.0 - found.min_ratio, found.max_ratio - 1.0) < 1e-3 * angle**2 + 1e-9
+    assert (
+        found.inexact_vertices == 0
+        and max(1.0 - found.min_ratio, found.max_ratio - 1.0) < 1e-3 * angle**2 + 1e-9
+    )
 
 
 @pytest.mark.parametrize("gap, meet", [(1.5, True), (2.5, False)])
 def test_thin_walls_of_facing_skins_meet_at_their_thickness(gap, meet):
     points, triangles = bodies.grid(2)
     thickness = 1e-6
-    part = bodies.joined((points, triangles), (points + [0.1, 0.1, gap * thickness], triangles[:, ::-1]))
+    part = bodies.joined(
+        (points, triangles), (points + [0.1, 0.1, gap * thickness], triangles[:, ::-1])
+    )
     assert offset_solid(bodies.surface(part)).self_intersects(0.0, thickness) == meet
 
 
@@ -459,8 +541,15 @@ def test_tip_of_a_spike_piercing_another_side_is_found(faces_down, gap, meet, in
     pierces."""
     x, y = 0.3, 0.1
     lower = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
-    base = [(x - 0.1, y - 0.1, 0), (x + 0.1, y - 0.1, 0), (x + 0.1, y + 0.1, 0), (x - 0.1, y + 0.1, 0)]
-    points = np.array([*lower, *base, (x, y, 1 - gap), (1, -1, 1), (1, 1, 1), (-1, 1, 1), (-1, -1, 1)], float)
+    base = [
+        (x - 0.1, y - 0.1, 0),
+        (x + 0.1, y - 0.1, 0),
+        (x + 0.1, y + 0.1, 0),
+        (x - 0.1, y + 0.1, 0),
+    ]
+    points = np.array(
+        [*lower, *base, (x, y, 1 - gap), (1, -1, 1), (1, 1, 1), (-1, 1, 1), (-1, -1, 1)], float
+    )
     ring = bodies.split([(k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4) for k in range(4)])
     spike = [(k + 4, (k + 1) % 4 + 4, 8) for k in range(4)]
     bend = bodies.split([(2, 1, 9, 10)])  # so that what faces the spike is one sheet with it

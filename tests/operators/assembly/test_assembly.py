@@ -56,7 +56,9 @@ def test_the_total_is_stored_on_the_collection_and_drives(reported):
         root["body_method"] == "assembly"
         and root["body_inertia_products"].to_list() == root["body_inertia"].to_list()[3:]
     )
-    assert close(bpy.data.collections["Arm"]["body_mass"], 8000.0, 1e-14) and close(obj["body_mass"], 62800.0, 1e-14)
+    assert close(bpy.data.collections["Arm"]["body_mass"], 8000.0, 1e-14) and close(
+        obj["body_mass"], 62800.0, 1e-14
+    )
     driver = bpy.data.objects.new("Driven", None).driver_add("location", 0).driver
     bpy.context.scene.collection.objects.link(bpy.data.objects["Driven"])
     variable = driver.variables.new()
@@ -83,7 +85,10 @@ def test_the_total_is_stored_on_the_collection_and_drives(reported):
         (lambda root: setattr(bpy.data.objects["b1"], "location", (9, 9, 9)), Stale.MEMBER),
         (lambda root: box(root, (1, 1, 1), name="new"), Stale.MEMBERS),
         (lambda root: setattr(root.body_moments, "mass_from", "MASS"), Stale.MEMBERS),
-        (lambda root: setattr(bpy.data.collections["Arm"].body_moments, "mass_from", "MASS"), Stale.MEMBERS),
+        (
+            lambda root: setattr(bpy.data.collections["Arm"].body_moments, "mass_from", "MASS"),
+            Stale.MEMBERS,
+        ),
         (lambda root: setattr(bpy.data.objects["b0"], "hide_render", True), Stale.MEMBERS),
         (lambda root: None, None),
     ],
@@ -118,7 +123,9 @@ def test_total_and_drawn_center_follow_a_density(settings, density):
     mass, center, tensor = boxes_inertia([BOXES[0], (density, *BOXES[1][1:])])
     assert staleness.stale_reason(root, bpy.context.scene) is None
     assert "members_density_unset" not in root["body_findings"]
-    assert close(root["body_mass"], mass, 1e-12) and close(root["body_center_of_mass"].to_list(), center, 1e-12)
+    assert close(root["body_mass"], mass, 1e-12) and close(
+        root["body_center_of_mass"].to_list(), center, 1e-12
+    )
     entries = tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
     assert np.abs(np.array(root["body_inertia"].to_list()) - entries).max() <= 1e-12 * entries.max()
     only(bpy.data.objects["b0"])
@@ -126,7 +133,9 @@ def test_total_and_drawn_center_follow_a_density(settings, density):
     assert active == 0 and close(drawn[1].center, center, 1e-12)
     obj.location.x += 1.0
     bpy.context.view_layer.update()
-    assert len(overlay.bodies.collect(bpy.context, [bpy.context.object])[0]) == 1  # the total is out of date
+    assert (
+        len(overlay.bodies.collect(bpy.context, [bpy.context.object])[0]) == 1
+    )  # the total is out of date
 
 
 @pytest.mark.parametrize(
@@ -153,7 +162,9 @@ def test_new_member_frames_keep_assembly_current(operator, options):
     assert all(obj.matrix_world != was for obj, was in zip(root.all_objects, before))
     arm, members = bpy.data.collections["Arm"], [obj["body_mass"] for obj in root.all_objects]
     assert [staleness.stale_reason(one, bpy.context.scene) for one in (root, arm)] == [None, None]
-    assert close(root["body_mass"], sum(members), 1e-6) and (sum(members) < 80.1) == ("density" in options)
+    assert close(root["body_mass"], sum(members), 1e-6) and (sum(members) < 80.1) == (
+        "density" in options
+    )
     bpy.data.objects["b1"].location.x += 1.0
     bpy.context.view_layer.update()
     assert staleness.stale_reason(root, bpy.context.scene) == Stale.MEMBER
@@ -270,8 +281,12 @@ def test_the_bill_of_masses_is_a_table_of_all_members(tmp_path):
         ("0", "Robot"), ("1", "Arm"), ("2", "b1"), ("1", "'=out"), ("1", "b0"),
     ]  # fmt: skip
     mass, center, _ = boxes_inertia(BOXES)
-    assert close(float(rows[0]["mass"]), mass, 1e-14) and close(float(rows[0]["center_of_mass_x"]), center[0], 1e-14)
-    assert close(float(rows[2]["inertia_xx"]), 8000 * 8 / 12, 1e-14) and rows[2]["method"] == "exact"
+    assert close(float(rows[0]["mass"]), mass, 1e-14) and close(
+        float(rows[0]["center_of_mass_x"]), center[0], 1e-14
+    )
+    assert (
+        close(float(rows[2]["inertia_xx"]), 8000 * 8 / 12, 1e-14) and rows[2]["method"] == "exact"
+    )
     assert rows[3]["left_out"] and rows[3]["counted"] == "false" and not rows[3]["mass"]
     with pytest.raises(RuntimeError, match="No file is named"):
         bpy.ops.object.body_moments_export_bill()
@@ -283,7 +298,11 @@ def test_point_masses_are_measured_and_listed_as_objects_are():
     bpy.context.view_layer.update()
     only(made, plain)
     bpy.ops.object.body_moments_measure()
-    assert close(made["body_mass"], 5.0, 1e-15) and made["body_method"] == "given" and "body_mass" not in plain
+    assert (
+        close(made["body_mass"], 5.0, 1e-15)
+        and made["body_method"] == "given"
+        and "body_mass" not in plain
+    )
     assert staleness.stale_reason(made, bpy.context.scene) is None
     made.body_moments.mass = 6.0
     assert staleness.stale_reason(made, bpy.context.scene) == Stale.SETTINGS

@@ -42,7 +42,9 @@ def pair():
 def whole(*objects):
     """What objects are together, along the axes of the first."""
     bodies = [measured(obj) for obj in objects]
-    return combine([body.mass_moments for body in bodies]).in_frame(bodies[0].rotation, bodies[0].location)
+    return combine([body.mass_moments for body in bodies]).in_frame(
+        bodies[0].rotation, bodies[0].location
+    )
 
 
 def tensor(inertia, quaternion):
@@ -57,7 +59,12 @@ def export(name, path, **options):
 @pytest.mark.parametrize("unit", [1.0, 0.01, 0.001, 0.0254])
 @pytest.mark.parametrize(
     ("name", "links"),
-    [(name, links) for name in SUFFIXES for links in ("OBJECT", "COLLECTION") if (name, links) != ("usd", "OBJECT")],
+    [
+        (name, links)
+        for name in SUFFIXES
+        for links in ("OBJECT", "COLLECTION")
+        if (name, links) != ("usd", "OBJECT")
+    ],
 )
 def test_meshes_are_in_the_meters_of_the_inertials(tmp_path, name, links, unit):
     """USD by object states the unit of Blender's own geometry instead."""
@@ -78,7 +85,9 @@ def test_selected_objects_of_a_format_without_meshes(tmp_path):
     only(tool)
     export("sdf", tmp_path / "tool.sdf", use_selection=True, geometry="BOX")
     root = ElementTree.parse(tmp_path / "tool.sdf").getroot()
-    assert [link.get("name") for link in root.iter("link")] == ["Tool"] and not [*tmp_path.glob("*/")]
+    assert [link.get("name") for link in root.iter("link")] == ["Tool"] and not [
+        *tmp_path.glob("*/")
+    ]
     sides = np.array(root.find(".//box/size").text.split(), float)
     body = measured(tool).in_object_frame()
     moments = body.mass / 12.0 * (sides @ sides - sides * sides)
@@ -132,9 +141,14 @@ def test_gltf_bodies_include_fixed_children(tmp_path, unit, reported):
     document = gltf.read_json((tmp_path / "robot.glb").read_bytes())
     nodes = {node["name"]: node for node in document["nodes"]}
     assert {*document["extensionsUsed"]} >= {"KHR_physics_rigid_bodies", "OMI_physics_body"}
-    assert "extensions" not in nodes["Fore.001"] and ("gltf_unit_scale" in reported.codes) == (unit != 1.0)
+    assert "extensions" not in nodes["Fore.001"] and ("gltf_unit_scale" in reported.codes) == (
+        unit != 1.0
+    )
     motion = nodes["Upper"]["extensions"]["KHR_physics_rigid_bodies"]["motion"]
-    assert nodes["Upper"]["extensions"]["OMI_physics_body"]["motion"] == {"type": "dynamic", **motion}
+    assert nodes["Upper"]["extensions"]["OMI_physics_body"]["motion"] == {
+        "type": "dynamic",
+        **motion,
+    }
     links = exported_links(tmp_path / "robot.glb")
     assert links.keys() == {"Upper", "Tool"}
     for link in links.values():
@@ -143,7 +157,15 @@ def test_gltf_bodies_include_fixed_children(tmp_path, unit, reported):
 
 
 @pytest.mark.parametrize(
-    "name, end", [("urdf", "urdf"), ("sdf", "sdf"), ("mjcf", "xml"), ("usd", "usda"), ("gltf", "glb"), ("osim", "osim")]
+    "name, end",
+    [
+        ("urdf", "urdf"),
+        ("sdf", "sdf"),
+        ("mjcf", "xml"),
+        ("usd", "usda"),
+        ("gltf", "glb"),
+        ("osim", "osim"),
+    ],
 )
 def test_a_collection_remembers_its_exporter_and_runs_it_again(tmp_path, name, end):
     """In another session: path and options are in the file."""
@@ -161,9 +183,13 @@ def test_a_collection_remembers_its_exporter_and_runs_it_again(tmp_path, name, e
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
     assert bpy.ops.collection.export_all() == {"FINISHED"}
     data = path.read_bytes()
-    assert b"Tool" in data and b"Upper" not in data and b"shape" not in data and b"visual" not in data
+    assert (
+        b"Tool" in data and b"Upper" not in data and b"shape" not in data and b"visual" not in data
+    )
     bpy.data.collections["Robot"].exporters[0].export_properties.inertial_only = False
-    bpy.context.view_layer.active_layer_collection = bpy.context.view_layer.layer_collection.children["Robot"]
+    bpy.context.view_layer.active_layer_collection = (
+        bpy.context.view_layer.layer_collection.children["Robot"]
+    )
     assert bpy.ops.collection.export_all() == {"FINISHED"}
     assert path.read_bytes() != data and b"Upper" not in path.read_bytes()
 
@@ -179,8 +205,13 @@ def test_hinged_objects_are_exported_with_their_joint(tmp_path, name):
     path = tmp_path / ("robot" + {**SUFFIXES, "gltf": ".glb"}[name])
     assert export(name, path, fixed_base=True, use_collision=False) == {"FINISHED"}
     data = path.read_bytes()
-    assert b"Elbow" in data and b"Fore" in data and b"ollision" not in data and b"collider" not in data
-    for text in {"mjcf": [b"hinge"], "usd": [b"PhysicsRevoluteJoint", b"PhysicsArticulationRootAPI"]}.get(name, []):
+    assert (
+        b"Elbow" in data and b"Fore" in data and b"ollision" not in data and b"collider" not in data
+    )
+    for text in {
+        "mjcf": [b"hinge"],
+        "usd": [b"PhysicsRevoluteJoint", b"PhysicsArticulationRootAPI"],
+    }.get(name, []):
         assert text in data
     assert b"freejoint" not in data and b'group="3"' not in data
 
@@ -213,8 +244,14 @@ def test_bones_are_links_in_their_rest_frames_with_their_limits(tmp_path):
     for part in rig.parts:
         body = part.measurement.in_object_frame()
         assert float(inertials[part.name].find("mass").get("value")) == body.mass
-        assert inertials[part.name].find("origin").get("xyz").split() == [repr(x + 0.0) for x in body.center.tolist()]
-    joints = [joint for joint in root.iter("joint") if joint.find("child").get("link").startswith(names[1])]
+        assert inertials[part.name].find("origin").get("xyz").split() == [
+            repr(x + 0.0) for x in body.center.tolist()
+        ]
+    joints = [
+        joint
+        for joint in root.iter("joint")
+        if joint.find("child").get("link").startswith(names[1])
+    ]
     assert [(joint.get("type"), joint.find("axis").get("xyz")) for joint in joints] == [
         ("continuous", "0.0 0.0 1.0"),
         ("revolute", "1.0 0.0 0.0"),
@@ -222,7 +259,10 @@ def test_bones_are_links_in_their_rest_frames_with_their_limits(tmp_path):
     assert close(float(joints[1].find("limit").get("upper")), 1.0, 1e-6)
     assert joints[0].find("parent").get("link") == names[0]
     place = np.array(joints[0].find("origin").get("xyz").split(), float)
-    rest = armature.data.bones[names[0]].matrix_local.inverted() @ armature.data.bones[names[1]].head_local
+    rest = (
+        armature.data.bones[names[0]].matrix_local.inverted()
+        @ armature.data.bones[names[1]].head_local
+    )
     assert np.abs(place - np.array(rest)).max() < 1e-5
     assert (tmp_path / "meshes" / "rig" / (names[1].lower() + ".stl")).is_file()
     only(armature)

@@ -35,7 +35,9 @@ def test_an_inertial_is_copied_along_the_objects_own_axes(name, capfd):
     text = capfd.readouterr().out
     assert repr(measured(body).mass_properties.mass) in text or name == "usd"
     if name == "urdf":
-        found = ElementTree.fromstring(text[text.index("<?xml") :].encode()).find("link/inertial/inertia")
+        found = ElementTree.fromstring(text[text.index("<?xml") :].encode()).find(
+            "link/inertial/inertia"
+        )
         truth = measured(body).in_object_frame().inertia
         assert float(found.get("ixy")) == truth[0, 1] and float(found.get("izz")) == truth[2, 2]
 
@@ -49,12 +51,24 @@ def test_a_shape_has_mass_center_and_inertia_of_the_object(kind, unit):
     assert bpy.ops.object.body_moments_equal_inertia(kind=kind) == {"FINISHED"}
     (shape,) = [obj for obj in bpy.data.objects if obj is not body]
     found, true = measured(shape).mass_properties, before.mass_properties
-    assert close(found.mass, true.mass, 1e-6) and np.abs(found.center - true.center).max() < 1e-5 * unit
+    assert (
+        close(found.mass, true.mass, 1e-6)
+        and np.abs(found.center - true.center).max() < 1e-5 * unit
+    )
     apart = np.abs(found.inertia - true.inertia).max() / np.abs(true.inertia).max()
-    assert apart < {"BOX": 1e-5, "ELLIPSOID": 0.03, "CAPSULE": 0.2}[kind]  # facets; two parameters for three moments
+    assert (
+        apart < {"BOX": 1e-5, "ELLIPSOID": 0.03, "CAPSULE": 0.2}[kind]
+    )  # facets; two parameters for three moments
     if kind != "BOX":
-        assert len(shape.data.vertices) == 32 * 16 + 2 and min(abs(vertex.co.z) for vertex in shape.data.vertices) > 0.0
-    assert shape.display_type == "WIRE" and shape.hide_render and measured(body).fingerprint == before.fingerprint
+        assert (
+            len(shape.data.vertices) == 32 * 16 + 2
+            and min(abs(vertex.co.z) for vertex in shape.data.vertices) > 0.0
+        )
+    assert (
+        shape.display_type == "WIRE"
+        and shape.hide_render
+        and measured(body).fingerprint == before.fingerprint
+    )
 
 
 def test_rigid_box_carries_object_in_place():
@@ -79,10 +93,14 @@ def test_audit_reads_other_folders_only_if_allowed(where, tmp_path, monkeypatch)
     mesh.write_bytes(to_stl(Surface.from_triangles(*cube((-1, -1, -1), (1, 1, 1)))))
     file = "part.stl" if where == "relative" else mesh.as_posix()
     shape = '<mesh filename="{}"/>'.format(file)
-    path.write_text(BOX.format("5333.333333").replace('<box size="2 2 2"/>', shape), encoding="utf-8")
+    path.write_text(
+        BOX.format("5333.333333").replace('<box size="2 2 2"/>', shape), encoding="utf-8"
+    )
 
     def is_read(**options):
-        assert bpy.ops.import_scene.body_moments_audit(filepath=str(path), **options) == {"FINISHED"}
+        assert bpy.ops.import_scene.body_moments_audit(filepath=str(path), **options) == {
+            "FINISHED"
+        }
         text = bpy.data.texts[-1]
         said = text.as_string()
         bpy.data.texts.remove(text)

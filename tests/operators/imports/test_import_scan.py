@@ -44,7 +44,9 @@ def test_imported_scan_has_mass_of_its_file(tmp_path, unit):
     found, expected = measure(obj), measure_array(str(path), "a", ArrayOptions(), Settings())
     assert close(found.mass_properties.mass, expected.mass_properties.mass, rel=1e-12)
     assert found.mass_properties.center == pytest.approx(expected.mass_properties.center, rel=1e-9)
-    assert found.mass_properties.inertia == pytest.approx(expected.mass_properties.inertia, rel=1e-9, abs=1e-15)
+    assert found.mass_properties.inertia == pytest.approx(
+        expected.mass_properties.inertia, rel=1e-9, abs=1e-15
+    )
     assert close(found.volume, expected.volume, rel=1e-12)
 
 
@@ -76,7 +78,12 @@ def test_a_raw_file_by_hand_and_a_spacing(tmp_path):
     values = samples("u2")
     path = written(tmp_path / "a.raw", values.astype(">u2").tobytes(order="F"))
     obj = imported(
-        path, raw_shape=(5, 6, 7), raw_type="uint16", raw_big_endian=True, use_spacing=True, spacing=(0.01, 0.01, 0.02)
+        path,
+        raw_shape=(5, 6, 7),
+        raw_type="uint16",
+        raw_big_endian=True,
+        use_spacing=True,
+        spacing=(0.01, 0.01, 0.02),
     )
     bpy.context.view_layer.update()
     assert close(measure(obj).mass_properties.mass, values.sum() * 2e-6, rel=1e-12)
@@ -105,7 +112,10 @@ def test_refused_import_leaves_no_data(tmp_path, reported):
     assert (len(bpy.data.objects), len(bpy.data.volumes)) == before
     packed = bytearray(nrrd(samples(), encoding="gzip"))
     packed[-5] ^= 1
-    assert refusal(written(tmp_path / "d.nrrd", packed)) == "damage_incomplete" and not (tmp_path / "d.vdb").exists()
+    assert (
+        refusal(written(tmp_path / "d.nrrd", packed)) == "damage_incomplete"
+        and not (tmp_path / "d.vdb").exists()
+    )
     imported(good, overwrite=True)
 
 
@@ -147,7 +157,9 @@ def test_outside_samples_need_permission(tmp_path):
     path.write_text(header.format(*values.shape) + "data file: ../a.raw\n")
     with pytest.raises(RuntimeError, match="turn on Allow Outside"):
         bpy.ops.object.body_moments_import_scan(filepath=str(path))
-    assert bpy.ops.object.body_moments_import_scan(filepath=str(path), allow_outside=True) == {"FINISHED"}
+    assert bpy.ops.object.body_moments_import_scan(filepath=str(path), allow_outside=True) == {
+        "FINISHED"
+    }
 
 
 def uneven(tmp_path, **options):
@@ -166,7 +178,9 @@ def test_uneven_slices_are_measured_at_their_positions(tmp_path, reported, splin
     obj, samples, z = uneven(tmp_path, position_unit=0.001)
     assert "“z”" in reported.texts[-1]
     obj.body_moments.spline_order = spline_order
-    truth = grid_moments(samples, samples.shape, np.eye(4), spline_order, positions=(None, None, z * 0.001))
+    truth = grid_moments(
+        samples, samples.shape, np.eye(4), spline_order, positions=(None, None, z * 0.001)
+    )
     found = measure(obj)
     assert close(found.mass_properties.mass, truth.total, 1e-12)
     assert np.abs(found.mass_properties.center - truth.center).max() <= 1e-9
@@ -182,7 +196,9 @@ def test_uneven_slices_are_drawn_from_first_to_last(tmp_path, unit):
     obj, _, z = uneven(tmp_path, position_unit=0.25)
     obj.data.grids.load()
     matrix = np.array(obj.data.grids[0].matrix_object)
-    assert [matrix[2, 3], (matrix @ (0, 0, 5, 1))[2]] == pytest.approx([0.25 * z[0] / unit, 0.25 * z[-1] / unit])
+    assert [matrix[2, 3], (matrix @ (0, 0, 5, 1))[2]] == pytest.approx(
+        [0.25 * z[0] / unit, 0.25 * z[-1] / unit]
+    )
 
 
 def test_uneven_slices_survive_saving_and_refuse_thresholds(tmp_path):

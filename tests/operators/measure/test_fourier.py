@@ -36,7 +36,9 @@ def wave_vectors(tmp_path):
 
 def transform(obj, q=Q, options=None, **more):
     bpy.context.view_layer.update()
-    found = object_transform(obj, bpy.context.evaluated_depsgraph_get(), options or MeasureOptions(), q, **more)
+    found = object_transform(
+        obj, bpy.context.evaluated_depsgraph_get(), options or MeasureOptions(), q, **more
+    )
     for _ in found.steps():
         pass
     return found.result()
@@ -121,7 +123,11 @@ def test_fourier_turns_flipped_faces_and_caps_holes():
 
 def test_fourier_of_fins_is_refused():
     mesh = bpy.data.meshes.new("Fins")
-    mesh.from_pydata([(0, 0, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, -1, 0)], [], [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
+    mesh.from_pydata(
+        [(0, 0, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, -1, 0)],
+        [],
+        [(0, 1, 2), (0, 1, 3), (0, 1, 4)],
+    )
     obj = objects.add(mesh)
     with refused("fourier_of_open_surface"):
         transform(obj)
@@ -134,8 +140,15 @@ def test_one_object_is_needed_and_a_refusal_is_an_error(tmp_path, wave_vectors):
     files.add_box("b")
     out = tmp_path / "out.npz"
     found = document("--fourier", out, "--q", wave_vectors)
-    assert len(found["objects"]) == 2 and "--object" in found["errors"][0]["reason"] and not out.exists()
-    assert measured("--fourier", out, "--q", wave_vectors, "--object", "b")["name"] == "b" and out.exists()
+    assert (
+        len(found["objects"]) == 2
+        and "--object" in found["errors"][0]["reason"]
+        and not out.exists()
+    )
+    assert (
+        measured("--fourier", out, "--q", wave_vectors, "--object", "b")["name"] == "b"
+        and out.exists()
+    )
     out.unlink()
     mesh = bpy.data.meshes.new("Plane")
     mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
@@ -164,6 +177,12 @@ def test_the_operator_writes_the_file_and_an_image(tmp_path):
     gray = pixels[..., 0]
     assert (pixels[..., :3] == gray[..., None]).all() and (pixels[..., 3] == 1.0).all()
     assert gray[6, 6] == gray[6, 14 + 6] == gray[6, 28 + 6] == 1.0  # F(0) = V is the largest
-    for found, slice_ in ((gray[:, :12], values[:, :, 6]), (gray[:, 14:26], values[:, 6]), (gray[:, 28:], values[6])):
-        assert np.abs(found.T - (1 + np.log10(slice_ / values.max()).clip(-6, 0) / 6)).max() <= 1 / 255
+    for found, slice_ in (
+        (gray[:, :12], values[:, :, 6]),
+        (gray[:, 14:26], values[:, 6]),
+        (gray[:, 28:], values[6]),
+    ):
+        assert (
+            np.abs(found.T - (1 + np.log10(slice_ / values.max()).clip(-6, 0) / 6)).max() <= 1 / 255
+        )
     assert (bpy.context.selected_objects, bpy.context.mode) == (selected, mode)

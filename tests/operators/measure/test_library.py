@@ -28,7 +28,9 @@ def library(tmp_path):
 
 
 def measure(folder, **more):
-    return bpy.ops.object.body_moments_measure_library("EXEC_DEFAULT", directory=str(folder), **more)
+    return bpy.ops.object.body_moments_measure_library(
+        "EXEC_DEFAULT", directory=str(folder), **more
+    )
 
 
 def statuses(folder):
@@ -48,7 +50,9 @@ def test_a_folder_is_measured_and_reported(library, reported):
     assert "not or not fully: 1" in reported.texts[-1]
     page = (library / "body_moments.html").read_text(encoding="utf-8")
     assert "data:image/png" in page and "a.blend" in page
-    assert (library / "a.blend").read_bytes() == before and mass_in_metadata(library / "a.blend") is None
+    assert (library / "a.blend").read_bytes() == before and mass_in_metadata(
+        library / "a.blend"
+    ) is None
 
 
 def test_a_run_that_was_ended_goes_on(library):
@@ -84,7 +88,9 @@ def test_metadata_of_collections_and_a_word_about_assets_without(library, report
         box = files.add_box("Box", center=(place, 0.0, 0.0))
         bpy.context.scene.collection.objects.unlink(box)
         collections["Pair"].objects.link(box)
-    collections["Lamps"].objects.link(bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "SUN")))
+    collections["Lamps"].objects.link(
+        bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "SUN"))
+    )
     hidden = bpy.data.objects.new("Hidden", box.data.copy())
     hidden.hide_render = True
     collections["Hidden"].objects.link(hidden)
@@ -92,14 +98,22 @@ def test_metadata_of_collections_and_a_word_about_assets_without(library, report
     loose.asset_mark()
     files.save(library / "a.blend")
     assert measure(library, asset_metadata=True) == {"FINISHED"}
-    document = json.loads((library / "body_moments.jsonl").read_text(encoding="utf-8").splitlines()[0])
-    assert document["status"] == "ok" and [one["name"] for one in document["assemblies"]] == ["Pair"]
+    document = json.loads(
+        (library / "body_moments.jsonl").read_text(encoding="utf-8").splitlines()[0]
+    )
+    assert document["status"] == "ok" and [one["name"] for one in document["assemblies"]] == [
+        "Pair"
+    ]
     (told,) = (one for one in document["total"]["findings"] if one["code"] == "assets_not_measured")
     assert told["values"]["names"] == ["Hidden", "Loose"]
     bpy.ops.wm.open_mainfile(filepath=str(library / "a.body_moments.blend"))
     data = bpy.data.collections["Pair"].asset_data
-    assert close(data["body_mass"], 12000.0, 1e-6) and close(data["body_center_of_mass"][0], 2.0, 1e-6)
-    assert not any("body_mass" in bpy.data.collections[name].asset_data for name in ("Lamps", "Hidden"))
+    assert close(data["body_mass"], 12000.0, 1e-6) and close(
+        data["body_center_of_mass"][0], 2.0, 1e-6
+    )
+    assert not any(
+        "body_mass" in bpy.data.collections[name].asset_data for name in ("Lamps", "Hidden")
+    )
 
 
 def test_an_empty_folder_is_refused(tmp_path):

@@ -115,7 +115,10 @@ def test_stored_reference_follows_next_measurement():
     assert close(obj["body_axis_inertia"], truth[2, 2], 1e-14)
     rotation = np.transpose(shown(obj).reference.axes)
     entries = (rotation.T @ truth @ rotation)[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-    assert np.abs(np.array(obj["body_reference_inertia"].to_list()) - entries).max() <= 1e-14 * entries.max()
+    assert (
+        np.abs(np.array(obj["body_reference_inertia"].to_list()) - entries).max()
+        <= 1e-14 * entries.max()
+    )
     assert len(obj["body_reference_error_bound"]) == 4
     assert ReferenceChoice.parse(obj["body_reference"]).points == ((0, 0, 0), (0, 0, 2))
     choose("WORLD")
@@ -123,7 +126,10 @@ def test_stored_reference_follows_next_measurement():
     bpy.ops.object.body_moments_measure()
     assert close(obj["body_axis_inertia"], 2.0 * truth[2, 2], 1e-14)
     bpy.ops.object.body_moments_store_reference()
-    assert "body_axis_inertia" not in obj and ReferenceChoice.parse(obj["body_reference"]).about == "WORLD"
+    assert (
+        "body_axis_inertia" not in obj
+        and ReferenceChoice.parse(obj["body_reference"]).about == "WORLD"
+    )
     bpy.ops.object.body_moments_clear()
     assert "body_reference" not in obj
 
@@ -143,10 +149,19 @@ def test_an_assembly_is_referred_too():
 
 @pytest.mark.parametrize(
     ("active", "selected", "points"),
-    [("A", "AC", (3.0, 1.0)), ("C", "AC", (1.0, 3.0)), ("B", "AC", (1.0, 3.0)), ("A", "ABC", None), ("A", "", None)],
+    [
+        ("A", "AC", (3.0, 1.0)),
+        ("C", "AC", (1.0, 3.0)),
+        ("B", "AC", (1.0, 3.0)),
+        ("A", "ABC", None),
+        ("A", "", None),
+    ],
 )
 def test_axis_runs_from_other_object_to_active(active, selected, points, reported):
-    made = {name: box(bpy.context.scene.collection, (1, 1, 1), (ord(name) - 64, 2, 0), name=name) for name in "CBA"}
+    made = {
+        name: box(bpy.context.scene.collection, (1, 1, 1), (ord(name) - 64, 2, 0), name=name)
+        for name in "CBA"
+    }
     only(made[active])
     for name, obj in made.items():
         obj.select_set(name in selected)
@@ -157,17 +172,24 @@ def test_axis_runs_from_other_object_to_active(active, selected, points, reporte
         return
     assert bpy.ops.object.body_moments_axis_from_selection() == {"FINISHED"}
     chosen = bpy.context.scene.body_moments_reference
-    assert [tuple(point) for point in (chosen.first, chosen.second)] == [(place, 2.0, 0.0) for place in points]
+    assert [tuple(point) for point in (chosen.first, chosen.second)] == [
+        (place, 2.0, 0.0) for place in points
+    ]
 
 
 @pytest.mark.parametrize("by", ["order", "edge", "one of each"])
 def test_axis_runs_through_vertices_in_selection_order(by):
     turned = {"rotation": (0, 0, np.pi / 2), "scale": (2, 3, 1)}
-    objects = [box(bpy.context.scene.collection, (1, 1, 1), (x, 0, 0), name=f"{x}", **turned) for x in (5, 9)]
+    objects = [
+        box(bpy.context.scene.collection, (1, 1, 1), (x, 0, 0), name=f"{x}", **turned)
+        for x in (5, 9)
+    ]
     only(*objects)
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="DESELECT")
-    chosen = {"order": [(0, 7), (0, 2)], "edge": [(0, 7), (0, 2)], "one of each": [(0, 1), (1, 4)]}[by]
+    chosen = {"order": [(0, 7), (0, 2)], "edge": [(0, 7), (0, 2)], "one of each": [(0, 1), (1, 4)]}[
+        by
+    ]
     for number, index in chosen:
         mesh = bmesh.from_edit_mesh(objects[number].data)
         mesh.verts.ensure_lookup_table()

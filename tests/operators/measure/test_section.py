@@ -19,7 +19,20 @@ from tests.close import close
 pytestmark = pytest.mark.usefixtures("scene")
 
 W, T, X, Y = 0.125, 1.75, 1.0, 2.0  # an I section whose corners float32 has exactly
-I_BEAM = [(-X, -Y), (X, -Y), (X, -T), (W, -T), (W, T), (X, T), (X, Y), (-X, Y), (-X, T), (-W, T), (-W, -T), (-X, -T)]
+I_BEAM = [
+    (-X, -Y),
+    (X, -Y),
+    (X, -T),
+    (W, -T),
+    (W, T),
+    (X, T),
+    (X, Y),
+    (-X, Y),
+    (-X, T),
+    (-W, T),
+    (-W, -T),
+    (-X, -T),
+]
 I_AREA = 4 * X * (Y - T) + 4 * W * T
 I_X = (2 * X * (2 * Y) ** 3 - 2 * (X - W) * (2 * T) ** 3) / 12
 I_Y = (2 * (Y - T) * (2 * X) ** 3 + 2 * T * (2 * W) ** 3) / 12
@@ -82,7 +95,9 @@ def outdated(obj):
     return staleness.stale_reason(obj, bpy.context.scene, stamps.of_section)
 
 
-@pytest.mark.parametrize("data", [lambda: flat_mesh(I_BEAM), lambda: curve_of(I_BEAM), lambda: curve_of(I_BEAM[::-1])])
+@pytest.mark.parametrize(
+    "data", [lambda: flat_mesh(I_BEAM), lambda: curve_of(I_BEAM), lambda: curve_of(I_BEAM[::-1])]
+)
 def test_an_i_beam_is_that_of_the_tables(data):
     section, _, findings = section_of(add(data(), location=(1, 2, 3)))
     assert close(section.area, I_AREA, rel=1e-14)
@@ -90,7 +105,10 @@ def test_an_i_beam_is_that_of_the_tables(data):
     assert close(section.principal, (I_X, I_Y), rel=1e-13) and section.angle == 0.0
     assert section.center == pytest.approx((1, 2, 3), abs=1e-14)
     assert close(section.moduli[:2], (I_X / Y, I_Y / X), rel=1e-13)
-    assert section.plane.axes == pytest.approx(np.eye(3), abs=1e-15) and section.plane.x_axis_name == "X"
+    assert (
+        section.plane.axes == pytest.approx(np.eye(3), abs=1e-15)
+        and section.plane.x_axis_name == "X"
+    )
     assert findings == ()
 
 
@@ -112,7 +130,9 @@ def test_a_turned_object_has_the_section_in_its_own_axes(data, rotation):
 @pytest.mark.parametrize("scale", [(2, 2, 2), (3, 0.5, 1), (-2, 1, 1), (2, 1, -5)])
 def test_scale_also_uneven_and_mirroring_is_measured(data, scale):
     section, _, _ = section_of(add(data(), scale=scale))
-    assert section.plane.axes[:, 2] == pytest.approx((0, 0, np.sign(scale[2])), abs=1e-15)  # as the object's z axis
+    assert section.plane.axes[:, 2] == pytest.approx(
+        (0, 0, np.sign(scale[2])), abs=1e-15
+    )  # as the object's z axis
     a, b = abs(scale[0]), abs(scale[1])
     assert close(section.area, I_AREA * a * b, rel=1e-13)
     assert close(section.second[:2], (I_X * a * b**3, I_Y * b * a**3), rel=1e-13)
@@ -136,7 +156,9 @@ def test_a_sheared_object_is_measured_as_it_is_seen(height):
     # the square stands on a corner and is stretched to a rhombus of diagonals 4√2 and 2√2
     d, e = 4 * math.sqrt(2), 2 * math.sqrt(2)
     assert section.area == pytest.approx(d * e / 2, rel=1e-6)
-    assert sorted(section.principal) == pytest.approx(sorted((d * e**3 / 48, e * d**3 / 48)), rel=1e-6)
+    assert sorted(section.principal) == pytest.approx(
+        sorted((d * e**3 / 48, e * d**3 / 48)), rel=1e-6
+    )
     frame = read_section(obj, bpy.context.evaluated_depsgraph_get()).rotation
     assert np.abs(frame - np.array(obj.matrix_world.decompose()[1].to_matrix())).max() < 1e-6
 
@@ -235,12 +257,16 @@ def test_selected_faces_of_a_body_are_a_section_in_any_plane():
         vertex.co *= 2.0
     assert section_of(obj)[0].area == pytest.approx(18.0, rel=1e-6)
     selected(obj, lambda face: face.normal.z < -0.9)
-    assert section_of(obj)[0].plane.axes[:, 2] == pytest.approx(-np.array(obj.matrix_world)[:3, 2], abs=1e-6)
+    assert section_of(obj)[0].plane.axes[:, 2] == pytest.approx(
+        -np.array(obj.matrix_world)[:3, 2], abs=1e-6
+    )
     selected(obj, lambda face: face.normal.x < -0.9)
     assert section_of(obj)[0].plane.x_axis_name == "Y"  # the x axis stands upright on that side
     selected(obj, lambda face: abs(face.normal.z) > 0.9)
     assert refused(obj, "section_not_flat")
-    assert read_section(obj, bpy.context.evaluated_depsgraph_get()).description == "2 Selected Faces"
+    assert (
+        read_section(obj, bpy.context.evaluated_depsgraph_get()).description == "2 Selected Faces"
+    )
     selected(obj, lambda face: False)
     assert refused(obj, "section_no_selected_face")
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -263,7 +289,9 @@ def test_body_is_no_section_and_nearly_flat_face_is():
     mesh = flat_mesh(square(0, 0, 2))
     mesh.vertices[0].co.z = 1e-5
     section, _, findings = section_of(add(mesh))
-    assert section.area == pytest.approx(4, rel=1e-9) and said(findings)["section_projected"]["slight"]
+    assert (
+        section.area == pytest.approx(4, rel=1e-9) and said(findings)["section_projected"]["slight"]
+    )
 
 
 def test_hidden_objects_and_infinite_points_are_refused():

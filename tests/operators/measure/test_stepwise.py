@@ -24,7 +24,9 @@ TIMER, ESC, MOUSE = (SimpleNamespace(type=name) for name in ("TIMER", "ESC", "MO
 
 def stand_in(cls, report, **settings):
     """Return an object with the functions and default settings of an operator class; `report` gets its reports."""
-    functions = {name: value for name, value in vars(cls).items() if name not in ("__dict__", "__weakref__")}
+    functions = {
+        name: value for name, value in vars(cls).items() if name not in ("__dict__", "__weakref__")
+    }
     bases = tuple(base for base in cls.__bases__ if base is not bpy.types.Operator)
     made = type(cls.__name__, bases, functions)()
     made.report = report
@@ -35,7 +37,11 @@ def stand_in(cls, report, **settings):
         if prop.type == "ENUM" and prop.is_enum_flag:
             setattr(made, prop.identifier, set(prop.default_flag))
         elif prop.type not in ("POINTER", "COLLECTION"):
-            setattr(made, prop.identifier, tuple(prop.default_array) if getattr(prop, "is_array", 0) else prop.default)
+            setattr(
+                made,
+                prop.identifier,
+                tuple(prop.default_array) if getattr(prop, "is_array", 0) else prop.default,
+            )
     vars(made).update(settings)
     return made
 
@@ -91,7 +97,10 @@ def finished(operator, window, limit=100):
 
 
 def three():
-    bodies = [add(mesh_body(), name, location=(3 * i, i, 1), rotation=(i, 0, 1)) for i, name in enumerate("abc")]
+    bodies = [
+        add(mesh_body(), name, location=(3 * i, i, 1), rotation=(i, 0, 1))
+        for i, name in enumerate("abc")
+    ]
     only(*bodies)
     return bodies
 
@@ -114,7 +123,9 @@ def test_esc_between_two_objects_leaves_everything_as_it_was(cls, settings, monk
     assert operator.modal(window, ESC) == {"CANCELLED"}
     assert window.timers == [] and window.status[-1] is None and operator.reports[-1][0] == "INFO"
     assert all((place(body) == matrix).all() for body, matrix in zip(bodies, before, strict=True))
-    assert not any("body_mass" in body or body.is_property_set("body_moments_symmetry") for body in bodies)
+    assert not any(
+        "body_mass" in body or body.is_property_set("body_moments_symmetry") for body in bodies
+    )
 
 
 @pytest.mark.parametrize(
@@ -138,7 +149,9 @@ def test_esc_within_an_object_leaves_everything_as_it_was(cls, count):
             break
         assert operator.modal(window, ESC) == {"CANCELLED"}
         assert window.timers == [] and window.status[-1] is None
-        assert all((place(body) == matrix).all() for body, matrix in zip(bodies, before, strict=True))
+        assert all(
+            (place(body) == matrix).all() for body, matrix in zip(bodies, before, strict=True)
+        )
         assert not any(body.is_property_set("body_moments_symmetry") for body in bodies)
         assert not len(bpy.context.scene.body_moments_search.found)
         shares = [float(text.split(": ")[1].partition("%")[0]) for text in window.status[:-1]]
@@ -175,7 +188,13 @@ def test_child_is_matched_although_its_parent_moves():
 
 def test_failed_fourier_step_restores_window_and_reports(tmp_path):
     add(mesh_body())
-    settings = {"filepath": str(tmp_path / "a.npz"), "of": "BODY", "frame": "WORLD", "count": 8, "largest": 0.0}
+    settings = {
+        "filepath": str(tmp_path / "a.npz"),
+        "of": "BODY",
+        "frame": "WORLD",
+        "count": 8,
+        "largest": 0.0,
+    }
     operator, window = pressed(OBJECT_OT_body_moments_fourier, **settings)
     assert "0%" in window.status[-1]
     path = operator._path
@@ -184,6 +203,8 @@ def test_failed_fourier_step_restores_window_and_reports(tmp_path):
     assert operator.reports[-1][0] == "ERROR" and not path.exists()
     assert operator.reports[-1][1].endswith("No such file or directory.")
     operator, window = pressed(OBJECT_OT_body_moments_fourier, **settings)
-    assert operator.modal(window, ESC) == {"CANCELLED"} and not path.exists() and window.timers == []
+    assert (
+        operator.modal(window, ESC) == {"CANCELLED"} and not path.exists() and window.timers == []
+    )
     operator, window = pressed(OBJECT_OT_body_moments_fourier, **settings)
     assert finished(operator, window) == {"FINISHED"} and path.exists()

@@ -57,17 +57,23 @@ def simulate():
 
     spec = mujoco.MjSpec()
     spec.option.timestep, spec.option.integrator = 5e-4, mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=(9, 9, 1), friction=(1.2, 0.1, 0.1))
+    spec.worldbody.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_PLANE, size=(9, 9, 1), friction=(1.2, 0.1, 0.1)
+    )
     bodies, places = {"": spec.worldbody}, {"": np.zeros(3)}
     for name, above, place, half, center in parts():
         bodies[name] = bodies[above].add_body(name=name, pos=place - places[above])
         places[name] = np.array(place)
         box = mujoco.mjtGeom.mjGEOM_BOX
-        bodies[name].add_geom(type=box, size=half, pos=center, density=DENSITY, contype=0, conaffinity=1)
+        bodies[name].add_geom(
+            type=box, size=half, pos=center, density=DENSITY, contype=0, conaffinity=1
+        )
         if not above:
             bodies[name].add_freejoint()
         elif servo(name):
-            gain = 150.0 if name.startswith("arm") else 1000.0 if name.startswith("foot") else 2000.0
+            gain = (
+                150.0 if name.startswith("arm") else 1000.0 if name.startswith("foot") else 2000.0
+            )
             bodies[name].add_joint(name=name, axis=(-1, 0, 0), damping=3.0)
             actuator = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
             actuator.set_to_position(kp=gain, kv=0.03 * gain)
@@ -80,15 +86,25 @@ def simulate():
             mujoco.mj_step(model, data)
         mujoco.mj_kinematics(model, data)
         turn = data.body("hips").xmat.reshape(3, 3)  # about z, then x, then y
-        angles = np.arctan2(-turn[0, 1], turn[1, 1]), np.arcsin(turn[2, 1]), np.arctan2(-turn[2, 0], turn[2, 2])
-        joints = [-data.joint(name).qpos[0] if servo(name) else 0.0 for name, above, *_ in parts() if above]
+        angles = (
+            np.arctan2(-turn[0, 1], turn[1, 1]),
+            np.arcsin(turn[2, 1]),
+            np.arctan2(-turn[2, 0], turn[2, 2]),
+        )
+        joints = [
+            -data.joint(name).qpos[0] if servo(name) else 0.0
+            for name, above, *_ in parts()
+            if above
+        ]
         frames.append([*data.body("hips").xpos, *np.degrees([*angles, *joints])])
     return np.array(frames)
 
 
 def hierarchy():
     """Return the head of the recording and the order of the parts' channels."""
-    known = {name: (np.array(place), half, np.array(center)) for name, _, place, half, center in parts()}
+    known = {
+        name: (np.array(place), half, np.array(center)) for name, _, place, half, center in parts()
+    }
     lines, order, turns = ["HIERARCHY"], [], "Zrotation Xrotation Yrotation"
 
     def add(name, above, kind):
@@ -96,7 +112,14 @@ def hierarchy():
         order.append(name)
         channels = "3 " + turns if above else "6 Xposition Yposition Zposition " + turns
         offset = place - known[above][0] if above else place
-        lines.extend([kind + " " + name, "{", "OFFSET {:g} {:g} {:g}".format(*offset), "CHANNELS " + channels])
+        lines.extend(
+            [
+                kind + " " + name,
+                "{",
+                "OFFSET {:g} {:g} {:g}".format(*offset),
+                "CHANNELS " + channels,
+            ]
+        )
         below = [part for part, over, *_ in parts() if over == name]
         for part in below:
             add(part, name, "JOINT")

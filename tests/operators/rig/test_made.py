@@ -24,17 +24,23 @@ def test_rig_center_weights_each_part_by_mass(density):
     gyration = rig.measurement.mass_properties.radii_of_gyration.max() / unit
     assert center.show_in_front and center.empty_display_type == "SPHERE"
     assert center.empty_display_size == pytest.approx(0.1 * gyration)
-    assert [one.name for one in center.constraints] == [part.name for part in rig.parts] and len(rig.parts) == 7
+    assert [one.name for one in center.constraints] == [part.name for part in rig.parts] and len(
+        rig.parts
+    ) == 7
     mass = 0.0
     for part, constraint in zip(rig.parts, center.constraints, strict=True):
         mass += part.mass.total
-        assert constraint.type == "COPY_LOCATION" and constraint.influence == pytest.approx(part.mass.total / mass)
+        assert constraint.type == "COPY_LOCATION" and constraint.influence == pytest.approx(
+            part.mass.total / mass
+        )
         empty, bone = constraint.target, armature.data.bones[part.name]
         assert empty.name == "Rig {:s} Center".format(part.name) and empty.hide_get()
         assert (empty.parent, empty.parent_type, empty.parent_bone) == (armature, "BONE", part.name)
         assert empty.empty_display_size == pytest.approx(0.1 * bone.length)
         assert place(empty)[:3, 3] * unit == pytest.approx(part.mass.center, rel=1e-5, abs=1e-5)
-    assert place(center)[:3, 3] * unit == pytest.approx(rig.measurement.mass_properties.center, rel=1e-5, abs=1e-5)
+    assert place(center)[:3, 3] * unit == pytest.approx(
+        rig.measurement.mass_properties.center, rel=1e-5, abs=1e-5
+    )
 
 
 def test_library_rig_center_stays_beside_new_one(tmp_path):
@@ -84,11 +90,20 @@ def test_joint_limits_follow_inverse_kinematics():
     assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
     joint = bpy.data.objects["Rig arm.L Joint"].rigid_body_constraint
     found = {
-        axis: [getattr(joint, name.format(axis)) for name in ("limit_ang_{}_lower", "limit_ang_{}_upper")]
+        axis: [
+            getattr(joint, name.format(axis))
+            for name in ("limit_ang_{}_lower", "limit_ang_{}_upper")
+        ]
         for axis in "xyz"
     }
-    assert [joint.use_limit_ang_x, joint.use_limit_ang_y, joint.use_limit_ang_z] == [True, True, False]
+    assert [joint.use_limit_ang_x, joint.use_limit_ang_y, joint.use_limit_ang_z] == [
+        True,
+        True,
+        False,
+    ]
     assert found == {"x": [0.0, 0.0], "y": [-0.5, 0.25], "z": [-0.125, 0.75]}
     for axis in "xyz":
         assert getattr(joint, "use_limit_lin_" + axis)
-        assert [getattr(joint, "limit_lin_{}_{}".format(axis, end)) for end in ("lower", "upper")] == [0.0, 0.0]
+        assert [
+            getattr(joint, "limit_lin_{}_{}".format(axis, end)) for end in ("lower", "upper")
+        ] == [0.0, 0.0]

@@ -30,14 +30,23 @@ def jumper(mode="XYZ", spin=0.0, held=True, gravity=-9.81):
     bpy.ops.object.mode_set(mode="POSE")
     root = rig.pose.bones["root"]
     root.rotation_mode = mode
-    for frame, place in ((TAKE_OFF, (0, 0, 0)), (16, (0.2, -0.6, 0.9)), (LANDING, (0, -1.5, 0)), (END, (0, -1.5, 0))):
+    for frame, place in (
+        (TAKE_OFF, (0, 0, 0)),
+        (16, (0.2, -0.6, 0.9)),
+        (LANDING, (0, -1.5, 0)),
+        (END, (0, -1.5, 0)),
+    ):
         root.location = place
         root.keyframe_insert("location", frame=frame)
     channel = {"QUATERNION": QUATERNION, "AXIS_ANGLE": "rotation_axis_angle"}.get(mode, EULER)
     for frame in range(1, END + 1):
         turn = Quaternion((0.3, 0.1, 1.0), spin * np.clip((frame - TAKE_OFF) / 16.0, 0.0, 1.0))
         axis, angle = turn.to_axis_angle()
-        value = {QUATERNION: turn, EULER: turn.to_euler("XYZ"), "rotation_axis_angle": (angle, *axis)}[channel]
+        value = {
+            QUATERNION: turn,
+            EULER: turn.to_euler("XYZ"),
+            "rotation_axis_angle": (angle, *axis),
+        }[channel]
         setattr(root, channel, value)
         root.keyframe_insert(channel, frame=frame)
     for name in ("arm.L", "arm.R", "head"):
@@ -71,7 +80,10 @@ def followed(rig, frames):
     for frame in frames:
         bpy.context.scene.frame_set(frame)
         places.append(
-            [rig.matrix_world @ bone.matrix @ Matrix.Translation(bone["body_center_of_mass"]) for bone in bones]
+            [
+                rig.matrix_world @ bone.matrix @ Matrix.Translation(bone["body_center_of_mass"])
+                for bone in bones
+            ]
         )
     return np.array([bone["body_mass"] for bone in bones]), tensors, np.array(places)
 
@@ -110,7 +122,9 @@ def poses(rig, frames):
     found = []
     for frame in frames:
         bpy.context.scene.frame_set(frame)
-        found.append([rig.pose.bones["root"].matrix.inverted() @ bone.matrix for bone in rig.pose.bones])
+        found.append(
+            [rig.pose.bones["root"].matrix.inverted() @ bone.matrix for bone in rig.pose.bones]
+        )
     return np.array(found)
 
 
@@ -122,7 +136,11 @@ def balance():
 def signal(name):
     """Return the (k, 2) keys of each component of a baked property."""
     found = keyed(balance())
-    return [np.array(found[path, axis]) for path, axis in sorted(found) if path == '["body_balance_{:s}"]'.format(name)]
+    return [
+        np.array(found[path, axis])
+        for path, axis in sorted(found)
+        if path == '["body_balance_{:s}"]'.format(name)
+    ]
 
 
 @pytest.mark.parametrize("mode", ["XYZ", "QUATERNION", "AXIS_ANGLE"])
@@ -192,10 +210,16 @@ def test_turn_is_blended_at_both_ends(scene, lead):
     assert SPIN(blend=5, **given, **TYPED) == {"FINISHED"}
     after, found = poses_in_world(rig, frames), angular_momenta(rig, FLIGHT)
     size = np.linalg.norm(spun[0])
-    assert np.abs(found - found[0]).max() < 0.01 * size and np.abs(found[0] - spun[0]).max() < 0.03 * size
+    assert (
+        np.abs(found - found[0]).max() < 0.01 * size
+        and np.abs(found[0] - spun[0]).max() < 0.03 * size
+    )
     kept = [*range(TAKE_OFF - lead), *range(LANDING + 4, END)]
     assert np.abs(after - before)[kept].max() < 1e-5
-    ends = [Matrix(after[frame - 1, 0] @ np.linalg.inv(before[frame - 1, 0])) for frame in (TAKE_OFF, LANDING)]
+    ends = [
+        Matrix(after[frame - 1, 0] @ np.linalg.inv(before[frame - 1, 0]))
+        for frame in (TAKE_OFF, LANDING)
+    ]
     first, last = (end.to_quaternion().angle for end in ends)
     assert (first < 1e-3) if lead == 0 else 0.1 < first < last
 
@@ -233,7 +257,10 @@ def test_floaty_jump_is_listed_and_its_parabola_is_not(scene):
     assert np.flatnonzero(contact[:, 1] == 0.0).tolist() == [frame - 1 for frame in FLIGHT[1:-1]]
     assert unexplained[:, 1].sum() == last - first + 1
     (margin,), zero = signal("margin"), signal("zero_moment_point")
-    assert margin[:, 0].tolist() == [*range(1, TAKE_OFF + 1), *range(LANDING, END + 1)] and len(zero) == 3
+    assert (
+        margin[:, 0].tolist() == [*range(1, TAKE_OFF + 1), *range(LANDING, END + 1)]
+        and len(zero) == 3
+    )
     assert PARABOLA() == {"FINISHED"} and "body_balance_momentum" not in balance()
     assert BAKE() == {"FINISHED"} and "body_balance_spans" not in balance()
     assert TRACE() == {"FINISHED"}
@@ -250,7 +277,9 @@ def test_simulated_jump_is_plausible_and_floats_if_slowed(scene):
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     points = [np.add(joint, center) + corners * half for _, _, joint, half, center in parts]
     mesh = bpy.data.meshes.new("Boxes")
-    several = [tuple(corner + 8 * box for corner in face) for box in range(len(parts)) for face in faces]
+    several = [
+        tuple(corner + 8 * box for corner in face) for box in range(len(parts)) for face in faces
+    ]
     mesh.from_pydata(np.concatenate(points).tolist(), [], several)
     body = bpy.data.objects.new("Boxes", mesh)
     scene.collection.objects.link(body)
@@ -307,7 +336,10 @@ def test_layer_keeps_cycles_ranges_and_influence_below(scene):
     action.update_tag()
     for top in (None, bpy.data.actions.new("Top")):
         if top is not None:
-            rig.animation_data.action, rig.animation_data.action_slot = top, top.slots.new("OBJECT", "Top")
+            rig.animation_data.action, rig.animation_data.action_slot = (
+                top,
+                top.slots.new("OBJECT", "Top"),
+            )
             rig.animation_data.action_blend_type, rig.animation_data.action_influence = "ADD", 0.5
             rig.pose.bones["head"].rotation_euler = 1, 0, 0
             rig.pose.bones["head"].keyframe_insert(EULER, frame=1)
@@ -354,7 +386,10 @@ def test_refusal_leaves_no_results_and_no_ground(scene, operator):
 
 REFUSALS = {
     "no gravity": (lambda rig: setattr(bpy.context.scene, "use_gravity", False), {}),
-    "locked": (lambda rig: setattr(rig.pose.bones["root"], "lock_location", (False, True, False)), {}),
+    "locked": (
+        lambda rig: setattr(rig.pose.bones["root"], "lock_location", (False, True, False)),
+        {},
+    ),
     "driven": (lambda rig: rig.pose.bones["root"].driver_add("location", 1), {}),
     "constrained": (lambda rig: rig.pose.bones["root"].constraints.new("LIMIT_LOCATION"), {}),
     "locked curve": (lambda rig: setattr(curves_of(rig)[0], "lock", True), {}),
@@ -364,7 +399,10 @@ REFUSALS = {
     "no such bone": (lambda rig: None, {"bone": "tail"}),
     "bone carries a part": (lambda rig: None, {"bone": "head"}),
     "always in the air": (lambda rig: setattr(rig.body_moments_weight, "ground", -5.0), {}),
-    "noise and moved landing": (lambda rig: curves_of(rig)[-1].modifiers.new("NOISE"), {"keep": "HEIGHT"}),
+    "noise and moved landing": (
+        lambda rig: curves_of(rig)[-1].modifiers.new("NOISE"),
+        {"keep": "HEIGHT"},
+    ),
     "layer moves landing": (lambda rig: None, {"use_layer": True, "keep": "HEIGHT"}),
 }
 
@@ -421,7 +459,9 @@ def test_override_gets_the_keys(scene, tmp_path):
     assert np.abs(path - arc(path)).max() < 1e-6 * HEIGHT
     bpy.ops.wm.save_mainfile(filepath=str(tmp_path / "kept.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "kept.blend"))
-    (rig,) = [obj for obj in bpy.context.scene.objects if obj.type == "ARMATURE" and obj.library is None]
+    (rig,) = [
+        obj for obj in bpy.context.scene.objects if obj.type == "ARMATURE" and obj.library is None
+    ]
     assert np.abs(centers(rig, FLIGHT) - path).max() < 1e-6 * HEIGHT
 
 

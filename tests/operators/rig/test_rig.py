@@ -63,7 +63,11 @@ def test_bone_results_are_exact_in_rest_frame_at_any_pose():
         found = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         assert np.abs(found - tensor).max() < 1e-5 * tensor.max()
         assert bone["body_method"] == "exact" and set(properties.LENGTHS) <= set(bone.keys())
-    assert close(armature["body_mass"], 1000.0 * sum(np.prod(np.subtract(h, low)) for low, h in made.BOXES), 2e-6)
+    assert close(
+        armature["body_mass"],
+        1000.0 * sum(np.prod(np.subtract(h, low)) for low, h in made.BOXES),
+        2e-6,
+    )
     assert staleness.stale_reason(armature, bpy.context.scene) is None
     bpy.ops.object.body_moments_clear_bones()
     assert not any("body_mass" in owner for owner in (armature, *armature.pose.bones))
@@ -81,7 +85,9 @@ def test_rig_parts_sum_to_measured_skin(name):
     for n, part in ((0, slice(0, 1)), (1, slice(1, 4)), (2, slice(4, 10)), (3, slice(10, 20))):
         assert np.abs(mass.raw - truth.raw)[part].max() <= 1e-12 * truth.raw[0] * reach**n
     assert ("unweighted_vertices" in codes(rig)) == (name == "unweighted")
-    assert close(rig.measurement.area, whole.area, 1e-6) and close(rig.measurement.volume, whole.volume, 1e-6)
+    assert close(rig.measurement.area, whole.area, 1e-6) and close(
+        rig.measurement.volume, whole.volume, 1e-6
+    )
     bound, own = rig.measurement.error_bound["input"], whole.error_bound["input"]
     for name in ("volume", "area"):
         assert 0.9 * own[name] <= bound[name] < 64.0 * own[name], name
@@ -92,7 +98,11 @@ def test_clothes_and_bone_children_count():
     coat = made.box_skeleton()
     coat.points = coat.points * 1.0
     shirt = skin_of(coat, armature, "Shirt")
-    shirt.body_moments.kind, shirt.body_moments.thickness, shirt.body_moments.density = "SHELL", 0.001, 500.0
+    shirt.body_moments.kind, shirt.body_moments.thickness, shirt.body_moments.density = (
+        "SHELL",
+        0.001,
+        500.0,
+    )
     sword = bpy.data.objects.new("Sword", box_mesh(1, 2, 4))
     bpy.context.scene.collection.objects.link(sword)
     sword.parent, sword.parent_type, sword.parent_bone = armature, "BONE", "arm.L"
@@ -110,11 +120,15 @@ def test_clothes_and_bone_children_count():
     # in the bone's frame a part that hangs on it is where it hangs, whatever the pose
     bone = armature.data.bones["arm.L"]
     without = measured(armature)
-    center = {part.name: part.measurement.in_object_frame().center for part in without.parts}["arm.L"]
+    center = {part.name: part.measurement.in_object_frame().center for part in without.parts}[
+        "arm.L"
+    ]
     for one in armature.pose.bones:
         one.rotation_euler = (0, 0, 0)
     bpy.context.view_layer.update()
-    again = {part.name: part.measurement.in_object_frame().center for part in measured(armature).parts}["arm.L"]
+    again = {
+        part.name: part.measurement.in_object_frame().center for part in measured(armature).parts
+    }["arm.L"]
     assert np.abs(center - again).max() < 1e-5 and bone.length > 0.0
 
 
@@ -140,15 +154,28 @@ def test_bones_have_densities_and_masses_of_their_own():
     bpy.context.scene.unit_settings.scale_length = 1.0
     rig = measured(armature)
     parts = {part.name: part for part in rig.parts}
-    sources = {"head": "density_from_value", "leg.L": "density_from_mass", "leg.R": "density_from_members"}
+    sources = {
+        "head": "density_from_value",
+        "leg.L": "density_from_mass",
+        "leg.R": "density_from_members",
+    }
     for name, code in sources.items():
         found = parts[name].measurement
-        assert (found.name, found.type, found.kind, found.density_from.code) == (name, "BONE", "bone", code)
+        assert (found.name, found.type, found.kind, found.density_from.code) == (
+            name,
+            "BONE",
+            "bone",
+            code,
+        )
     whole = rig.measurement
     assert (whole.name, whole.type, whole.kind) == (armature.name, "ARMATURE", "rig")
     assert whole.density_from.code == "density_from_members" and str(whole.method) == "assembly"
-    assert whole.location.tolist() == [1.0, 2.0, 3.0] and close(whole.rotation[0, 0], np.cos(0.5), 1e-6)
-    assert close(parts["head"].mass.total, 4000.0, 1e-6) and close(parts["leg.L"].mass.total, 3.0, 1e-9)
+    assert whole.location.tolist() == [1.0, 2.0, 3.0] and close(
+        whole.rotation[0, 0], np.cos(0.5), 1e-6
+    )
+    assert close(parts["head"].mass.total, 4000.0, 1e-6) and close(
+        parts["leg.L"].mass.total, 3.0, 1e-9
+    )
     assert close(parts["leg.R"].mass.total, 10000.0, 1e-6)
 
 
@@ -169,7 +196,10 @@ def test_a_part_that_no_body_can_have_is_a_finding():
     count = len(shape.points)
     shape.points = np.concatenate([shape.points, inner])
     shape.quads = np.concatenate([shape.quads, quads[:, ::-1] + count])  # a cavity in the chest
-    shape.names, shape.bones = (*shape.names, "hole"), np.concatenate([shape.bones, [[(0, 0, 3), (0, 0, 4)]]])
+    shape.names, shape.bones = (
+        (*shape.names, "hole"),
+        np.concatenate([shape.bones, [[(0, 0, 3), (0, 0, 4)]]]),
+    )
     extra = np.arange(count, len(shape.points))
     shape.weights = type(shape.weights)(
         np.concatenate([shape.weights.vertex, extra]),
@@ -183,7 +213,10 @@ def test_a_part_that_no_body_can_have_is_a_finding():
     assert "bone_parts_impossible" in codes(rig)
     assert {part.name for part in rig.parts if part.refusal} == {"hole"}
     bpy.ops.object.body_moments_measure_bones()
-    assert "body_mass" not in armature.pose.bones["hole"] and "body_mass" in armature.pose.bones["chest"]
+    assert (
+        "body_mass" not in armature.pose.bones["hole"]
+        and "body_mass" in armature.pose.bones["chest"]
+    )
 
 
 def test_posing_is_no_edit_and_sculpting_and_settings_are():
@@ -225,20 +258,28 @@ def test_a_physics_rig_has_exact_masses_and_joints_at_the_bones(unit):
     for _ in range(2):
         assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
     (collection,) = [one for one in bpy.data.collections if one.name.startswith("Rig Physics Rig")]
-    bodies = {obj.name.removeprefix("Rig "): obj for obj in collection.objects if obj.type == "MESH"}
+    bodies = {
+        obj.name.removeprefix("Rig "): obj for obj in collection.objects if obj.type == "MESH"
+    }
     joints = [obj for obj in collection.objects if obj.rigid_body_constraint]
     assert bodies.keys() == set(made.NAMES) and len(joints) == 6
     for name, (low, high) in zip(made.NAMES, made.BOXES):
         body = bodies[name]
         mass = 1000.0 * unit**3 * float(np.prod(np.subtract(high, low)))
         assert close(body.rigid_body.mass, mass, 1e-6)
-        assert np.abs(np.array(body.dimensions) - sorted(np.subtract(high, low), reverse=True)).max() < 1e-6
+        assert (
+            np.abs(np.array(body.dimensions) - sorted(np.subtract(high, low), reverse=True)).max()
+            < 1e-6
+        )
         assert not any(polygon.use_smooth for polygon in body.data.polygons)
         assert np.abs(np.array(body.location) - np.add(high, low) / 2.0).max() < 1e-6
         measurement = measure_object(body, bpy.context.evaluated_depsgraph_get())
         local = measurement.in_object_frame()
         assert np.abs(local.center).max() < 1e-6
-        assert np.abs(local.inertia - np.diag(np.diag(local.inertia))).max() < 1e-6 * local.inertia.max()
+        assert (
+            np.abs(local.inertia - np.diag(np.diag(local.inertia))).max()
+            < 1e-6 * local.inertia.max()
+        )
     joint = next(obj for obj in joints if "arm.L" in obj.name)
     constraint = joint.rigid_body_constraint
     assert (constraint.object1, constraint.object2) == (bodies["chest"], bodies["arm.L"])
@@ -252,7 +293,8 @@ def test_rig_center_follows_pose_by_constraints():
     armature.location, armature.rotation_euler = (3, 2, 1), (0.1, 0.2, 0.3)
     bpy.context.view_layer.update()
     rest = {
-        part.name: (part.mass.total, part.measurement.in_object_frame().center) for part in measured(armature).parts
+        part.name: (part.mass.total, part.measurement.in_object_frame().center)
+        for part in measured(armature).parts
     }
     for _ in range(2):
         assert bpy.ops.object.body_moments_rig_center() == {"FINISHED"}
@@ -260,10 +302,14 @@ def test_rig_center_follows_pose_by_constraints():
     (center,) = [obj for obj in bpy.data.objects if obj.name.startswith("Rig Center of Mass")]
     total = sum(mass for mass, _ in rest.values())
     truth = sum(
-        mass * np.array(armature.matrix_world @ armature.pose.bones[name].matrix, np.float64) @ [*local, 1.0]
+        mass
+        * np.array(armature.matrix_world @ armature.pose.bones[name].matrix, np.float64)
+        @ [*local, 1.0]
         for name, (mass, local) in rest.items()
     )[:3]
-    found = np.array(center.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation)
+    found = np.array(
+        center.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
+    )
     assert np.abs(found - truth / total).max() < 2e-5
 
 
@@ -276,7 +322,10 @@ def test_results_of_bones_drive():
     driver = driven.driver_add("location", 0).driver
     variable = driver.variables.new()
     variable.type, variable.name = "SINGLE_PROP", "mass"
-    variable.targets[0].id, variable.targets[0].data_path = armature, 'pose.bones["head"]["body_mass"]'
+    variable.targets[0].id, variable.targets[0].data_path = (
+        armature,
+        'pose.bones["head"]["body_mass"]',
+    )
     driver.expression = "mass"
 
     def location():
@@ -319,14 +368,19 @@ def test_overlay_rig_is_sum_of_posed_parts():
     now = drawn(armature, scene).world
     parts = [arrays(drawn_bone(bone, scene).world) for bone in armature.pose.bones]
     center = sum(part.mass * part.center for part in parts) / sum(part.mass for part in parts)
-    assert np.abs(now.center - center).max() < 1e-12 and np.abs(np.subtract(now.center, rest.center)).max() > 1e-3
+    assert (
+        np.abs(now.center - center).max() < 1e-12
+        and np.abs(np.subtract(now.center, rest.center)).max() > 1e-3
+    )
     inertia = sum(
         part.inertia + part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
         for part in parts
         for arm in [part.center - center]
     )
     found, axes = arrays(now).inertia, arrays(now).axes
-    assert np.abs(found - inertia).max() < 1e-12 * np.abs(inertia).max() and np.linalg.det(axes) > 0.0
+    assert (
+        np.abs(found - inertia).max() < 1e-12 * np.abs(inertia).max() and np.linalg.det(axes) > 0.0
+    )
 
 
 def test_bone_freedom_follows_locks_limits_constraints():
@@ -346,7 +400,9 @@ def test_bone_freedom_follows_locks_limits_constraints():
     limit = bone.constraints.new("LIMIT_ROTATION")
     limit.use_limit_x = limit.use_limit_y = True
     limit.min_x, limit.max_x, limit.min_y, limit.max_y = -1.0, 1.5, 0.5, 0.5
-    assert [one[1] for one in free()] == [axes[axis] for axis in "zyx"]  # in the world it leaves the bone free
+    assert [one[1] for one in free()] == [
+        axes[axis] for axis in "zyx"
+    ]  # in the world it leaves the bone free
     limit.owner_space = "LOCAL"
     assert free() == [("rotate", axes["z"], -inf, inf), ("rotate", axes["x"], -1.0, 1.5)]
     limit.enabled = False
@@ -354,7 +410,10 @@ def test_bone_freedom_follows_locks_limits_constraints():
     other = bone.constraints.new("COPY_ROTATION")
     assert other.owner_space != "" and [one[1] for one in free()] == [axes[axis] for axis in "zyx"]
     assert bone_parents(bone, {"hips": "Hips"}) == ["Hips"]
-    assert bone_parents(bone, {"hips": "Hips", "chest": "Chest", "arm.L": "Arm"}) == ["Chest", "Hips"]
+    assert bone_parents(bone, {"hips": "Hips", "chest": "Chest", "arm.L": "Arm"}) == [
+        "Chest",
+        "Hips",
+    ]
 
 
 def test_a_density_that_varies_is_shared_as_its_mean():
@@ -367,7 +426,9 @@ def test_a_density_that_varies_is_shared_as_its_mean():
     assert abs(mean - 1000.0) > 10.0
     rig = measured(armature)
     told = {found.code: found.values for found in rig.measurement.findings}
-    assert told["rig_mean_density"] == {"sources": [skin.name]} and "members_density_unset" not in told
+    assert (
+        told["rig_mean_density"] == {"sources": [skin.name]} and "members_density_unset" not in told
+    )
     assert close(rig.measurement.mass_properties.mass, whole.mass_properties.mass, 1e-9)
     arm = next(part for part in rig.parts if part.name == "arm.L")
     assert close(arm.mass.total, 8.0 * mean, 2e-6)
@@ -380,9 +441,16 @@ def test_stretched_skin_area_is_that_of_its_faces():
         armature.scale = scale
         bpy.context.view_layer.update()
         matrix = np.array(skin.matrix_world, float)[:3, :3]
-        corners = [np.array([skin.data.vertices[i].co for i in polygon.vertices]) for polygon in skin.data.polygons]
+        corners = [
+            np.array([skin.data.vertices[i].co for i in polygon.vertices])
+            for polygon in skin.data.polygons
+        ]
         area = 0.0
         for a, b, c, d in (one @ matrix.T for one in corners):
-            area += (np.linalg.norm(np.cross(b - a, c - a)) + np.linalg.norm(np.cross(c - a, d - a))) / 2.0
+            area += (
+                np.linalg.norm(np.cross(b - a, c - a)) + np.linalg.norm(np.cross(c - a, d - a))
+            ) / 2.0
         found = measured(armature).measurement
-        assert close(found.area, area, 1e-6) and close(found.mass_properties.mass, 10.0 * area, 1e-6)
+        assert close(found.area, area, 1e-6) and close(
+            found.mass_properties.mass, 10.0 * area, 1e-6
+        )

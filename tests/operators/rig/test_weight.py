@@ -28,7 +28,9 @@ def posed(seed=1, held=True, show=True):
 
 
 def channels(rig):
-    return [(*bone.location, *bone.rotation_euler, *bone.rotation_quaternion) for bone in rig.pose.bones]
+    return [
+        (*bone.location, *bone.rotation_euler, *bone.rotation_quaternion) for bone in rig.pose.bones
+    ]
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3, 4])
@@ -88,13 +90,20 @@ def test_measured_poses_have_the_mass_at_rest(scene):
         rig.pose.bones["thigh.L"].rotation_euler = -angle, 0, 0
         assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
         masses.append((displayed(rig, scene).world.mass, body["body_mass"]))
-    assert masses[0][0] == masses[1][0] == pytest.approx(sum(bone.get("body_mass", 0.0) for bone in rig.pose.bones))
+    assert (
+        masses[0][0]
+        == masses[1][0]
+        == pytest.approx(sum(bone.get("body_mass", 0.0) for bone in rig.pose.bones))
+    )
     assert masses[0][1] < 0.995 * masses[1][1] < masses[0][0]
     body.body_moments.density = 500.0
     bpy.context.view_layer.update()
     assert "Out of date" in str(shown())  # the panel gives the reason for its verdict
     body.body_moments.property_unset("density")
-    assert bpy.ops.object.body_moments_measure() == {"FINISHED"} and displayed(rig, scene).verdict == "doubtful"
+    assert (
+        bpy.ops.object.body_moments_measure() == {"FINISHED"}
+        and displayed(rig, scene).verdict == "doubtful"
+    )
     assert "density" in str(shown(without=["weight", "bones", "density"])).lower()
     assert bpy.ops.object.body_moments_clear() == {"FINISHED"}
     assert not any("body_mass" in owner for owner in (rig, body, *rig.pose.bones))
@@ -189,7 +198,9 @@ def test_override_is_measured_and_balanced(scene, tmp_path):
     bpy.data.collections.remove(cast)
     with bpy.data.libraries.load(path, link=True) as (_there, here):
         here.collections = ["Cast"]
-    here.collections[0].override_hierarchy_create(scene, bpy.context.view_layer, do_fully_editable=True)
+    here.collections[0].override_hierarchy_create(
+        scene, bpy.context.view_layer, do_fully_editable=True
+    )
     rig = next(obj for obj in bpy.data.objects if obj.type == "ARMATURE" and obj.override_library)
     bpy.context.view_layer.objects.active = rig
     rig.select_set(True)
@@ -198,7 +209,10 @@ def test_override_is_measured_and_balanced(scene, tmp_path):
     assert SHOW() == {"FINISHED"}
     assert "body_mass" not in rig
     assert BALANCE() == {"FINISHED"}
-    assert np.abs((weight(rig).parts.center - weight(rig).support.target(None))[:2]).max() < 1e-4 * HEIGHT
+    assert (
+        np.abs((weight(rig).parts.center - weight(rig).support.target(None))[:2]).max()
+        < 1e-4 * HEIGHT
+    )
 
 
 def test_posed_armature_without_meshes_is_refused(scene):

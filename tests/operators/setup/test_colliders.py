@@ -92,12 +92,17 @@ def test_pressing_again_updates_in_place_and_removal_leaves_nothing():
 def test_linked_meshes_share_the_meshes_of_colliders():
     mesh = mesh_body()
     first = add(mesh, "First", (1, 2, 3), (0.3, 0.4, 0.5))
-    second, third = add(mesh, "Second", (-7, 5, 0), (1.3, -0.4, 2.5)), add(mesh, "Third", (0, 0, 9), scale=(1, 2, 1))
+    second, third = (
+        add(mesh, "Second", (-7, 5, 0), (1.3, -0.4, 2.5)),
+        add(mesh, "Third", (0, 0, 9), scale=(1, 2, 1)),
+    )
     shell, large = add(mesh, "Shell"), add(mesh, "Large", (0, 9, 0), scale=(2, 2, 2))
     shell.body_moments.kind = "SHELL"
     only(first, second, third, shell, large)
     make(shape="HULL")
-    meshes = [[obj.data for obj in colliders(body)] for body in (first, second, third, shell, large)]
+    meshes = [
+        [obj.data for obj in colliders(body)] for body in (first, second, third, shell, large)
+    ]
     assert meshes[0] == meshes[1] and set(meshes[0]).isdisjoint(meshes[2] + meshes[3] + meshes[4])
     (own,), (eightfold,) = colliders(first), colliders(large)
     assert eightfold[COLLIDER]["mass"] == pytest.approx(8.0 * own[COLLIDER]["mass"], rel=1e-6)
@@ -139,7 +144,9 @@ def test_refused_objects_are_named_and_the_others_go_on(reported):
     only(body, armature, flat, zero)
     assert make(shape="SPHERE") == {"FINISHED"}
     assert len(colliders(body)) == 1
-    assert {"Rig", "Flat", "Zero"} == {one.values["object"] for one in reported if one.code == "failure"}
+    assert {"Rig", "Flat", "Zero"} == {
+        one.values["object"] for one in reported if one.code == "failure"
+    }
     assert not any(colliders(obj) for obj in (armature, flat, zero))
 
 

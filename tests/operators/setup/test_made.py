@@ -28,7 +28,11 @@ def test_linked_or_older_node_group_is_not_reused(tmp_path):
     older = bpy.data.node_groups.new("Older", "GeometryNodeTree")
     older[node_group.KEY] = node_group.VERSION - 1
     made = node_group.center_of_mass_group()
-    assert made.library is None and made not in (plain, older) and made[node_group.KEY] == node_group.VERSION
+    assert (
+        made.library is None
+        and made not in (plain, older)
+        and made[node_group.KEY] == node_group.VERSION
+    )
     assert node_group.center_of_mass_group() == made
 
 
@@ -59,8 +63,12 @@ def test_of_a_compound_the_member_that_is_refused_is_named(reported):
         member.parent = root
         only(root, member)
         reported.clear()
-        assert bpy.ops.object.body_moments_rigid_bodies() == {"CANCELLED"} and root.rigid_body is None
-        assert reported.values("failure")["object"] == "Root" and reported[-1].values["sources"] == [name]
+        assert (
+            bpy.ops.object.body_moments_rigid_bodies() == {"CANCELLED"} and root.rigid_body is None
+        )
+        assert reported.values("failure")["object"] == "Root" and reported[-1].values[
+            "sources"
+        ] == [name]
         assert reported.codes[-1] == code
         bpy.data.objects.remove(member)
 
@@ -72,7 +80,9 @@ def test_recalculated_faces_keep_sculpted_shape():
     obj.data.flip_normals()
     multires = obj.modifiers.new("Multires", "MULTIRES")
     bpy.ops.object.multires_subdivide(modifier=multires.name, mode="SIMPLE")
-    shape = bpy.data.meshes.new_from_object(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()))
+    shape = bpy.data.meshes.new_from_object(
+        obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    )
     for vertex in shape.vertices:
         x, y, z = vertex.co
         vertex.co = (x + 0.2 * y * y + 0.1 * z, y + 0.15 * z * x, z + 0.1 * x + 0.05 * y)

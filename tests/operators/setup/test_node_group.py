@@ -24,7 +24,9 @@ def sizes(obj):
 
 
 def test_node_marker_is_at_measured_center_in_every_frame():
-    obj = add(mesh_body(), location=(10.0, -20.0, 30.0), rotation=(0.3, 0.2, 0.1), scale=(1.0, 2.0, -1.5))
+    obj = add(
+        mesh_body(), location=(10.0, -20.0, 30.0), rotation=(0.3, 0.2, 0.1), scale=(1.0, 2.0, -1.5)
+    )
     array = obj.modifiers.new("Array", "ARRAY")
     array.relative_offset_displace = (1.3, 0.2, 0.0)
     obj.keyframe_insert("location", frame=1)
@@ -36,10 +38,16 @@ def test_node_marker_is_at_measured_center_in_every_frame():
     for frame in (1, 7, 20):
         bpy.context.scene.frame_set(frame)
         truth = measured(obj).mass_properties.center
-        assert np.abs(center_shown(marker) - truth).max() < FLOAT32 * sizes(obj) + 1e-6 * np.abs(truth).max()
+        assert (
+            np.abs(center_shown(marker) - truth).max()
+            < FLOAT32 * sizes(obj) + 1e-6 * np.abs(truth).max()
+        )
     array.count = 5
     truth = measured(obj).mass_properties.center
-    assert np.abs(center_shown(marker) - truth).max() < FLOAT32 * sizes(obj) + 1e-6 * np.abs(truth).max()
+    assert (
+        np.abs(center_shown(marker) - truth).max()
+        < FLOAT32 * sizes(obj) + 1e-6 * np.abs(truth).max()
+    )
 
 
 def test_volume_and_mass_are_outputs():

@@ -32,7 +32,11 @@ def buttons(record=None):
 
 def offered():
     """The remedies of the lines that the panel shows."""
-    return [entry[2].remedy for entry in shown() if entry[:2] == ("operator", "object.body_moments_remedy")]
+    return [
+        entry[2].remedy
+        for entry in shown()
+        if entry[:2] == ("operator", "object.body_moments_remedy")
+    ]
 
 
 def orders(mesh):
@@ -64,7 +68,9 @@ def test_recalculate_outside_turns_faces_and_keeps_cavity():
     assert offered() == ["OUTSIDE"] * 2
     assert bpy.ops.object.body_moments_remedy(remedy="OUTSIDE") == {"FINISHED"}
     assert findings_of(obj, "warning") == [] and close(obj["body_volume"], volume, rel=1e-12)
-    assert {frozenset(face) for face in orders(mesh)[6:12]} == {frozenset(face) for face in right[6:12]}
+    assert {frozenset(face) for face in orders(mesh)[6:12]} == {
+        frozenset(face) for face in right[6:12]
+    }
     assert [set(face) for face in orders(mesh)[12:]] == [set(face) for face in right_of_third]
     assert obj["body_method"] == "exact"
     before = orders(mesh)
@@ -75,7 +81,9 @@ def test_recalculate_outside_turns_faces_and_keeps_cavity():
 def test_union_and_shell_remedies_set_and_measure():
     obj = add(boxes(2.0, 1.0))
     bpy.ops.object.body_moments_measure()
-    assert findings_of(obj, "warning") == ["components_nested"] and close(obj["body_volume"], 9.0, rel=1e-12)
+    assert findings_of(obj, "warning") == ["components_nested"] and close(
+        obj["body_volume"], 9.0, rel=1e-12
+    )
     assert offered() == ["UNION"]
     assert bpy.ops.object.body_moments_remedy(remedy="UNION") == {"FINISHED"}
     assert close(obj["body_volume"], 8.0, rel=1e-6) and obj.body_moments.overlap == "UNION"
@@ -103,10 +111,16 @@ def test_accepted_warning_stays_a_note_after_measuring():
     assert findings_of(obj, "warning") == []
     measurement = measure_object(obj, bpy.context.evaluated_depsgraph_get())
     entry = record.described(measurement.findings)
-    assert entry["warnings"] == [] and [found["severity"] for found in entry["findings"]] == ["note"]
-    assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {"FINISHED"}
+    assert entry["warnings"] == [] and [found["severity"] for found in entry["findings"]] == [
+        "note"
+    ]
+    assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {
+        "FINISHED"
+    }
     assert findings_of(obj, "warning") == ["components_nested"] and obj["body_warnings"]
-    assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {"CANCELLED"}
+    assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {
+        "CANCELLED"
+    }
     assert bpy.ops.object.body_moments_accept() == {"FINISHED"} and not obj["body_warnings"]
     assert not other["body_warnings"]  # what is not selected keeps what was accepted
 
@@ -138,7 +152,11 @@ def test_edits_repair_the_mesh_and_measure_again(fault, code, remedy):
     assert code in findings_of(obj)
     assert bpy.ops.object.body_moments_remedy(remedy=remedy) == {"FINISHED"}
     assert code not in findings_of(obj) and obj["body_method"] == "exact"
-    assert close(obj["body_volume"], 8.0, rel=1e-6) and len(mesh.polygons) == 6 and len(mesh.vertices) == 8
+    assert (
+        close(obj["body_volume"], 8.0, rel=1e-6)
+        and len(mesh.polygons) == 6
+        and len(mesh.vertices) == 8
+    )
     assert bpy.ops.object.body_moments_remedy(remedy=remedy) == {"CANCELLED"}
 
 
@@ -151,7 +169,9 @@ def test_the_unit_is_asked_for_once_a_scene_and_set_at_a_click():
     bpy.ops.object.body_moments_measure()
     assert ask in buttons() and "60 m long and 268\u2009000 t" in " ".join(labels(shown()))
     assert bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"}
-    assert scene.unit_settings.length_unit == "MILLIMETERS" and close(scene.unit_settings.scale_length, 1e-3, rel=1e-6)
+    assert scene.unit_settings.length_unit == "MILLIMETERS" and close(
+        scene.unit_settings.scale_length, 1e-3, rel=1e-6
+    )
     assert close(obj["body_mass"], 0.26784, rel=1e-6) and ask not in buttons()
     assert "20 mm" in labels(shown())
     scene.unit_settings.scale_length = 1.0

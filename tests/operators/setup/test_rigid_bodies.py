@@ -29,7 +29,9 @@ def is_what_bullet_takes_it_for(obj):
     local = measured(obj).in_object_frame()
     off = local.inertia - np.diag(np.diag(local.inertia))
     size = local.radii_of_gyration.max()
-    return np.abs(local.center).max() < 1e-5 * size and np.abs(off).max() < 1e-6 * np.trace(local.inertia)
+    return np.abs(local.center).max() < 1e-5 * size and np.abs(off).max() < 1e-6 * np.trace(
+        local.inertia
+    )
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.01, 100.0])
@@ -40,7 +42,9 @@ def test_mass_origin_and_axes_are_right_and_nothing_moves(unit):
     assert make() == {"FINISHED"}
     assert np.abs(seen(obj) - before).max() < 1e-5
     assert close(obj["body_mass"], mass, 1e-6) and not stale_reason(obj, bpy.context.scene)
-    assert close(obj.rigid_body.mass, mass, 1e-6) and obj.rigid_body.collision_shape == "CONVEX_HULL"
+    assert (
+        close(obj.rigid_body.mass, mass, 1e-6) and obj.rigid_body.collision_shape == "CONVEX_HULL"
+    )
     assert is_what_bullet_takes_it_for(obj) and np.abs(np.array(obj.scale) - 1).max() < 1e-6
     for _ in range(2):  # again: nothing is left to do
         matrix = place(obj)
@@ -55,7 +59,9 @@ def test_mass_origin_and_axes_are_right_and_nothing_moves(unit):
 def test_one_density_for_all_and_types_and_shapes():
     first, second = slanted("a"), slanted("b")
     only(first, second)
-    assert make(use_density=True, density=2700.0, type="PASSIVE", shape="BOX", frame="ORIGIN") == {"FINISHED"}
+    assert make(use_density=True, density=2700.0, type="PASSIVE", shape="BOX", frame="ORIGIN") == {
+        "FINISHED"
+    }
     for obj in (first, second):
         assert obj.rigid_body.type == "PASSIVE" and obj.rigid_body.collision_shape == "BOX"
         assert close(obj.rigid_body.mass, 2700.0 * measured(obj).volume, 1e-6)
@@ -66,7 +72,10 @@ def test_one_density_for_all_and_types_and_shapes():
 def test_a_parent_with_its_children_is_one_compound():
     scene = bpy.context.scene.collection
     root = box(scene, (1, 2, 4), (8, 0, -2), 7850, "root")
-    child, grandchild = box(scene, (2, 2, 2), (-4, 6, 1), 1000, "child"), box(scene, (1, 1, 1), (0, 0, 9), 500, "leaf")
+    child, grandchild = (
+        box(scene, (2, 2, 2), (-4, 6, 1), 1000, "child"),
+        box(scene, (1, 1, 1), (0, 0, 9), 500, "leaf"),
+    )
     for lower, upper in ((child, root), (grandchild, child)):
         lower.parent, lower.matrix_parent_inverse = upper, upper.matrix_world.inverted()
     alone = box(scene, (1, 1, 1), (20, 0, 0), 1000, "alone")
@@ -93,7 +102,10 @@ def test_a_parent_with_its_children_is_one_compound():
 
 def test_compound_of_free_axes_keeps_axes_of_its_parent():
     scene = bpy.context.scene.collection
-    root, child = box(scene, (2, 2, 2), (0, 0, 0), 1000, "root"), box(scene, (1, 1, 1), (0, 0, 0), 500, "child")
+    root, child = (
+        box(scene, (2, 2, 2), (0, 0, 0), 1000, "root"),
+        box(scene, (1, 1, 1), (0, 0, 0), 500, "child"),
+    )
     child.parent, root.rotation_euler, root.location = root, (0.1, 0.2, 0.3), (1, 2, 3)
     child.rotation_euler = (0.5, 0.0, 0.4)
     bpy.context.view_layer.update()
@@ -160,7 +172,11 @@ def test_body_of_local_modifier_stays_and_next_is_made(reported):
     before = place(held)
     assert make(frame="ORIGIN") == {"FINISHED"} and good.rigid_body is not None
     assert np.abs(measured(good).in_object_frame().center).max() < 1e-5
-    assert (place(held) == before).all() and held.rigid_body is None and held.rigid_body_constraint.type == "HINGE"
+    assert (
+        (place(held) == before).all()
+        and held.rigid_body is None
+        and held.rigid_body_constraint.type == "HINGE"
+    )
     assert len(bpy.data.objects) == 2
     assert reported.values("failure")["object"] == "held" and reported.codes[-1] == "own_axes_used"
 
@@ -186,5 +202,10 @@ def test_text_and_too_light_body_stay_with_a_reason(reported):
     only(good, text, tiny)
     was = place(tiny)
     assert make() == {"FINISHED"}
-    assert good.rigid_body and not text.rigid_body and not tiny.rigid_body and (place(tiny) == was).all()
+    assert (
+        good.rigid_body
+        and not text.rigid_body
+        and not tiny.rigid_body
+        and (place(tiny) == was).all()
+    )
     assert {"rigid_body_needs_mesh", "rigid_body_mass_too_small"} <= set(reported.codes)

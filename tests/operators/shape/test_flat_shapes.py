@@ -23,7 +23,9 @@ def run(operator, **options):
 
 
 def found():
-    return {row.name: (row.verdict, row.scale) for row in bpy.context.scene.body_moments_search.found}
+    return {
+        row.name: (row.verdict, row.scale) for row in bpy.context.scene.body_moments_search.found
+    }
 
 
 @pytest.mark.parametrize("body", ["R", "S", "8", "g"])
@@ -35,14 +37,20 @@ def test_letters_are_found_again_in_another_size_place_and_turn(body):
     only(wanted)
     assert run("find_similar") == {"FINISHED"}
     rows = found()
-    assert rows["Copy"][0] == "copy" and rows["Large"][0] == "scaled_copy" and rows["Other"][0] == "different"
+    assert (
+        rows["Copy"][0] == "copy"
+        and rows["Large"][0] == "scaled_copy"
+        and rows["Other"][0] == "different"
+    )
     assert abs(rows["Large"][1] - 7.0) < 1e-4
     assert bpy.data.objects["Copy"].select_get() and not bpy.data.objects["Large"].select_get()
 
 
 def test_mirror_images_are_told_apart_as_seen_from_the_front():
     wanted = text("R", "Wanted")
-    text("R", "Turned over", rotation=(math.pi, 0, 0), location=(3, 0, 0))  # its front looks down, and shows an R
+    text(
+        "R", "Turned over", rotation=(math.pi, 0, 0), location=(3, 0, 0)
+    )  # its front looks down, and shows an R
     text("R", "Mirrored", scale=(-1, 1, 1), location=(6, 0, 0))
     text("R", "Mirrored twice", scale=(-1, -1, 1), location=(9, 0, 0))
     only(wanted)
@@ -92,7 +100,12 @@ def test_flat_shape_matches_sheet_and_no_body():
         (lambda: sheet(regular(3)), "C3v"),
         (lambda: sheet(regular(5, 1e-3), location=(5, 6, 7), rotation=(1, 2, 3)), "C5v"),
         (lambda: sheet(regular(40)), "C40v"),
-        (lambda: sheet([(0, 0), (3, 0), (3, 1), (0, 1)], rotation=(0.4, 0.3, 0.2), scale=(2, 1, 1)), "C2v"),
+        (
+            lambda: sheet(
+                [(0, 0), (3, 0), (3, 1), (0, 1)], rotation=(0.4, 0.3, 0.2), scale=(2, 1, 1)
+            ),
+            "C2v",
+        ),
         (lambda: sheet([(0, 0), (3, 0), (4, 1), (1, 1)]), "C2"),
         (lambda: sheet([(0, 0), (4, 0), (3, 1), (1, 1)]), "Cs"),
         (lambda: sheet([(0, 0), (3, 0), (0, 1)]), "C1"),
@@ -124,8 +137,17 @@ def test_the_symmetry_of_a_changed_text_is_out_of_date():
 
 @pytest.mark.parametrize("body", ["R", "Q", "4"])
 def test_a_letter_comes_to_lie_on_another_one_front_on_front(body):
-    target = text(body, "Target", font_name=MONOSPACED, location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
-    copy = text(body, "Copy", font_name=MONOSPACED, resolution=5, location=(-7, 2, 1), rotation=(2.0, 1.0, -0.4))
+    target = text(
+        body, "Target", font_name=MONOSPACED, location=(1, 2, 3), rotation=(0.3, 0.4, 0.5)
+    )
+    copy = text(
+        body,
+        "Copy",
+        font_name=MONOSPACED,
+        resolution=5,
+        location=(-7, 2, 1),
+        rotation=(2.0, 1.0, -0.4),
+    )
     was = place(target)
     only(target, copy)
     assert run("match_pose") == {"FINISHED"}

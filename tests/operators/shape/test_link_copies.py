@@ -46,7 +46,9 @@ def moved_copy(mesh, matrix, name="Copy"):
     if matrix.determinant() < 0.0:
         copy.flip_normals()
     obj = add(copy, name)
-    obj.matrix_world = Matrix.Translation((5, 0, 0)) @ matrix.inverted() if matrix.determinant() > 0 else Matrix()
+    obj.matrix_world = (
+        Matrix.Translation((5, 0, 0)) @ matrix.inverted() if matrix.determinant() > 0 else Matrix()
+    )
     bpy.context.view_layer.update()
     return obj
 
@@ -54,7 +56,9 @@ def moved_copy(mesh, matrix, name="Copy"):
 def corners(obj):
     """World points sorted by place."""
     matrix = np.array(obj.matrix_world)
-    points = np.array([vertex.co for vertex in obj.data.vertices]) @ matrix[:3, :3].T + matrix[:3, 3]
+    points = (
+        np.array([vertex.co for vertex in obj.data.vertices]) @ matrix[:3, :3].T + matrix[:3, 3]
+    )
     return points[np.lexsort(np.round(points, 3).T)]
 
 
@@ -71,7 +75,10 @@ def link(*objects, **options):
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_moved_copies_share_a_mesh_and_stay(scale, mirrored):
     mesh = blob(1)
-    objects = [add(mesh, "First"), *(moved_copy(mesh, turn(seed, scale, mirrored)) for seed in range(3))]
+    objects = [
+        add(mesh, "First"),
+        *(moved_copy(mesh, turn(seed, scale, mirrored)) for seed in range(3)),
+    ]
     assert link(*objects) == {"FINISHED"}
     assert {obj.data for obj in objects} == {mesh} and len(bpy.data.meshes) == 1
 
@@ -89,7 +96,9 @@ def test_other_uvs_are_left_unless_they_may_differ():
 def test_cube_keeps_its_uvs_in_place():
     mesh = box_mesh(2, 2, 2)
     uv = mesh.uv_layers.new(name="UVMap")
-    uv.data.foreach_set("uv", np.random.default_rng(4).random(2 * len(mesh.loops)).astype(np.float32))
+    uv.data.foreach_set(
+        "uv", np.random.default_rng(4).random(2 * len(mesh.loops)).astype(np.float32)
+    )
     first, second = add(mesh, "First"), moved_copy(mesh, Matrix.Rotation(np.pi / 2, 4, "X"))
     assert link(first, second) == {"FINISHED"} and first.data == second.data
 
@@ -157,14 +166,18 @@ def scrambled(mesh, seed):
 
 def test_scrambled_copies_share_unless_a_modifier_shows_it():
     mesh = blob(1)
-    first, second, third = (add(data, "A") for data in (mesh, scrambled(mesh, 1), scrambled(mesh, 2)))
+    first, second, third = (
+        add(data, "A") for data in (mesh, scrambled(mesh, 1), scrambled(mesh, 2))
+    )
     third.modifiers.new("Wave", "WAVE")
     assert link(first, second, third) == {"FINISHED"}
     assert first.data == second.data != third.data
     assert outcome.last().groups[0].finding.code == "modifiers_change_shape"
 
 
-@pytest.mark.parametrize("aspect", ["material", "shape key", "group", "property", "attribute", "animation"])
+@pytest.mark.parametrize(
+    "aspect", ["material", "shape key", "group", "property", "attribute", "animation"]
+)
 def test_meshes_that_differ_otherwise_are_left(aspect):
     mesh = blob(1)
     first, second = add(mesh, "First"), moved_copy(mesh, turn(2))
@@ -217,7 +230,9 @@ def test_objects_that_others_follow_or_shade_are_left(cause, tmp_path):
         material = bpy.data.materials.new("Wood")
         material.use_nodes = True
         noise = material.node_tree.nodes.new("ShaderNodeTexNoise")
-        material.node_tree.links.new(noise.outputs[0], material.node_tree.nodes["Principled BSDF"].inputs[0])
+        material.node_tree.links.new(
+            noise.outputs[0], material.node_tree.nodes["Principled BSDF"].inputs[0]
+        )
         for obj in (first, second):
             obj.data.materials.append(material)
     else:
@@ -243,6 +258,13 @@ def test_instances_and_stored_numbers_stay():
     bpy.ops.object.body_moments_measure()
     mass, scene = second["body_mass"], bpy.context.scene
     assert link(first, second) == {"FINISHED"} and first.data == second.data
-    assert abs(second["body_mass"] / mass - 1.0) < 1e-5 and staleness.stale_reason(second, scene) is None
-    matrices = [item.matrix_world.copy() for item in bpy.context.evaluated_depsgraph_get().object_instances]
-    assert any((matrix.translation - second.matrix_world.translation).length > 19.9 for matrix in matrices)
+    assert (
+        abs(second["body_mass"] / mass - 1.0) < 1e-5
+        and staleness.stale_reason(second, scene) is None
+    )
+    matrices = [
+        item.matrix_world.copy() for item in bpy.context.evaluated_depsgraph_get().object_instances
+    ]
+    assert any(
+        (matrix.translation - second.matrix_world.translation).length > 19.9 for matrix in matrices
+    )

@@ -71,14 +71,20 @@ def test_a_symmetric_object_takes_the_nearest_of_its_poses():
     before = place(copy)
     only(target, copy)
     assert run("match_pose") == {"FINISHED"}
-    assert np.trace(before[:3, :3].T @ place(copy)[:3, :3]) > 2.99  # it turned by a little, not by a quarter
+    assert (
+        np.trace(before[:3, :3].T @ place(copy)[:3, :3]) > 2.99
+    )  # it turned by a little, not by a quarter
     assert np.abs(place(copy) - place(target)).max() < 1e-5
 
 
 def test_round_objects_turn_no_more_than_they_must():
-    bpy.ops.mesh.primitive_cylinder_add(vertices=64, depth=3, location=(1, 2, 3), rotation=(0.5, 0.1, 0.3))
+    bpy.ops.mesh.primitive_cylinder_add(
+        vertices=64, depth=3, location=(1, 2, 3), rotation=(0.5, 0.1, 0.3)
+    )
     target = bpy.context.object
-    bpy.ops.mesh.primitive_cylinder_add(vertices=64, depth=3, location=(5, 2, 3), rotation=(0.5, 0.1, 0.3))
+    bpy.ops.mesh.primitive_cylinder_add(
+        vertices=64, depth=3, location=(5, 2, 3), rotation=(0.5, 0.1, 0.3)
+    )
     copy = bpy.context.object
     before = place(copy)
     only(target, copy)
@@ -181,7 +187,10 @@ def test_a_library_measured_in_batch_is_searched(tmp_path, reported):
     path = tmp_path / "library.jsonl"
     with open(tmp_path / "sink", "wb") as sink:
         assert (
-            batch.main(["measure", "--signature", "--format", "jsonl", "--output", str(path)], channel=sink.fileno())
+            batch.main(
+                ["measure", "--signature", "--format", "jsonl", "--output", str(path)],
+                channel=sink.fileno(),
+            )
             == 0
         )
     for name in ("Copy", "Image", "Big", "Other"):

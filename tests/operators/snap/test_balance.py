@@ -77,7 +77,9 @@ def told_of(mesh):
     changes = []
 
     def note(_scene, depsgraph):
-        changes.extend(one for one in depsgraph.updates if one.id.original == mesh and one.is_updated_geometry)
+        changes.extend(
+            one for one in depsgraph.updates if one.id.original == mesh and one.is_updated_geometry
+        )
 
     bpy.app.handlers.depsgraph_update_post.append(note)
     try:
@@ -101,7 +103,9 @@ def test_what_cannot_lean_is_refused(reported):
     unchanged(flat, points(flat), "balance_no_effect", reported)
     only(figure())
     bpy.context.scene.cursor.location = (0.0, 0.0, -2.0)  # below the ground
-    unchanged(bpy.context.object, points(bpy.context.object), "balance_no_effect", reported, axes="ALL")
+    unchanged(
+        bpy.context.object, points(bpy.context.object), "balance_no_effect", reported, axes="ALL"
+    )
     only(add(bpy.data.meshes.new("Empty"), "Empty"))
     assert balance() == {"CANCELLED"}
 
@@ -117,7 +121,10 @@ def test_object_without_groups_leans(kind):
     assert balance() == {"FINISHED"}
     moves = world(obj, points(obj)) - before
     assert close(center(obj)[:2], (0.7, -0.4), 2e-6)
-    assert np.abs(moves - np.multiply.outer(height / height.max(), moves[height.argmax()])).max() < 1e-6
+    assert (
+        np.abs(moves - np.multiply.outer(height / height.max(), moves[height.argmax()])).max()
+        < 1e-6
+    )
     bpy.context.scene.cursor.location = (0.0, 0.0, 0.0)
     there = points(obj)
     assert balance(limit=0.1) == {"CANCELLED"} and (points(obj) == there).all()
@@ -300,7 +307,9 @@ def test_other_users_of_balanced_mesh_become_stale(reported):
 def test_distant_fine_mesh_is_balanced_to_float32():
     mesh = bpy.data.meshes.new("Fine")
     work = bmesh.new()
-    bmesh.ops.create_icosphere(work, subdivisions=5, radius=1.0, matrix=Matrix.Diagonal((1.0, 1.5, 0.7, 1.0)))
+    bmesh.ops.create_icosphere(
+        work, subdivisions=5, radius=1.0, matrix=Matrix.Diagonal((1.0, 1.5, 0.7, 1.0))
+    )
     work.to_mesh(mesh)
     work.free()
     obj = add(mesh, location=(1000.0, 0.0, 0.0))

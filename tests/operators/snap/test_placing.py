@@ -24,10 +24,17 @@ def test_refused_empty_keeps_parent_place_and_size(reported):
     limit.use_max_x, limit.max_x = True, 0.0
     obj.location.x += 5.0
     bpy.context.view_layer.update()
-    names = (*empties.RESTORED_PROPERTIES, "matrix_parent_inverse", "location", "rotation_quaternion", "scale")
+    names = (
+        *empties.RESTORED_PROPERTIES,
+        "matrix_parent_inverse",
+        "location",
+        "rotation_quaternion",
+        "scale",
+    )
     before = {name: getattr(made, name) for name in names}
     before = {
-        name: value.copy() if hasattr(value, "copy") and name != "parent" else value for name, value in before.items()
+        name: value.copy() if hasattr(value, "copy") and name != "parent" else value
+        for name, value in before.items()
     }
     assert bpy.ops.object.body_moments_add_empty(parent=True, size=3.0) == {"CANCELLED"}
     assert "transform_constrained" in reported.codes
@@ -44,7 +51,11 @@ def test_an_empty_is_not_put_into_a_collection_of_a_library(overridden):
     obj = next(one for one in collection.objects if one.name == "b0")
     only(obj)
     assert bpy.ops.object.body_moments_add_empty(parent=False) == {"FINISHED"}
-    (made,) = [one for one in bpy.data.objects if one.type == "EMPTY" and one.get(empties.OBJECT_KEY) == obj]
+    (made,) = [
+        one
+        for one in bpy.data.objects
+        if one.type == "EMPTY" and one.get(empties.OBJECT_KEY) == obj
+    ]
     assert [*made.users_collection] == [scene.collection]
 
 
@@ -66,7 +77,9 @@ def test_axes_of_a_cube_are_its_sides(operator, options, reported):
     assert getattr(getattr(bpy.ops, category), name)(**options) == {"FINISHED"}
     frames = {
         "add_empty": lambda: bpy.data.objects["Cube Principal Frame"].matrix_world,
-        "create_orientation": lambda: scene.transform_orientation_slots[0].custom_orientation.matrix,
+        "create_orientation": lambda: (
+            scene.transform_orientation_slots[0].custom_orientation.matrix
+        ),
         "cursor_to_center": lambda: scene.cursor.matrix,
     }
     axes = np.array(frames[name.removeprefix("body_moments_")]())[:3, :3]
@@ -76,4 +89,6 @@ def test_axes_of_a_cube_are_its_sides(operator, options, reported):
     assert reported[0] == (free.of_sources(["Cube"]) if "empty" in name else free)
     if "cursor" in name:
         reported.clear()
-        assert bpy.ops.view3d.body_moments_cursor_to_center() == {"FINISHED"} and reported.codes == []
+        assert (
+            bpy.ops.view3d.body_moments_cursor_to_center() == {"FINISHED"} and reported.codes == []
+        )

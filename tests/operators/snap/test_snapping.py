@@ -77,7 +77,9 @@ def test_reframed_body_stays_in_place_and_is_final(name, scale):
 
 
 @pytest.mark.parametrize("name", REFRAMING)
-@pytest.mark.parametrize("mode", ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "QUATERNION", "AXIS_ANGLE"])
+@pytest.mark.parametrize(
+    "mode", ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "QUATERNION", "AXIS_ANGLE"]
+)
 def test_every_rotation_mode_and_deltas(name, mode):
     obj = add(mesh_body())
     obj.rotation_mode = mode
@@ -113,7 +115,9 @@ def test_parents_are_respected(name):
     parent = add(None, "Parent", location=(10, 20, 30), rotation=(0.5, 0.6, 0.7), scale=(2, 2, 2))
     obj = add(mesh_body(), location=(1, 0, 0), rotation=(0.1, 0.9, 0))
     obj.parent = parent
-    obj.matrix_parent_inverse = Matrix.LocRotScale((3, 2, 1), Matrix.Rotation(0.4, 3, "Y"), (0.5, 0.5, 0.5))
+    obj.matrix_parent_inverse = Matrix.LocRotScale(
+        (3, 2, 1), Matrix.Rotation(0.4, 3, "Y"), (0.5, 0.5, 0.5)
+    )
     only(obj)
     before = seen(obj)
     assert run(name) == {"FINISHED"}
@@ -401,16 +405,22 @@ def turned_within(obj, angle=0.4):
 
 @pytest.mark.parametrize("vertices, fold", [(3, 3), (4, 4), (5, 5), (6, 6)])
 def test_a_prism_turned_within_its_object_gets_its_own_axes(vertices, fold):
-    bpy.ops.mesh.primitive_cylinder_add(vertices=vertices, depth=5, location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
+    bpy.ops.mesh.primitive_cylinder_add(
+        vertices=vertices, depth=5, location=(1, 2, 3), rotation=(0.3, 0.4, 0.5)
+    )
     obj = bpy.context.object
     turned_within(obj)
     before = seen(obj)
     assert run(AXES) == {"FINISHED"}
     assert np.abs(seen(obj) - before).max() < 1e-5
     points = np.array([vertex.co for vertex in obj.data.vertices])
-    angles = np.degrees(np.arctan2(points[:, 2], points[:, 1])) % (360 / fold)  # the long axis is x now
+    angles = np.degrees(np.arctan2(points[:, 2], points[:, 1])) % (
+        360 / fold
+    )  # the long axis is x now
     step = 180 / fold
-    assert np.abs((angles + step / 2) % step - step / 2).max() < 0.01  # corners or the middles of sides on the axes
+    assert (
+        np.abs((angles + step / 2) % step - step / 2).max() < 0.01
+    )  # corners or the middles of sides on the axes
     assert run(AXES) == {"CANCELLED"}
 
 
@@ -443,7 +453,9 @@ def test_strict_rule_poses_prism_and_refuses_cube(name):
 def test_strict_rule_needs_third_moments_beyond_rounding(name, side, answer, reported):
     """Of a box with a small one aside, whose third moments are hardly more than rounding may leave."""
     corners = np.array(list(product((-0.5, 0.5), repeat=3)))
-    faces = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
+    faces = np.array(
+        [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    )
     mesh = bpy.data.meshes.new("Boxes")
     points = np.concatenate([corners * (1, 2, 4), corners * side + (0, 1.5, 3)])
     mesh.from_pydata(points.tolist(), [], np.concatenate([faces, faces + 8]).tolist())

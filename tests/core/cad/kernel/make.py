@@ -36,7 +36,9 @@ while edges.More():
     edges.Next()
 loft = BRepOffsetAPI_ThruSections(True, False, 1e-6)
 for k in range(8):
-    edge = BRepBuilderAPI.BRepBuilderAPI_MakeEdge(gp.gp_Circ(axis(0, 0, 5 * k), 5.0 + 2.0 * (37 * k % 5) / 5.0)).Edge()
+    edge = BRepBuilderAPI.BRepBuilderAPI_MakeEdge(
+        gp.gp_Circ(axis(0, 0, 5 * k), 5.0 + 2.0 * (37 * k % 5) / 5.0)
+    ).Edge()
     loft.AddWire(BRepBuilderAPI.BRepBuilderAPI_MakeWire(edge).Wire())
 loft.SetMaxDegree(14)
 loft.Build()
@@ -48,7 +50,11 @@ bodies = {
     "loft": loft.Shape(),
     "sphere": made("Sphere", 10),
 }
-bodies |= {"torus": made("Torus", 20, 5), "cylinder": made("Cylinder", 10, 30), "cone": made("Cone", 10, 4, 30)}
+bodies |= {
+    "torus": made("Torus", 20, 5),
+    "cylinder": made("Cylinder", 10, 30),
+    "cone": made("Cone", 10, 4, 30),
+}
 bodies |= {name + "_solid": bodies[name] for name in ("sphere", "drilled", "fillet")}
 bodies["apex_solid"] = made("Cone", 10, 0, 30)
 found = {}
