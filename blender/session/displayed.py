@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The displayed numbers of objects, and the verdict on them: panels, list and overlay ask here. Loads no numpy.
+"""The displayed numbers of objects, and the verdict on them: panels, list and overlay ask here.
+
+Loads no numpy.
 
 The order of the list is cached until Blender reports a change.
 """
@@ -43,9 +45,9 @@ RANKS = {verdict: rank for rank, verdict in enumerate(Verdict)}
 class Displayed(NamedTuple):
     """The displayed numbers of an object, SI.
 
-    numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason: the reason if the
-    numbers are out of date. live: the result with Live on. lag: the lag of live numbers behind the object. is_posed:
-    whether the numbers are a sum of parts in the present pose.
+    numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason:
+    the reason if the numbers are out of date. live: the result with Live on. lag: the lag of live
+    numbers behind the object. is_posed: whether the numbers are a sum of parts in the present pose.
     """
 
     numbers: PlainBody
@@ -68,9 +70,9 @@ class Displayed(NamedTuple):
 class Total:
     """Selected objects as one body.
 
-    count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names of objects without
-    results; stale: names of objects with outdated results; findings: caveats about the sum; verdict: the least of any
-    object; groups: the objects' own findings.
+    count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names
+    of objects without results; stale: names of objects with outdated results; findings: caveats
+    about the sum; verdict: the least of any object; groups: the objects' own findings.
     """
 
     count: int
@@ -87,12 +89,15 @@ class Total:
 _drawn: dict[int, Displayed] = {}  # session uid → drawn numbers, of objects that depend on no other
 _drawn_in: tuple = ()  # the scene's part in them
 _moved: set[int] = set()  # session uids of objects that have only moved since
-# A scene's last total, after its generation and view layer: the panel is drawn at every mouse movement.
+# A scene's last total, after its generation and view layer: the panel is drawn at every mouse
+# movement.
 _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
 
 
 def displayed(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an original object: posed, live or stored; None if there are none."""
+    """Return the displayed numbers of an original object: posed, live or stored; None if there are
+    none.
+    """
     weighed = _weighed(obj, scene) if obj.type == "ARMATURE" else None
     if weighed is not None:
         return weighed
@@ -132,12 +137,16 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the numbers of an original object at its place, or of a character in its pose; None without a mass."""
+    """Return the numbers of an original object at its place, or of a character in its pose; None
+    without a mass.
+    """
     return all_drawn([obj], scene)[0]
 
 
 def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]:
-    """Return `drawn` of many objects, cached until Blender or the session reports a change of the object."""
+    """Return `drawn` of many objects, cached until Blender or the session reports a change of the
+    object.
+    """
     global _drawn_in
     settings = scene.body_moments
     key = (
@@ -158,7 +167,9 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
 
 
 def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | None:
-    """Return `drawn` of an object; keep it if it depends on no other object. before: its numbers before it moved."""
+    """Return `drawn` of an object; keep it if it depends on no other object. before: its numbers
+    before it moved.
+    """
     if obj.type == "ARMATURE":
         shown = displayed(obj, scene)
         if shown is not None and not shown.is_posed:  # its own stored numbers are of the rest pose
@@ -186,7 +197,9 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
 
 
 def note_updates(events: handlers.Updates) -> None:
-    """Drop the cached numbers of objects that Blender has evaluated again; after a move, only the place."""
+    """Drop the cached numbers of objects that Blender has evaluated again; after a move, only the
+    place.
+    """
     for uid in (*events.reshaped, *events.others):
         _drawn.pop(uid, None)
     _moved.update(_drawn.keys() & events.moved)
@@ -202,7 +215,9 @@ def forget_drawn(data: ID | None = None) -> None:
 
 
 def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
-    """Return the numbers of an original armature's bone at the bone's current place, or None if there are none."""
+    """Return the numbers of an original armature's bone at the bone's current place, or None if
+    there are none.
+    """
     armature = bone.id_data
     own = properties.stored(bone)
     if own is None:
@@ -217,7 +232,9 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
 
 
 def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -> Displayed | None:
-    """Return the sum of a character's meshes or bones in its current pose; None if they have no mass."""
+    """Return the sum of a character's meshes or bones in its current pose; None if they have no
+    mass.
+    """
     known = [part for part in parts if part is not None]
     world = add_bodies([part.world for part in known])
     if world is None:
@@ -241,7 +258,9 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
 
 
 def _weighed(armature: Object, scene: Scene) -> Displayed | None:
-    """Return a character whose weight is shown, by its bones in the present pose; None for others."""
+    """Return a character whose weight is shown, by its bones in the present pose; None for
+    others.
+    """
     depsgraph = bpy.context.view_layer.depsgraph
     character = loaded_module(live, "character")
     if not armature.body_moments_weight.show or character is None or depsgraph is None:
@@ -259,7 +278,8 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
 
 
 def shown_objects(context: Context) -> list[Object]:
-    """Return the objects that the panel is about: the selected ones if there are several, else the active one.
+    """Return the objects that the panel is about: the selected ones if there are several, else the
+    active one.
 
     The meshes of a posed armature stand in its place.
     """
@@ -269,13 +289,17 @@ def shown_objects(context: Context) -> list[Object]:
 
 
 def total(context: Context) -> Total:
-    """Return the selected objects as one body, by the parallel-axis theorem, from displayed numbers."""
+    """Return the selected objects as one body, by the parallel-axis theorem, from displayed
+    numbers.
+    """
     key = handlers.generation(), context.view_layer.name
     return current_value(_totals, context.scene, key, lambda: _sum(context))
 
 
 def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
-    """Return the members of an assembly or character: its descendants, and the `objects` that it deforms."""
+    """Return the members of an assembly or character: its descendants, and the `objects` that it
+    deforms.
+    """
     return [*obj.children_recursive, *read.rig.skinned_objects(obj, objects)]
 
 
@@ -334,7 +358,9 @@ _listings: SessionCache[tuple[tuple, Listing]] = (
 def listing(
     scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool
 ) -> Listing:
-    """Return two lists over a view layer's objects: whether each is listed, and its line, warnings first on request."""
+    """Return two lists over a view layer's objects: whether each is listed, and its line, warnings
+    first on request.
+    """
     key = (handlers.generation(), view_layer.name, name, sort_by, warnings_first)
     return current_value(
         _listings,
@@ -345,7 +371,9 @@ def listing(
 
 
 def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
-    """Return texts of the masses of a view layer's measured objects by session uid, with common unit and decimals."""
+    """Return texts of the masses of a view layer's measured objects by session uid, with common
+    unit and decimals.
+    """
     units = Units.from_settings(scene.unit_settings)
 
     def list_masses() -> dict[int, str]:

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reactions of the session to Blender's reports and to changed settings, in one table; sliders add theirs when used."""
+"""Reactions of the session to Blender's reports and to changed settings, in one table; sliders add
+theirs when used.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +51,9 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Write the notes of edits, because the file may outlive the add-on; then drop them and all subscriptions."""
+    """Write the notes of edits, because the file may outlive the add-on; then drop them and all
+    subscriptions.
+    """
     staleness.write_notes()
     for forget in (
         updates.forget_file,

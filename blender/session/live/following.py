@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects with Live on, and their current numbers: `live` measures them, and the panels ask here."""
+"""Objects with Live on, and their current numbers: `live` measures them, and the panels ask
+here.
+"""
 
 from __future__ import annotations
 
@@ -24,15 +26,16 @@ class Lag(StrEnum):
     """Lag of live numbers behind the displayed object."""
 
     NONE = ""
-    FIRST_ORDER = "first order"  # volume, mass and center are current, the inertia is scaled from the last measurement
+    # volume, mass and center are current, the inertia is scaled from the last measurement
+    FIRST_ORDER = "first order"
     BEHIND = "behind"
 
 
 class LiveResult(NamedTuple):
     """An object's current numbers.
 
-    measurement: None if it was refused. refusal: the reason for that. seconds: duration of the measurement. settings:
-    the digest of the object's settings.
+    measurement: None if it was refused. refusal: the reason for that. seconds: duration of the
+    measurement. settings: the digest of the object's settings.
     """
 
     measurement: Measurement | None
@@ -50,13 +53,17 @@ def is_live(obj: Object) -> bool:
 
 
 def current_numbers(obj: Object) -> LiveResult | None:
-    """Return the result of an object's last live measurement, or None if there is none or Live is off."""
+    """Return the result of an object's last live measurement, or None if there is none or Live is
+    off.
+    """
     current = followed.get(obj)
     return None if current is None else current.result
 
 
 def stamp_of(obj: Object) -> Stamp | None:
-    """Return a stamp of the settings of live numbers, as Blender does not report every change of a setting."""
+    """Return a stamp of the settings of live numbers, as Blender does not report every change of a
+    setting.
+    """
     now = current_numbers(obj)
     return (
         None

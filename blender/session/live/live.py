@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of objects that follow their edits while Live is on: shown, never stored.
 
-Nothing is written to any data. A moving object is not measured again: its numbers are mapped to its new place. An
-object that deforms during playback or posing gets volume and center at once, in a light pass over its faces
-(`MovingSurface`), within the budget of a redraw. Full numbers come from a timer, never from a handler: at once if
-they take no longer than the budget, else when updates and frames have ceased. Until then the panel says that the
-numbers lag. B-spline patches are tracked (core/nurbs/tracked_solid.py). Only seconds of this thread count, so that
-other work on a busy machine makes no numbers lag.
+Nothing is written to any data. A moving object is not measured again: its numbers are mapped to its
+new place. An object that deforms during playback or posing gets volume and center at once, in a
+light pass over its faces (`MovingSurface`), within the budget of a redraw. Full numbers come from a
+timer, never from a handler: at once if they take no longer than the budget, else when updates and
+frames have ceased. Until then the panel says that the numbers lag. B-spline patches are tracked
+(core/nurbs/tracked_solid.py). Only seconds of this thread count, so that other work on a busy
+machine makes no numbers lag.
 
-The switch is kept in memory, too: a property of the object would make Blender report an edit of its geometry.
+The switch is kept in memory, too: a property of the object would make Blender report an edit of its
+geometry.
 """
 
 from __future__ import annotations
@@ -62,10 +64,11 @@ FOLLOWED = {Procedure.EXACT, Procedure.CAPPED, Procedure.REORIENTED}
 class Followed:
     """An object with Live on.
 
-    matrix, transform, number: at the measurement, matrix_world, transform key and number of the last update. tracked:
-    the body, if edits are followed rather than measured anew. surface: the faces, if a light pass can follow them.
-    first_order: volume and center in the object's coordinates by the last light pass. pass_seconds: its duration.
-    shows_others: whether the object shows instances. is_pending: whether the object changed since the measurement.
+    matrix, transform, number: at the measurement, matrix_world, transform key and number of the
+    last update. tracked: the body, if edits are followed rather than measured anew. surface: the
+    faces, if a light pass can follow them. first_order: volume and center in the object's
+    coordinates by the last light pass. pass_seconds: its duration. shows_others: whether the object
+    shows instances. is_pending: whether the object changed since the measurement.
     """
 
     result: LiveResult | None = None
@@ -83,7 +86,9 @@ class Followed:
 def map_properties(
     obj: Object, current: Followed, measured: Measurement, scene: Scene
 ) -> PlainBody:
-    """Return the numbers of an object with Live on, in its own frame, mapped to its place and stretch."""
+    """Return the numbers of an object with Live on, in its own frame, mapped to its place and
+    stretch.
+    """
     shown = PlainBody.of_body(
         measured.in_object_frame(),
         measured.density,
@@ -97,7 +102,9 @@ def map_properties(
 
 
 def is_of_another_scale(obj: Object, current: Followed) -> bool:
-    """Return whether the object was scaled since its measurement in a way that the numbers cannot follow."""
+    """Return whether the object was scaled since its measurement in a way that the numbers cannot
+    follow.
+    """
     measured = None if current.result is None else current.result.measurement
     if measured is None or has_transform(obj, current.transform):
         return False
@@ -121,7 +128,9 @@ def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArra
 def _mapped(
     obj: Object, current: Followed, measured: Measurement, shown: PlainBody, scene: Scene
 ) -> PlainBody:
-    """Return the numbers mapped to the current matrix; volume and center are those of the last light pass, if any."""
+    """Return the numbers mapped to the current matrix; volume and center are those of the last
+    light pass, if any.
+    """
     linear = _linear_map(obj, current, measured)
     if linear is None or current.matrix is None:
         return shown
@@ -239,7 +248,9 @@ def _budget() -> float:
 
 
 def note_updates(events: handlers.Updates) -> None:
-    """Follow updated objects at once, as far as the budget allows, and schedule their measurement."""
+    """Follow updated objects at once, as far as the budget allows, and schedule their
+    measurement.
+    """
     global _last_event
     _last_event = time.monotonic()
     changed = {
@@ -265,7 +276,9 @@ def note_updates(events: handlers.Updates) -> None:
 
 
 def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
-    """Follow one object, and as many others as the budget of a redraw allows, quickest passes first."""
+    """Follow one object, and as many others as the budget of a redraw allows, quickest passes
+    first.
+    """
     budget = _budget()
     is_first = True
     objects = [obj for obj in events.depsgraph.view_layer.objects if obj.session_uid in changed]
@@ -351,7 +364,9 @@ class MovingSurface:
 
     @classmethod
     def from_measured(cls, measured: Measured) -> MovingSurface | None:
-        """Return the faces of a measured body, or None unless it is one exact or repaired mesh in its own place."""
+        """Return the faces of a measured body, or None unless it is one exact or repaired mesh in
+        its own place.
+        """
         reading = measured.reading
         body = measured.body
         method = measured.measurement.method
@@ -381,7 +396,9 @@ class MovingSurface:
         return cls(surface, read.corner_vertices)
 
     def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]] | None:
-        """Return the object's current volume and (3,) center, in its own coordinates; None if it shows other faces."""
+        """Return the object's current volume and (3,) center, in its own coordinates; None if it
+        shows other faces.
+        """
         if (
             obj.type != "MESH"
             or obj.mode not in {"OBJECT", "POSE", "WEIGHT_PAINT"}

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The faults of measured meshes, for the overlay: cached until the geometry changes or the file is closed."""
+"""The faults of measured meshes, for the overlay: cached until the geometry changes or the file is
+closed.
+"""
 
 from __future__ import annotations
 
@@ -28,8 +30,8 @@ OWN_PLACE = np.eye(4)
 class Faults:
     """Faulty edges and faces in an object's own coordinates.
 
-    edges: (k, 2, 3), boundary, non-manifold and inconsistent. triangles: (l, 3, 3), of flipped, duplicate and zero-area
-    faces. change: number of the last update of the geometry.
+    edges: (k, 2, 3), boundary, non-manifold and inconsistent. triangles: (l, 3, 3), of flipped,
+    duplicate and zero-area faces. change: number of the last update of the geometry.
     """
 
     edges: NDArray[np.float64]

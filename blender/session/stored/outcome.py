@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Refusals of the last action, for panels to show until the next selection, undo or successful action."""
+"""Refusals of the last action, for panels to show until the next selection, undo or successful
+action.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ _shown_in: tuple[
 
 
 def remember(action: str, findings: Iterable[Finding]) -> None:
-    """Keep the refusals of an action, in place of the previous action's. action: the operator's label."""
+    """Keep the refusals of an action, in place of the previous action's. action: the operator's
+    label.
+    """
     global _last, _shown_in
     groups = grouped(
         _refused(found)
@@ -47,7 +51,9 @@ def _refused(found: Finding) -> tuple[str, Finding]:
 
 
 def last() -> ActionOutcome | None:
-    """Return the refusals of the last action, None if there were none, or after another selection or action."""
+    """Return the refusals of the last action, None if there were none, or after another selection
+    or action.
+    """
     global _shown_in
     if _last is not None:
         layer = bpy.context.view_layer

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The thickness of a measured wall and the threshold of a measured grid as sliders.
 
-Walls are kept in memory as polynomials in the thickness, grids with their values; a change of the setting stores the
-numbers of the new body. If geometry or transform have changed since, the stored numbers stay and are out of date. While
-a threshold moves, its numbers come from every second or third value of a large grid and are out of date; a moment later
-the exact ones follow.
+Walls are kept in memory as polynomials in the thickness, grids with their values; a change of the
+setting stores the numbers of the new body. If geometry or transform have changed since, the stored
+numbers stay and are out of date. While a threshold moves, its numbers come from every second or
+third value of a large grid and are out of date; a moment later the exact ones follow.
 """
 
 from __future__ import annotations
@@ -44,9 +44,11 @@ Source = TypeVar("Source", Walls, ThresholdGrid)
 
 @dataclass(frozen=True, eq=False)
 class _Kept(Generic[Source]):
-    """The walls or the grid of an object's measurement, and the parts of the stamps that were stored with it since.
+    """The walls or the grid of an object's measurement, and the parts of the stamps that were
+    stored with it since.
 
-    geometries: the digests at every stored threshold, because undo may restore each. unit: meters per Blender unit.
+    geometries: the digests at every stored threshold, because undo may restore each. unit: meters
+    per Blender unit.
     """
 
     reading: Reading
@@ -78,7 +80,9 @@ def remember(obj: Object, measured: Measured, scene: Scene) -> None:
 
 
 def max_thickness(obj: Object) -> float | None:
-    """Return the thickness in m from which the object's wall folds over, or None if it is unknown or unlimited."""
+    """Return the thickness in m from which the object's wall folds over, or None if it is unknown
+    or unlimited.
+    """
     kept = _current(_walls, obj)
     if kept is None or obj.body_moments.wall == "THIN":
         return None
@@ -133,7 +137,8 @@ def on_threshold(settings: PropertyGroup, context: Context) -> None:
 def _current(
     cache: SessionCache[_Kept[Source]], obj: Object, scene: Scene | None = None
 ) -> _Kept[Source] | None:
-    """Return an object's kept walls or grid, if its stored numbers belong to the same geometry and transform.
+    """Return an object's kept walls or grid, if its stored numbers belong to the same geometry and
+    transform.
 
     scene: if given, it must also have the same unit scale, and the object no edits since.
     """
@@ -160,7 +165,9 @@ def _walls_on_side(kept: _Kept[Walls], obj: Object) -> Walls:
 
 
 def _store(obj: Object, scene: Scene, kept: _Kept, body: Callable[[Request], Body]) -> bool:
-    """Write the numbers of a body to the object; return False if there are none; the panel and Measure then say why."""
+    """Write the numbers of a body to the object; return False if there are none; the panel and
+    Measure then say why.
+    """
     request = Request.resolve(obj, unit=kept.unit)
     try:
         measurement = measurement_of(kept.reading, body(request), request)
@@ -185,7 +192,10 @@ def _store_threshold(
 
 
 def _finish() -> None:
-    """Store the exact numbers of the pending objects. Return None, so that Blender's timer calls this only once."""
+    """Store the exact numbers of the pending objects.
+
+    Return None, so that Blender's timer calls this only once.
+    """
     while _pending:
         obj, scene = _pending.pop()
         try:

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stability of objects on the ground: their support, their resting poses, and how they are laid on it.
+"""Stability of objects on the ground: their support, their resting poses, and how they are laid on
+it.
 
-A convex hull is computed on request, and holds until the geometry changes; support and poses follow its place and
-center.
+A convex hull is computed on request, and holds until the geometry changes; support and poses follow
+its place and center.
 """
 
 from __future__ import annotations
@@ -50,8 +51,8 @@ SAME_SHAPE_RTOL = (
 class _Remembered:
     """An object's hull, with its support and poses.
 
-    hull: in the object's coordinates. shape: the (4, 3) scale and center for which `poses` hold. support_key: the
-    generation and the scene for which `support` holds.
+    hull: in the object's coordinates. shape: the (4, 3) scale and center for which `poses` hold.
+    support_key: the generation and the scene for which `support` holds.
     """
 
     hull: ConvexHull
@@ -84,7 +85,9 @@ def stamp_of(obj: Object) -> Stamp | None:
 
 
 def support(obj: Object, scene: Scene = None) -> Support | None:
-    """Return an object's current support, in Blender's units and the world; None if unchecked or out of date."""
+    """Return an object's current support, in Blender's units and the world; None if unchecked or
+    out of date.
+    """
     scene = scene or bpy.context.scene
     remembered = _remembered.get(obj)
     if remembered is None or staleness.stale_reason(obj, scene, stamp_of):
@@ -98,7 +101,8 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
             matrix = np.array(obj.matrix_world, np.float64)
             points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
             center = np.array(body.world.center) / body.unit
-            # Relative to the extent, the height up to which points touch the ground; it exceeds the hull's gap.
+            # Relative to the extent, the height up to which points touch the ground; it exceeds the
+            # hull's gap.
             gap = remembered.hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
             tolerance = max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
             remembered.support = find_support(points, center, down(scene), tolerance)
@@ -106,7 +110,9 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
 
 
 def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | None:
-    """Return stable resting poses (Blender's units, object frame), the reason if there are none, or None."""
+    """Return stable resting poses (Blender's units, object frame), the reason if there are none, or
+    None.
+    """
     scene = scene or bpy.context.scene
     remembered = _remembered.get(obj)
     if remembered is None or staleness.stale_reason(obj, scene, stamp_of):
@@ -136,7 +142,9 @@ def frame(obj: Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[str]:
-    """Compute and remember an object's convex hull, measuring it if needed; return texts about decisions."""
+    """Compute and remember an object's convex hull, measuring it if needed; return texts about
+    decisions.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     if properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
         result = measure_body(obj, depsgraph)
@@ -148,7 +156,8 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
     extent = float(np.ptp(hull.points, axis=0).max())
     if len(hull.points) >= MAX_CORNERS:
         text = (
-            "“{object}” is finely divided: its convex hull is taken with {corners} corners, to {share:percent} of its "
+            "“{object}” is finely divided: its convex hull is taken with {corners} corners, to "
+            "{share:percent} of its "
             "size"
         )
         return [
@@ -158,7 +167,9 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
 
 
 def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: list[str]) -> bool:
-    """Lay the object on the ground, on its likeliest pose `pose` or the nearest (0); return whether it had to move."""
+    """Lay the object on the ground, on its likeliest pose `pose` or the nearest (0); return whether
+    it had to move.
+    """
     reframe.check_movable(obj)
     measured: list[Object] = []
     notes += check_stability(context, obj, measured)

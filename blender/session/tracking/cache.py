@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Data about objects while a file is open: in memory only, by session uid, which survives renaming, undo and redo.
+"""Data about objects while a file is open: in memory only, by session uid, which survives renaming,
+undo and redo.
 
 `handlers` empties all caches together when a file is loaded and when the add-on is unregistered.
 """
@@ -20,7 +21,8 @@ _caches: list[SessionCache] = []
 class SessionCache(Generic[Value]):
     """A cache with one value for each original data-block; iteration yields the values.
 
-    max_size: beyond this number of values the oldest one is forgotten. By default all are kept, as edits must be.
+    max_size: beyond this number of values the oldest one is forgotten. By default all are kept, as
+    edits must be.
     """
 
     def __init__(self, max_size: int | None = None) -> None:
@@ -66,7 +68,9 @@ class SessionCache(Generic[Value]):
 def current_value(
     cache: SessionCache[tuple[Any, Value]], data: ID, key: object, compute: Callable[[], Value]
 ) -> Value:
-    """Return the cached value of a data-block if it has this key; otherwise compute and cache it."""
+    """Return the cached value of a data-block if it has this key; otherwise compute and cache
+    it.
+    """
     known = cache.get(data)
     if known is None or known[0] != key:
         known = cache[data] = (key, compute())

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's reports while a file is open, heard once, and passed on to the functions in the lists below.
+"""Blender's reports while a file is open, heard once, and passed on to the functions in the lists
+below.
 
-A subscriber never writes data while Blender evaluates: that would be another change. Before a file is saved it may.
+A subscriber never writes data while Blender evaluates: that would be another change. Before a file
+is saved it may.
 """
 
 from __future__ import annotations
@@ -19,7 +21,8 @@ from . import cache
 
 
 class Updates(NamedTuple):
-    """Session uids of data-blocks that the window's dependency graph has evaluated again; there may be thousands.
+    """Session uids of data-blocks that the window's dependency graph has evaluated again; there may
+    be thousands.
 
     depsgraph: its `updates` are valid until the handlers return.
     reshaped, moved, others: objects with new geometry, with a new transform only, and with neither.
@@ -48,19 +51,24 @@ _generation = 0
 
 
 def generation() -> int:
-    """Return the number of changes since Blender's start; results of an older generation may be wrong."""
+    """Return the number of changes since Blender's start; results of an older generation may be
+    wrong.
+    """
     return _generation
 
 
 def count_change(data: ID | None = None) -> None:
-    """Count a change that Blender does not report, such as a new note about an object; by default of any object."""
+    """Count a change that Blender does not report, such as a new note about an object; by default
+    of any object.
+    """
     global _generation
     _generation += 1
     _call(on_note, data)
 
 
 def _call(subscribers: Sequence[Callable[..., None]], *args: Updates | ID | None) -> None:
-    # Call all of them in order, even if one fails: its error is raised after the others were called.
+    # Call all of them in order, even if one fails: its error is raised after the others were
+    # called.
     with ExitStack() as calls:
         for subscriber in reversed(subscribers):
             calls.callback(subscriber, *args)

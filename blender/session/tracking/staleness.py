@@ -1,17 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Staleness of stored numbers: transform and settings are compared by the digests in stamps; edits are noted.
+"""Staleness of stored numbers: transform and settings are compared by the digests in stamps; edits
+are noted.
 
-A note is a stamp that the object carried when Blender evaluated its geometry anew. When a file is saved, the notes
-become part of the stamps (`stamps.write_edited`), because opening the file again reports no updates.
+A note is a stamp that the object carried when Blender evaluated its geometry anew. When a file is
+saved, the notes become part of the stamps (`stamps.write_edited`), because opening the file again
+reports no updates.
 
-Not every update is an edit: Blender also evaluates an object that is copied, shown again or gets a material slot. So
-the surfaces of small meshes are kept as digests, which are compared. For all other objects every update is an edit,
-except that of a setting and the one after undo, which restores numbers and shape together (in Edit Mode and Sculpt Mode
-the shape alone). Notes are kept, because undo may restore the numbers before the edit, too.
+Not every update is an edit: Blender also evaluates an object that is copied, shown again or gets a
+material slot. So the surfaces of small meshes are kept as digests, which are compared. For all
+other objects every update is an edit, except that of a setting and the one after undo, which
+restores numbers and shape together (in Edit Mode and Sculpt Mode the shape alone). Notes are kept,
+because undo may restore the numbers before the edit, too.
 
-A handler only writes down the updated objects; their effects are noted on request (`note_edits`), and at the latest
-before results are replaced, before undo, and before the file is saved.
+A handler only writes down the updated objects; their effects are noted on request (`note_edits`),
+and at the latest before results are replaced, before undo, and before the file is saved.
 """
 
 from __future__ import annotations
@@ -48,7 +51,8 @@ _shapes: dict[
     str, bytes
 ] = {}  # stamp → digest of the surface when it was stored: copies of an object share both
 _resolved: dict[int, int] = {}  # session uid → number of the last update whose effects are noted
-# By assembly or armature: the generation, and the present digests of its parts. Panels ask at every redraw.
+# By assembly or armature: the generation, and the present digests of its parts. Panels ask at every
+# redraw.
 _parts: SessionCache[tuple[int, tuple[str, str] | None]] = SessionCache()
 
 
@@ -117,12 +121,16 @@ def _has_members(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
 
 
 def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
-    """Return present digests of structure and members' results ("" if one is stale); None if nothing is evaluated."""
+    """Return present digests of structure and members' results ("" if one is stale); None if
+    nothing is evaluated.
+    """
     return current_value(_parts, root, handlers.generation(), lambda: _digest_parts(root, scene))
 
 
 def was_current(root: Object | Collection, scene: Scene) -> bool:
-    """Return whether a total was up to date before the settings of members changed, which Blender reports later."""
+    """Return whether a total was up to date before the settings of members changed, which Blender
+    reports later.
+    """
     stamp = stamps.of_results(root)
     parts = _digest_parts(root, scene, (None, Stale.SETTINGS))
     if (
@@ -137,7 +145,9 @@ def was_current(root: Object | Collection, scene: Scene) -> bool:
 def _digest_parts(
     root: Object | Collection, scene: Scene, current: tuple[Stale | None, ...] = (None,)
 ) -> tuple[str, str] | None:
-    """Compute `_digests_of_parts`. current: the reasons with which a member counts as up to date."""
+    """Compute `_digests_of_parts`. current: the reasons with which a member counts as up to
+    date.
+    """
     if isinstance(root, Object) and root.type == "ARMATURE":
         return read.rig.rig_hash(root, read.rig.rig_objects(root, scene.objects), scene), ""
     depsgraph = bpy.context.view_layer.depsgraph
@@ -196,7 +206,9 @@ CHECKS = {
 
 
 def is_edited(obj: Object) -> bool:
-    """Return whether geometry or transform changed since the results were stored, or there are no results."""
+    """Return whether geometry or transform changed since the results were stored, or there are no
+    results.
+    """
     stamp = stamps.of_results(obj)
     return stamp is None or not (_has_geometry(obj, stamp) and has_transform(obj, stamp.transform))
 
@@ -207,7 +219,8 @@ def is_edited(obj: Object) -> bool:
 def mark_up_to_date(
     context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
 ) -> None:
-    """Mark freshly stored results of objects as up to date, after evaluating what storing has tagged.
+    """Mark freshly stored results of objects as up to date, after evaluating what storing has
+    tagged.
 
     objects: with results stored or removed. shapes: the `surface_digest` of freshly read ones.
     """
@@ -222,7 +235,9 @@ def mark_up_to_date(
 
 
 def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None:
-    """Mark fresh data (objects and stamps), such as sections, as up to date, if nothing else was changed."""
+    """Mark fresh data (objects and stamps), such as sections, as up to date, if nothing else was
+    changed.
+    """
     with tracking_paused():
         depsgraph = context.evaluated_depsgraph_get()
     for obj, stamp in fresh:
@@ -244,7 +259,9 @@ def mark_object(obj: Object) -> None:
 
 
 def replace_stamp(obj: Object, before: str) -> None:
-    """Carry the notes on replaced results (`before`: their stamp) over, if the shape was not changed with them."""
+    """Carry the notes on replaced results (`before`: their stamp) over, if the shape was not
+    changed with them.
+    """
     text = properties.fingerprint(obj)
     set_edited(obj, text, before in _edited_stamps(obj))
     if before in _shapes:
@@ -252,7 +269,9 @@ def replace_stamp(obj: Object, before: str) -> None:
 
 
 def pin(obj: Object) -> None:
-    """Bind an object's results to its current place, after data that depend on the place were stored with them."""
+    """Bind an object's results to its current place, after data that depend on the place were
+    stored with them.
+    """
     stamp = stamps.of_results(obj)
     if stamp is not None and stamp.version and has_transform(obj, stamp.transform):
         obj["body_fingerprint"] = stamp._replace(transform=matrix_hash(obj)).text
@@ -284,8 +303,8 @@ def set_edited(obj: Object, text: str, is_edited: bool) -> None:
 def note_edits(obj: Object, shape: bytes | None = None) -> None:
     """Note the effects of all updates since the last call on the stamps of an original object.
 
-    Call it before its stamps are replaced: later nobody could say whether the geometry has changed since.
-    shape: the `surface_digest` of an object that was read just now.
+    Call it before its stamps are replaced: later nobody could say whether the geometry has changed
+    since. shape: the `surface_digest` of an object that was read just now.
     """
     uid = obj.session_uid
     newest = updates.count()
@@ -307,14 +326,17 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
         if shape is not None and text in _shapes:
             set_edited(obj, text, shape != _shapes[text])
         elif edit.number or text in _shapes or kind in (Kind.MOMENTS, Kind.HULL):
-            # Redo brings back an edit whose note may have been taken back; undo brings back no data in memory.
+            # Redo brings back an edit whose note may have been taken back; undo brings back no data
+            # in memory.
             set_edited(obj, text, True)
 
 
 def _remember_shape(
     obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: bytes | None = None
 ) -> None:
-    """Keep the digest of the surface behind a stamp, if the data only depend on it, the settings and the transform."""
+    """Keep the digest of the surface behind a stamp, if the data only depend on it, the settings
+    and the transform.
+    """
     varies = obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
         return

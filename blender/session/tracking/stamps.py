@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stamps: digests of the inputs of stored data, which `staleness.stale_reason` compares with the present inputs.
+"""Stamps: digests of the inputs of stored data, which `staleness.stale_reason` compares with the
+present inputs.
 
-Results, a section and a symmetry carry theirs as text: version, geometry, transform and settings, joined by colons. In
-a saved file, EDITED stands in place of the geometry's digest if the geometry has changed since. Data in memory, such as
-hulls, have stamps of the same form, that the session carries for their objects.
+Results, a section and a symmetry carry theirs as text: version, geometry, transform and settings,
+joined by colons. In a saved file, EDITED stands in place of the geometry's digest if the geometry
+has changed since. Data in memory, such as hulls, have stamps of the same form, that the session
+carries for their objects.
 """
 
 from __future__ import annotations
@@ -83,7 +85,9 @@ _carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
 
 
 def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
-    """Attach a stamp to an original object's data in memory, and return it. number: `updates.count` at their making."""
+    """Attach a stamp to an original object's data in memory, and return it. number: `updates.count`
+    at their making.
+    """
     stamp = Stamp(
         kind,
         measurement.settings.VERSION,
@@ -138,7 +142,9 @@ def of_colliders(obj: Object) -> Stamp | None:
 
 
 def with_geometry(obj: Object) -> dict[str, Kind]:
-    """Return the texts and kinds of an original object's stamps, except those of assemblies and bones."""
+    """Return the texts and kinds of an original object's stamps, except those of assemblies and
+    bones.
+    """
     found = [*_stored(obj), *(_carried.get(obj) or {}).values()]
     return {
         stamp.text: stamp.kind
@@ -152,7 +158,9 @@ def _stored(obj: Object) -> tuple[Stamp | None, ...]:
 
 
 def write_edited(obj: Object, edited: Container[str]) -> None:
-    """Put EDITED into the stored stamps of an original, editable object whose texts are in `edited`."""
+    """Put EDITED into the stored stamps of an original, editable object whose texts are in
+    `edited`.
+    """
     for stamp in _stored(obj):
         if stamp is None or not stamp.version or stamp.text not in edited:
             continue

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Updates: data-blocks that Blender has evaluated anew, written down with the number of their last update.
+"""Updates: data-blocks that Blender has evaluated anew, written down with the number of their last
+update.
 
 An update of an object's geometry may be an edit, but not if it follows a changed setting or undo.
 """
@@ -20,8 +21,8 @@ from . import handlers
 class Update(NamedTuple):
     """An update of a scene's view layer.
 
-    number: grows from update to update; 0 if there was none. scene: session uid of the evaluated scene.
-    view_layer: its name.
+    number: grows from update to update; 0 if there was none. scene: session uid of the evaluated
+    scene. view_layer: its name.
     """
 
     number: int
@@ -45,7 +46,9 @@ def count() -> int:
 
 
 def shown_by(obj: Object) -> Iterator[ID]:
-    """Yield objects and collections that an original object shows as instances, and whose changes change its result."""
+    """Yield objects and collections that an original object shows as instances, and whose changes
+    change its result.
+    """
     kind = obj.instance_type
     if kind == "COLLECTION":
         if obj.instance_collection is not None:
@@ -61,7 +64,9 @@ def shown_by(obj: Object) -> Iterator[ID]:
 
 
 def last_edit(obj: Object) -> Update:
-    """Return the last update of an object, its instances, or the shape of its density's Volume, that may be an edit."""
+    """Return the last update of an object, its instances, or the shape of its density's Volume,
+    that may be an edit.
+    """
     last = _edits.get(obj.session_uid, NEVER)
     for shown in shown_by(obj):
         last = max(last, *[stamps.get(shown.session_uid, NEVER) for stamps in (_edits, _moves)])
@@ -72,7 +77,9 @@ def last_edit(obj: Object) -> Update:
 
 
 def last_since(obj: Object, since: int) -> tuple[Update, Update]:
-    """Return the last update after `since` that may be an edit, `NEVER` if none, and the last one of the geometry."""
+    """Return the last update after `since` that may be an edit, `NEVER` if none, and the last one
+    of the geometry.
+    """
     edit = last_edit(obj)
     return edit if edit.number > since else NEVER, max(edit, _returns.get(obj.session_uid, NEVER))
 
@@ -83,7 +90,9 @@ def last_change_of_geometry(obj: Object) -> int:
 
 
 def depsgraph_of(stamp: Update) -> Depsgraph | None:
-    """Return the dependency graph of an update's view layer, as last evaluated; None if the layer is gone."""
+    """Return the dependency graph of an update's view layer, as last evaluated; None if the layer
+    is gone.
+    """
     for scene in bpy.data.scenes:
         if scene.session_uid == stamp.scene:
             layer = scene.view_layers.get(stamp.view_layer)
@@ -92,7 +101,9 @@ def depsgraph_of(stamp: Update) -> Depsgraph | None:
 
 
 def note_updates(updates: handlers.Updates) -> None:
-    """Record updates as possible edits, non-edits, moves or others; none while tracking is paused."""
+    """Record updates as possible edits, non-edits, moves or others; none while tracking is
+    paused.
+    """
     global _count, _undo_pending, _set_since
     if tracking_paused.depth:
         return
@@ -116,7 +127,9 @@ def note_updates(updates: handlers.Updates) -> None:
 
 
 def _edited_by_undo(updates: handlers.Updates) -> set[int]:
-    """Return the session uids of updated objects in Edit or Sculpt Mode, where undo only restores the shape."""
+    """Return the session uids of updated objects in Edit or Sculpt Mode, where undo only restores
+    the shape.
+    """
     evaluated = [update.id for update in updates.depsgraph.updates]
     objects = [data.original for data in evaluated if isinstance(data, Object)]
     edited = {

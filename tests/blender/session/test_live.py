@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live numbers are those of what is shown: after a move without measuring, while it deforms, and in full afterwards."""
+"""Live numbers are those of what is shown: after a move without measuring, while it deforms, and in
+full afterwards.
+"""
 
 import itertools
 from math import dist, isclose
@@ -276,7 +278,9 @@ def armature_with(*meshes):
 
 
 def assert_bounds_hold(shown, parts):
-    """Each body moved, grown and turned by as much as its bounds allow stays within those of the sum; hardly less."""
+    """Each body moved, grown and turned by as much as its bounds allow stays within those of the
+    sum; hardly less.
+    """
     allowed = shown.error_bound["input"]
     bounds = [part.error_bound["input"] for part in parts]
     assert allowed["volume"] == sum(bound["volume"] for bound in bounds)

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Values that have keys, and were changed without a new one, stay as they are: Blender puts them back wherever it
-evaluates animation, and nothing here may make it do so."""
+"""Values that have keys, and were changed without a new one, stay as they are: Blender puts them
+back wherever it evaluates animation, and nothing here may make it do so.
+"""
 
 import pytest
 
@@ -65,7 +66,9 @@ def change(obj, channel, number):
 
 
 def keyed(channel):
-    """A measured object with one keyed channel that was changed since, and a copy of it beside it."""
+    """A measured object with one keyed channel that was changed since, and a copy of it beside
+    it.
+    """
     obj = add(mesh_body())
     obj["own"] = 0.25
     obj.vertex_groups.new(name="Group").add([0, 1, 2], 1.0, "REPLACE")
