@@ -32,7 +32,6 @@ from ....core.inertia.plain_body import PlainBody
 from ....core.measurement.measurement import Body, Measurement
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_singular
-from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
 from ....core.nurbs.splines import Patch
 from ....core.nurbs.tracked_solid import TrackedSolid
@@ -46,6 +45,7 @@ from ...read.fingerprint import has_transform, settings_hash, transform_key
 from ...read.mesh import mesh_points
 from ...read.objects import read_patches
 from ...read.visibility import evaluated_geometry
+from ...scale import meters_per_unit
 from ...settings.options import MeasureOptions, object_settings
 from ...settings.preferences import preferences
 from ..tracking import handlers, updates
@@ -135,7 +135,7 @@ def _mapped(
     if linear is None or current.matrix is None:
         return shown
     now = float64_matrix(obj.matrix_world)
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     stretch = abs(np.linalg.det(linear))
     center = measured.mass_properties.center / unit
     if current.first_order is None:
