@@ -13,10 +13,9 @@ from itertools import islice
 
 from bpy.types import Collection, Context, Panel, PropertyGroup, UILayout, UIList
 
-from ..blender.read.visibility import GEOMETRY_TYPES
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings.assembly import Root, active_assembly, settings_of
-from ..blender.settings.given import shows_collection
+from ..blender.settings.given import has_density
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..core.inertia.plain_body import PlainBody
@@ -163,9 +162,7 @@ class AssemblyPanel:
         root = None if context.object is None else active_assembly(context)
         if not isinstance(root, Collection):
             return root is not None
-        members = (
-            True for obj in root.all_objects if obj.type in GEOMETRY_TYPES or shows_collection(obj)
-        )
+        members = (True for obj in root.all_objects if has_density(obj))
         return properties.is_stored(root) or len([*islice(members, 2)]) > 1
 
     def draw(self, context: Context) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from bpy.types import Context, Object, UILayout
 
 from ..blender.read.visibility import measurable
+from ..blender.session.selected import subject
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_symmetry
 from ..blender.settings.preferences import shows_advanced
@@ -40,7 +41,7 @@ class ShapePanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         rows.button(layout, "object.body_moments_find_symmetry", "MOD_MIRROR", short="Symmetry")
-        _symmetry(layout, context, context.object)
+        _symmetry(layout, context, subject(context))
         column = layout.column(align=True)
         rows.button(column, "object.body_moments_match_pose", "SNAP_ON")
         row = column.row(align=True)

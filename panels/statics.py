@@ -15,6 +15,7 @@ from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
 from ..blender.session import stored
 from ..blender.session.displayed import shown_objects
+from ..blender.session.selected import subject
 from ..blender.session.tracking import armatures
 from ..blender.session.tracking.staleness import stale_reason
 from ..core.lazy import loaded_module
@@ -36,7 +37,7 @@ class StabilityPanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         objects = shown_objects(context)
-        obj = objects[0] if len(objects) == 1 else context.object
+        obj = objects[0] if len(objects) == 1 else subject(context)
         stability = loaded_module(stored, "stability")
         if stability is None or not stability.is_known(obj):
             rows.remark(layout, "Stability has not been computed.")
