@@ -9,14 +9,16 @@ the last action below all sub-panels. The rest is in sub-panels, in the order of
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from bpy.types import Context, Object, UILayout
 
 from ..blender.read.visibility import measurable
 from ..blender.session.displayed import Displayed, Verdict, displayed, shown_objects, total
 from ..blender.session.live.following import Lag, current_numbers, is_live
-from ..blender.session.selected import chosen_objects
 from ..blender.session.stored import outcome
 from ..blender.session.tracking import armatures
+from ..blender.settings.chosen import chosen_objects
 from ..blender.settings.preferences import draw_links
 from ..blender.write import properties
 from ..blender.write.translations import localized
@@ -142,17 +144,23 @@ def _several_objects(layout: UILayout, context: Context) -> None:
             "INFO" if reason is None else "FILE_REFRESH",
         )
     else:
+        missing = shown.missing if shown.count else ()  # of none the verdict says it
         texts = [
-            localized(text).format(objects=truncate_list(names, translate=localized))
-            for names, text in (
-                (shown.missing if shown.count else (), "Not measured: {objects}"),
-                (shown.stale, "Out of date: {objects}"),
-            )
+            _outstanding(text, names, count)
+            for names, text in ((missing, "Not measured: {:s}"), (shown.stale, "Out of date: {:s}"))
             if names
         ]
         _state(layout, "; ".join(texts), "FILE_REFRESH" if texts else "BLANK1")
     findings, groups = (posed.findings, ()) if is_rest else (shown.findings, shown.groups)
     remedies.lines(layout, context, [*map(Group, findings), *groups])
+
+
+def _outstanding(template: str, names: Sequence[str], count: int) -> str:
+    """Return a text with names, or with how many of `count` they are if they do not fit a row."""
+    text = localized(template).format(truncate_list(names, translate=localized))
+    if rows.fits(1.0, text):
+        return text
+    return localized(template).format(localized("{} of {}").format(len(names), count))
 
 
 def _verdict(layout: UILayout, text: str, icon: str, verdict: Verdict | None) -> None:

@@ -10,7 +10,7 @@ import bpy
 from bl_ui.utils import PresetPanel
 from bpy.types import Context, Material, Menu, Panel, Scene, UILayout
 
-from ..blender.session.selected import chosen_objects
+from ..blender.settings.chosen import chosen_objects
 from ..blender.settings.properties import density_field_name
 from ..core.density.materials import CATEGORIES, FILAMENT, MATERIALS
 from ..operators.setup.presets import (

@@ -16,7 +16,8 @@ from collections.abc import Callable, Set
 from bpy.types import Context, Object, Panel
 
 from ..blender.session.displayed import shown_objects
-from ..blender.session.selected import chosen_objects, subject
+from ..blender.session.selected import subject
+from ..blender.settings.chosen import chosen_objects
 
 ORDER = (
     "weight",

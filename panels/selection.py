@@ -9,7 +9,6 @@ from __future__ import annotations
 from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, UILayout, UIList
 
-from ..blender.session import displayed
 from ..blender.session.displayed import SortBy, Verdict, drawn, listed_masses, listing
 from ..blender.session.selected import subject
 from . import rows

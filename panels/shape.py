@@ -50,8 +50,8 @@ class ShapePanel:
         _similar(layout, context)
 
 
-def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
-    if not obj.is_property_set("body_moments_symmetry"):
+def _symmetry(layout: UILayout, context: Context, obj: Object | None) -> None:
+    if obj is None or not obj.is_property_set("body_moments_symmetry"):
         return
     stored = obj.body_moments_symmetry
     column = layout.column(align=True)
@@ -112,5 +112,5 @@ def _similar(layout: UILayout, context: Context) -> None:
 
 
 CLASSES = in_both_places(
-    ShapePanel, "shape", shown_for=lambda obj: measurable(obj) and shows_advanced()
+    ShapePanel, "shape", shown_for=lambda obj: measurable(obj) and shows_advanced(), of_all=True
 )

@@ -27,12 +27,12 @@ from ...core.verdict.verdict import Verdict, find_verdict, open_body_caveats
 from .. import read
 from ..read.fingerprint import has_transform
 from ..scale import meters_per_unit
+from ..settings.chosen import chosen_objects, pinned_object
 from ..write import properties
 from ..write.units import Units
 from . import live, stored
 from .live import following
 from .live.following import Lag, LiveResult
-from .selected import chosen_objects, pinned_object
 from .tracking import armatures, handlers
 from .tracking.cache import SessionCache, current_value
 from .tracking.staleness import stale_reason

@@ -15,6 +15,7 @@ from bpy.props import StringProperty
 from bpy.types import Context, Object, PropertyGroup, Scene
 
 from ...core.density.materials import DENSITY_UNITS
+from ..settings.chosen import chosen_objects, pinned_object
 from ..settings.given import COLLIDER, GivenPartProperties, has_density
 from ..settings.properties import COPIED_PROPERTIES, BodyMomentsObjectSettings, comparable
 from .tracking import armatures, handlers
@@ -26,32 +27,15 @@ SHAPE = {"kind", "wall", "thickness", "overlap", "density_from"}  # settings wit
 _chosen: SessionCache[tuple[tuple, tuple[list[Object], dict[str, bool]]]] = SessionCache()
 
 
-def pinned_object(context: Context) -> Object | None:
-    """Return the object that is pinned in the Properties editor of the context, or None."""
-    pinned = getattr(context.space_data, "pin_id", None)
-    return None if pinned is None else context.object
-
-
-def chosen_objects(context: Context) -> list[Object]:
-    """Return the objects that a panel is about: the pinned one, else the selected ones, else the
-    active one.
-    """
-    active = pinned_object(context)
-    selected = [] if active is not None else list(context.view_layer.objects.selected)
-    return selected or [obj for obj in (active or context.object,) if obj is not None]
-
-
 def subject(context: Context) -> Object | None:
-    """Return the object whose details a panel shows: the active one if it is chosen or edited, else
-    the only chosen one.
+    """Return the object whose details a panel shows: the active one if it is among the shown ones
+    or edited, else the only shown one.
     """
     active = context.object
-    if active is not None and (
-        active.select_get() or active.mode != "OBJECT" or pinned_object(context) is not None
-    ):
+    if active is not None and (active.mode != "OBJECT" or pinned_object(context) is not None):
         return active
-    chosen = armatures.subjects(chosen_objects(context))
-    return chosen[0] if len(chosen) == 1 else None
+    shown = armatures.subjects(chosen_objects(context))
+    return active if active in shown else shown[0] if len(shown) == 1 else None
 
 
 def objects_with_settings(objects: Iterable[Object]) -> list[Object]:

@@ -10,7 +10,8 @@ from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
 from ...blender.scene.changes import require_storable_data
-from ...blender.session.selected import chosen_objects, objects_with_settings
+from ...blender.session.selected import objects_with_settings
+from ...blender.settings.chosen import chosen_objects
 from ...blender.settings.given import has_density
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.settings.properties import COPIED_PROPERTIES, copy_settings

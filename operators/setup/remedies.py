@@ -194,20 +194,18 @@ class OBJECT_OT_body_moments_accept(_OnSubject, Operator):
     def _change(self, context: Context, obj: Object) -> set[str]:
         """Accept a code, or every warning without one, on the objects that the panel is about."""
         changed = False
-        for subject in displayed.shown_objects(context):
-            own = of_severity(properties.findings(subject), Severity.WARNING)
+        for shown in displayed.shown_objects(context):
+            own = of_severity(properties.findings(shown), Severity.WARNING)
             codes = {self.code} if self.code else {found.code for found in own}
-            if subject != obj and not codes & {
-                found.code for found in properties.findings(subject)
-            }:
+            if shown != obj and not codes & {found.code for found in properties.findings(shown)}:
                 continue
-            require_storable_data(subject)
-            if not any([set_accepted(subject, code, self.accepted) for code in codes]):
+            require_storable_data(shown)
+            if not any([set_accepted(shown, code, self.accepted) for code in codes]):
                 continue
             changed = True
-            if properties.is_stored(subject):
-                kept = with_acceptance(properties.findings(subject), accepted_codes(subject))
-                properties.store_findings(subject, kept)
+            if properties.is_stored(shown):
+                kept = with_acceptance(properties.findings(shown), accepted_codes(shown))
+                properties.store_findings(shown, kept)
         return {"FINISHED"} if changed else {"CANCELLED"}
 
 

@@ -42,6 +42,10 @@ for path in sys.argv[4:]:
     collections = [layer.layer_collection, *layer.layer_collection.children]
     for layer.objects.active, layer.active_layer_collection in itertools.product(layer.objects, collections):
         drawn.update(every_panel())
+        for obj in layer.objects:
+            obj.select_set(obj == layer.objects.active)
+        layer.update()
+        drawn.update(every_panel())
 missing = set(sys.argv[2].splitlines()) - drawn
 assert not missing, (missing, drawn)
 sys.stdout.flush()
