@@ -181,7 +181,9 @@ class OBJECT_OT_body_moments_preset_apply(Operator):
     bl_label = "Apply Preset"
     bl_options = {"INTERNAL", "UNDO"}
 
-    filepath: StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
+    filepath: StringProperty(
+        name="Preset", description="File of the preset", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
 
     def execute(self, context: Context) -> set[str]:
         def apply(obj: Object) -> None:
