@@ -31,12 +31,13 @@ MAX_DIMENSION = 12
 MAX_MOMENTS = 1 << 20
 
 _EPILOG = """\
-FILE.npz has `points`, m rows of n coordinates, and `simplices`, rows of numbers of points from 0 on: n + 1 of them are
-a full simplex (a triangle in the plane, a tetrahedron in space), n a facet of the boundary, outward where the
-determinant of its corners is positive for a body around the origin: edges counter-clockwise in the plane, triangles
-counter-clockwise from outside in space. Optional are `signs`, 1 or -1 for each row: with -1 it is turned, or its full
-simplex taken away.
-exit code: 0 measured, 1 the file cannot be measured, 2 wrong usage, 3 interrupted, 70 a fault of the program"""
+FILE.npz has `points`, m rows of n coordinates, and `simplices`, rows of numbers of points from 0
+on: n + 1 of them are a full simplex (a triangle in the plane, a tetrahedron in space), n a facet of
+the boundary, outward where the determinant of its corners is positive for a body around the origin:
+edges counter-clockwise in the plane, triangles counter-clockwise from outside in space. Optional
+are `signs`, 1 or -1 for each row: with -1 it is turned, or its full simplex taken away.
+exit code: 0 measured, 1 the file cannot be measured, 2 wrong usage, 3 interrupted,
+70 a fault of the program"""
 
 
 def parse(argv: list[str]) -> argparse.Namespace:

@@ -184,7 +184,6 @@ def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
     if target.exists() and any(os.path.exists(path) and target.samefile(path) for path in read):
         return "{} is a file that is read. Use another name".format(target)
     if not (force or is_replaceable(target)):
-        return "{} is not a result of body_moments and would be lost. Use another name, or --force".format(
-            target
-        )
+        lost = "{} is not a result of body_moments and would be lost. Use another name, or --force"
+        return lost.format(target)
     return ""

@@ -48,8 +48,7 @@ EVEN: Positions = (None, None, None)
 
 
 def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
-    """Read the scan in a file, by its suffix: NRRD, NIfTI-1, .npy, .npz, or .raw called
-    NAME_XxYxZ_TYPE.raw.
+    """Read the scan in a file: NRRD, NIfTI-1, .npy, .npz, or .raw called NAME_XxYxZ_TYPE.raw.
 
     Parameters
     ----------
@@ -133,7 +132,8 @@ def sample_matrix(
     Examples
     --------
     >>> from body_moments.core.scans import Scan, sample_matrix
-    >>> matrix, findings = sample_matrix(Scan(np.zeros((2, 2, 2)), np.eye(4)), (2.0, 2.0, 3.0), None, 0.001)
+    >>> scan = Scan(np.zeros((2, 2, 2)), np.eye(4))
+    >>> matrix, findings = sample_matrix(scan, (2.0, 2.0, 3.0), None, 0.001)
     >>> matrix.diagonal().tolist(), findings
     ([0.002, 0.002, 0.003, 1.0], ())
     """
