@@ -166,7 +166,9 @@ def _find_files(paths: list[Path]) -> Iterator[tuple[Path, Path]]:
 
 
 def answer(options: argparse.Namespace) -> tuple[list[str], int]:
-    """Return the report, and the exit code: 1 after findings or unread files, 70 after an internal error."""
+    """Return the report, and the exit code: 1 after findings or unread files, 70 after an internal
+    error.
+    """
     documents = []
     internal = False
     listed = {path for path in options.files if not path.is_dir()}

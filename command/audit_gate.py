@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The findings of `audit` that count: without ignored codes, light links and those that a baseline knows."""
+"""The findings of `audit` that count: without ignored codes, light links and those that a baseline
+knows.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +55,9 @@ def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
 
 
 def fails(documents: Iterable[dict[str, Any]], level: str) -> bool:
-    """Return whether a file could not be read, or has a finding of this level or above that is not known."""
+    """Return whether a file could not be read, or has a finding of this level or above that is not
+    known.
+    """
     counted = [str(severity) + "s" for severity in FAILING[level]]
     return any(
         one["errors"] or any(audit_report.count_findings(one)[name] for name in counted)
@@ -73,7 +77,10 @@ def read_baseline(path: Path) -> set[Key]:
 
 
 def write_baseline(path: Path, documents: Sequence[dict[str, Any]]) -> None:
-    """Write all findings but notes, with files relative to the baseline's folder. Raises OSError."""
+    """Write all findings but notes, with files relative to the baseline's folder.
+
+    Raises OSError.
+    """
     links = [link for one in documents for link in one["links"]]
     told = [
         (found, link)

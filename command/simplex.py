@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`simplex`: moments in n dimensions of a body that is given by simplices, which fill it or form its boundary."""
+"""`simplex`: moments in n dimensions of a body that is given by simplices, which fill it or form
+its boundary.
+"""
 
 from __future__ import annotations
 
@@ -56,7 +58,9 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 
 def answer(options: argparse.Namespace) -> tuple[list[str], int]:
-    """Return the text of the record, and the exit code; the reason for a failure is on the standard error."""
+    """Return the text of the record, and the exit code; the reason for a failure is on the standard
+    error.
+    """
     try:
         return [json.dumps(_measure(options), indent=1, allow_nan=False) + "\n"], 0
     except (UsageError, MeasureError) as error:

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Assemblies: a collection, or an empty with its children, as one body, with its place in the scene and its bill."""
+"""Assemblies: a collection, or an empty with its children, as one body, with its place in the scene
+and its bill.
+"""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -125,7 +127,8 @@ def report_cleared(operator: Operator, context: Context, is_cleared: bool) -> se
     return {"FINISHED"} if is_cleared else {"CANCELLED"}
 
 
-FRAME_OF = "principal_frame_of_assembly"  # ID property of an empty: the collection or empty whose frame it shows
+# ID property of an empty: the collection or empty whose frame it shows
+FRAME_OF = "principal_frame_of_assembly"
 
 
 class _SnapToAssembly:
@@ -205,7 +208,8 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
     bl_idname = "object.body_moments_assembly_origin"
     bl_label = "Origin to Center of Assembly"
     bl_description = (
-        "Put the origin of the assembly at its center of mass: the offset of a collection's instances, or the empty, "
+        "Put the origin of the assembly at its center of mass: the offset of a collection's "
+        "instances, or the empty, "
         "whose children stay where they are"
     )
 

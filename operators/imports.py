@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Imports: a scan becomes a Volume object; B-spline surfaces of IGES and .obj files become surface objects."""
+"""Imports: a scan becomes a Volume object; B-spline surfaces of IGES and .obj files become surface
+objects.
+"""
 
 from dataclasses import replace
 from pathlib import Path
@@ -35,7 +37,8 @@ def _positions(name: str) -> Any:
     """Declare the file with the positions of samples along an axis."""
     return StringProperty(
         name=name,
-        description="A .npy file with the position of each sample along the axis, ascending. Empty if they are even",
+        description="A .npy file with the position of each sample along the axis, ascending. Empty "
+        "if they are even",
         subtype="FILE_PATH",
     )
 
@@ -74,11 +77,13 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
     )
     allow_outside: BoolProperty(
         name="Allow Outside",
-        description="Read a file of samples that the header names outside of its own folder. Only for trusted headers",
+        description="Read a file of samples that the header names outside of its own folder. Only "
+        "for trusted headers",
     )
     raw_shape: IntVectorProperty(
         name="Raw Size",
-        description="Number of samples of a .raw file along x, y and z, x fastest. 0 if the file name states it",
+        description="Number of samples of a .raw file along x, y and z, x fastest. 0 if the file "
+        "name states it",
         default=(0, 0, 0),
         min=0,
     )
@@ -135,7 +140,8 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         ]
         if files:
             text = (
-                "Blender draws samples evenly. They are measured where they stand; the ends along {axes} are in their "
+                "Blender draws samples evenly. They are measured where they stand; the ends along "
+                "{axes} are in their "
                 "places."
             )
             texts.append(reports.phrase(text, axes=sorted(files)))

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of colliders: the button that makes them, and what they do to the object's physics."""
+"""The sub-panel of colliders: the button that makes them, and what they do to the object's
+physics.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,8 @@ SLIGHT = 0.01  # parts by which an engine may be off without a warning
 REMEDIES = {  # by the kind of correction that did not suffice
     "none": "An engine would simulate another body. Choose Masses or Vertices for Correct.",
     "masses": "An engine would simulate another body. Choose Convex Pieces, and more of them.",
-    "vertices": "An engine would simulate another body. Increase Outward and Inward, or choose Convex Pieces.",
+    "vertices": "An engine would simulate another body. Increase Outward and Inward, or choose "
+    "Convex Pieces.",
 }
 
 

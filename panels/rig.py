@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bones: the part of the active bone among the bone's properties, and the sub-panels of a whole character."""
+"""Bones: the part of the active bone among the bone's properties, and the sub-panels of a whole
+character.
+"""
 
 from __future__ import annotations
 
@@ -153,7 +155,9 @@ def _standing(layout: UILayout, weight: Weight, unit: float) -> None:
 
 
 def _motion(layout: UILayout, context: Context) -> None:
-    """Draw the buttons for motion over frames, and the spans of frames whose momentum comes from nothing."""
+    """Draw the buttons for motion over frames, and the spans of frames whose momentum comes from
+    nothing.
+    """
     column = layout.column(align=True)
     rows.button(column, "pose.body_moments_parabola", "FORCE_FORCE")
     rows.button(column, "pose.body_moments_keep_spin", "FORCE_VORTEX")

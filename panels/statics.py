@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of stability: the object's standing state, margin, tipping angle, and resting poses."""
+"""The sub-panel of stability: the object's standing state, margin, tipping angle, and resting
+poses.
+"""
 
 from __future__ import annotations
 

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Convex pieces beside those of CoACD: the sum of hulls over the body's volume, at the same number of pieces.
+"""Convex pieces beside those of CoACD: the sum of hulls over the body's volume, at the same number
+of pieces.
 
     python tests/benchmark_colliders.py [NAME ...]
 
-Needs numpy and coacd. Times are the processor's. Prints a row for each concave body, then the median and the largest
-ratio. CoACD's results are kept in the folder of temporary files.
+Needs numpy and coacd. Times are the processor's. Prints a row for each concave body, then the
+median and the largest ratio. CoACD's results are kept in the folder of temporary files.
 """
 
 from __future__ import annotations
@@ -71,7 +72,9 @@ def cells(*layers: str, lines=None) -> Part:
 
 
 def revolve(outline, sides: int = 32) -> Part:
-    """Return the body of a closed outline (r, z), counter-clockwise with r to the right, turned about z."""
+    """Return the body of a closed outline (r, z), counter-clockwise with r to the right, turned
+    about z.
+    """
     outline = np.array(outline, float)
     turn = np.arange(sides) * 2.0 * np.pi / sides
     count = len(outline)

@@ -4,9 +4,9 @@
 
     python tests/published_robots.py
 
-It needs pip and the command `body-moments` (pip install . usd-core), downloads 0.5 GB into --folder, and takes an hour.
-Packages and reports that are there already are used again. Repaired files replace the originals in --folder, and are
-audited once more.
+It needs pip and the command `body-moments` (pip install . usd-core), downloads 0.5 GB into
+--folder, and takes an hour. Packages and reports that are there already are used again. Repaired
+files replace the originals in --folder, and are audited once more.
 """
 
 import argparse
@@ -113,7 +113,9 @@ def reports_of(package: str, folder: Path) -> list[list[dict]]:
 
 
 def repairs_of(before: list[dict], after: list[dict]) -> Counter:
-    """Return the counts of files, repaired links, and those of them whose inertial has an error or a warning after."""
+    """Return the counts of files, repaired links, and those of them whose inertial has an error or
+    a warning after.
+    """
     counts = Counter(files=sum(bool(one["links"]) for one in before))
     for old, new in zip(before, after, strict=True):
         for link, again in zip(old["links"], new["links"], strict=True):

@@ -18,7 +18,9 @@ Channel = tuple[str, int]  # data path and index
 
 
 def ensure_curves(obj: Object):
-    """Return the F-curves of an object's action, which is created if there is none, and copied if it is linked."""
+    """Return the F-curves of an object's action, which is created if there is none, and copied if
+    it is linked.
+    """
     animation = obj.animation_data_create()
     if animation.action is None:
         animation.action = bpy.data.actions.new(obj.name)
@@ -63,7 +65,9 @@ def _curves_of(keyed: bpy.types.AnimData | bpy.types.NlaStrip) -> Iterator[FCurv
 
 
 def is_shared(obj: Object) -> bool:
-    """Return whether the keys of an object's action, which is not linked, also animate other objects."""
+    """Return whether the keys of an object's action, which is not linked, also animate other
+    objects.
+    """
     animation = obj.animation_data
     if animation.action.library is not None:
         return False
@@ -83,7 +87,9 @@ def has_strips(obj: Object) -> bool:
 
 
 def is_keyed(obj: Object, path: str, count: int) -> bool:
-    """Return whether all components of a property have keys, in the action or in strips of the NLA."""
+    """Return whether all components of a property have keys, in the action or in strips of the
+    NLA.
+    """
     return len({curve.array_index for curve in all_curves(obj) if curve.data_path == path}) == count
 
 
@@ -121,7 +127,8 @@ def write_keys(
 
 
 def replace_section(curve: FCurve, first: int, last: int, values: NDArray) -> None:
-    """Replace the keys from one frame to another by (n,) values, one a frame; later keys move if n exceeds the frames.
+    """Replace the keys from one frame to another by (n,) values, one a frame; later keys move if n
+    exceeds the frames.
 
     The frames before and after, up to the next keys, get a key each, so that they stay as they are.
     """
@@ -148,7 +155,9 @@ def replace_section(curve: FCurve, first: int, last: int, values: NDArray) -> No
 
 
 def add_layer(obj: Object, name: str, frames: NDArray, channels: Mapping[Channel, NDArray]) -> None:
-    """Add a strip of keys that is combined with the animation below; the action becomes a strip, too."""
+    """Add a strip of keys that is combined with the animation below; the action becomes a strip,
+    too.
+    """
     animation = obj.animation_data_create()
     action = animation.action
     if action is not None:

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects that are made for a character: rigid bodies with joints, and an empty at its center of mass.
+"""Objects that are made for a character: rigid bodies with joints, and an empty at its center of
+mass.
 
-A bone's part moves with the bone, so an empty at the part's center is parented to the bone. Copy Location constraints
-put one more empty at the weighted mean of these: the influence of each is its part's share of the mass so far.
+A bone's part moves with the bone, so an empty at the part's center is parented to the bone. Copy
+Location constraints put one more empty at the weighted mean of these: the influence of each is its
+part's share of the mass so far.
 """
 
 from __future__ import annotations
@@ -104,7 +106,9 @@ def create_physics_rig(context: Context, rig: Rig) -> tuple[int, int]:
 
 
 def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -> Object:
-    """Add the object of a part: its closed pieces, in a frame at its center along its principal axes."""
+    """Add the object of a part: its closed pieces, in a frame at its center along its principal
+    axes.
+    """
     assert part.measurement is not None
     body = part.measurement.mass_properties
     frame = np.eye(4)

@@ -37,8 +37,9 @@ SUMS = (MemberKind.COLLECTION, MemberKind.EMPTY)
 class BalanceGroup:
     """Objects whose common center of mass is followed over a range of frames.
 
-    objects: the followed objects, sorted by name. feet: objects that may touch the ground. centers: a (3,) center in
-    Blender units for each frame so far. supports: a support for each frame, None if nothing touches the ground.
+    objects: the followed objects, sorted by name. feet: objects that may touch the ground. centers:
+    a (3,) center in Blender units for each frame so far. supports: a support for each frame, None
+    if nothing touches the ground.
     """
 
     def __init__(
@@ -60,7 +61,9 @@ class BalanceGroup:
         self.supports: list[Support | None] = []
 
     def _members(self, collection: str) -> list[Object]:
-        """Return the followed objects, sorted by name; keep the collection in `_assembly` if its mass is given."""
+        """Return the followed objects, sorted by name; keep the collection in `_assembly` if its
+        mass is given.
+        """
         context = self._context
         if collection:
             depsgraph = context.evaluated_depsgraph_get()
@@ -91,7 +94,9 @@ class BalanceGroup:
         return sorted(followed, key=lambda obj: obj.name_full)
 
     def follow(self, scene: Scene, frames: Sequence[float]) -> Generator[int, None, None]:
-        """Measure frame after frame, yield the number of finished frames, and restore the scene's frame at the end."""
+        """Measure frame after frame, yield the number of finished frames, and restore the scene's
+        frame at the end.
+        """
         before = scene.frame_current
         subframe = scene.frame_subframe
         motion = Motion(len(frames))
@@ -136,7 +141,9 @@ class BalanceGroup:
         signals: Mapping[str, NDArray] | None = None,
         spans: Sequence[tuple[float, float, float, float]] = (),
     ) -> Object:
-        """Store the path as keys of the group's empty, which is added if there is none, and return the empty."""
+        """Store the path as keys of the group's empty, which is added if there is none, and return
+        the empty.
+        """
         signals = dict(signals or {})
         centers = np.array(self.centers)
         if self.feet:
@@ -165,7 +172,9 @@ def _collection(name: str) -> Collection:
 
 
 def counted(member: Member) -> Iterator[Object]:
-    """Yield the objects of an assembly that count; an instanced collection counts as its instancer."""
+    """Yield the objects of an assembly that count; an instanced collection counts as its
+    instancer.
+    """
     if member.is_measured or member.kind == MemberKind.INSTANCE:
         yield member.data
     if member.kind != MemberKind.INSTANCE:

@@ -38,7 +38,9 @@ WITHOUT_AXES = MeasureOptions(axes=False)
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The colliders of an object, in its frame, with their effect. key: equal for objects that share their meshes."""
+    """The colliders of an object, in its frame, with their effect. key: equal for objects that
+    share their meshes.
+    """
 
     obj: Object
     shapes: tuple[Shape, ...]
@@ -56,10 +58,11 @@ def plan_colliders(
     correct: str,
     known: dict[str, Plan],
 ) -> Generator[float, None, Plan]:
-    """Plan the colliders of an object, in steps that yield the completed share; MeasureError if it cannot have any.
+    """Plan the colliders of an object, in steps that yield the completed share; MeasureError if it
+    cannot have any.
 
-    is_share: the tolerances are parts of the size. correct: "NONE", "MASSES" or "VERTICES". known: plans of this run by
-    their keys, to which this one is added.
+    is_share: the tolerances are parts of the size. correct: "NONE", "MASSES" or "VERTICES". known:
+    plans of this run by their keys, to which this one is added.
     """
     require_storable_data(obj)
     measured = measure_body(obj, depsgraph, WITHOUT_AXES)
@@ -96,7 +99,9 @@ def plan_colliders(
 
 
 def _mesh_key(obj: Object, measured: Measured) -> str:
-    """Return a key that is equal for objects with the same settings and meshes in the same places of their frames."""
+    """Return a key that is equal for objects with the same settings and meshes in the same places
+    of their frames.
+    """
     measurement = measured.measurement
     parts = []
     to_frame = Pose(measurement.location, measurement.rotation).inverse()
@@ -170,7 +175,8 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
 
 
 def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
-    """Remove the colliders of objects with what is stored about them; return the number of objects that had any.
+    """Remove the colliders of objects with what is stored about them; return the number of objects
+    that had any.
 
     Colliders whose bodies were deleted are removed themselves.
     """
@@ -188,7 +194,9 @@ def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
 def collider_record(
     obj: Object, measurement: Measurement, context: Context
 ) -> dict[str, Any] | None:
-    """Return the effect of an object's colliders for its record, with the reason if it is out of date; else None."""
+    """Return the effect of an object's colliders for its record, with the reason if it is out of
+    date; else None.
+    """
     stamp = stamps.of_colliders(obj)
     if stamp is None:
         return None

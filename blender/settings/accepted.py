@@ -23,7 +23,9 @@ def accepted_codes(obj: Object) -> frozenset[str]:
 
 
 def set_accepted(obj: Object, code: str, accepted: bool) -> bool:
-    """Accept the findings with a code for an object, or revoke this; return whether anything changed."""
+    """Accept the findings with a code for an object, or revoke this; return whether anything
+    changed.
+    """
     before = accepted_codes(obj)
     after = before | {code} if accepted else before - {code}
     if after != before:

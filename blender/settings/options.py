@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Options that override objects' settings, and their resolution into the settings of a measurement."""
+"""Options that override objects' settings, and their resolution into the settings of a
+measurement.
+"""
 
 from __future__ import annotations
 

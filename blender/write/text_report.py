@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A report that a person reads, in the order of CAD dialogs: verdict, mass, volume, center, principal axes, tensor.
+"""A report that a person reads, in the order of CAD dialogs: verdict, mass, volume, center,
+principal axes, tensor.
 
-It is made from a document (`documents.document`); results stored on objects become a document first.
+It is made from a document (`documents.document`); results stored on objects become a document
+first.
 """
 
 from __future__ import annotations
@@ -35,7 +37,8 @@ def stored_document(
     file: str | None = None,
     blender: str | None = None,
 ) -> dict[str, Any]:
-    """Return the document of the results stored on objects, in the scene's frame; their health is not stored.
+    """Return the document of the results stored on objects, in the scene's frame; their health is
+    not stored.
 
     outdated: names. caveats: about the total.
     """
@@ -171,7 +174,9 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
 
 
 def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any]:
-    """Return the record of an object's stored results, with an empty health, which is not stored."""
+    """Return the record of an object's stored results, with an empty health, which is not
+    stored.
+    """
     method = properties.method(obj)
     findings = properties.findings(obj)
     kinds = {Procedure.SHELL: "shell", Procedure.WIRE: "wire"}
@@ -209,7 +214,9 @@ def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any
 
 
 def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[PlainBody]) -> dict[str, Any]:
-    """Return the sum of stored results, world frame, without axes, whose signs need third moments."""
+    """Return the sum of stored results, world frame, without axes, whose signs need third
+    moments.
+    """
     total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
     whole = add_bodies(bodies)

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Opening of a user's file as the scene, which raises FileError with the reason if it fails.
 
-Every file starts from an empty scene of factory settings. Scripts inside .blend files never run. Files that Blender's
-importers accept silently are refused: a FIFO (it would block for ever), a file without objects.
+Every file starts from an empty scene of factory settings. Scripts inside .blend files never run.
+Files that Blender's importers accept silently are refused: a FIFO (it would block for ever), a file
+without objects.
 """
 
 from __future__ import annotations
@@ -96,7 +97,8 @@ def _open_blend(path: str) -> None:
 def _saved_by(path: str) -> tuple[int, int] | None:
     """Return the version of Blender in the header of a .blend file not compressed with zstd.
 
-    Return (0, 0) for big-endian numbers, (99, 0) for a file format of the future, and None if there is no such header.
+    Return (0, 0) for big-endian numbers, (99, 0) for a file format of the future, and None if there
+    is no such header.
     """
     with open(path, "rb") as file:
         head = file.read(20)
@@ -124,7 +126,8 @@ def newer_version() -> Iterator[Finding]:
 def reason(error: Exception) -> str:
     """Return an error of the system or of Blender as one line.
 
-    The line is the first of a report, or the exception of a traceback, which Blender may follow with its location.
+    The line is the first of a report, or the exception of a traceback, which Blender may follow
+    with its location.
     """
     if isinstance(error, OSError):
         return system_reason(error)

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Importers of files that Blender's importers do not read, or not as they are.
 
-Blender has none for .3mf and IGES; that of .obj leaves out ``surf``, that of glTF ignores KHR_node_visibility.
+Blender has none for .3mf and IGES; that of .obj leaves out ``surf``, that of glTF ignores
+KHR_node_visibility.
 """
 
 from __future__ import annotations
@@ -164,7 +165,9 @@ def import_gltf(path: str) -> Opened:
 
 
 def _line_of(vnode: Any, gltf: Any) -> list[int]:
-    """Return the numbers of a node and of those above it. vnode: the importer's node; its own ones have no number."""
+    """Return the numbers of a node and of those above it. vnode: the importer's node; its own ones
+    have no number.
+    """
     line = [number for number, one in gltf.vnodes.items() if one is vnode]
     while vnode.parent is not None:
         line.append(vnode.parent)

@@ -44,7 +44,9 @@ def check_file(path: str) -> None:
 
 
 def _check_usdz(path: Path) -> None:
-    """Raise FileError if the checksum of a stored entry is wrong, which Blender's reader ignores."""
+    """Raise FileError if the checksum of a stored entry is wrong, which Blender's reader
+    ignores.
+    """
     try:
         with zipfile.ZipFile(path) as archive:
             stored = [

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files that are measured without Blender, whether it is there or not: arrays and scans, and meshes.
+"""Files that are measured without Blender, whether it is there or not: arrays and scans, and
+meshes.
 
-An array, a scan, and a mesh that is read in blocks are one body, named after the file. An .obj file may have several.
+An array, a scan, and a mesh that is read in blocks are one body, named after the file. An .obj file
+may have several.
 """
 
 from __future__ import annotations
@@ -64,8 +66,8 @@ _NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
 class BareFile:
     """A file that is measured without Blender.
 
-    options: those of the command line. memory: bytes that measuring it may take, None for any. progress: returns a
-    counter of the samples or faces read from a file.
+    options: those of the command line. memory: bytes that measuring it may take, None for any.
+    progress: returns a counter of the samples or faces read from a file.
     """
 
     has_saved = False
@@ -255,7 +257,9 @@ def _with_own_names(meshes: list[FileMesh]) -> list[FileMesh]:
 
 
 def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
-    """Return whether a file is measured without Blender. memory: bytes that measuring it may take, None for any."""
+    """Return whether a file is measured without Blender. memory: bytes that measuring it may take,
+    None for any.
+    """
     if scans.scan_suffix(path) or not has_blender():
         return True
     suffix = file_suffix(path)

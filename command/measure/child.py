@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A child of the supervisor: it measures the files that it is sent, one at a time, and answers with documents."""
+"""A child of the supervisor: it measures the files that it is sent, one at a time, and answers with
+documents.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,8 @@ from ..supervisor.journal import state
 from ..supervisor.lifeline import Lifeline
 from .run import Run, blender_version
 
-# Errors about a file with an impossible name, unreadable or damaged, which counts as without references.
+# Errors about a file with an impossible name, unreadable or damaged, which counts as without
+# references.
 _UNREADABLE = (OSError, RuntimeError, MeasureError, *MALFORMED)
 _ASSET = re.compile(rb"@@@(.+?)@@@|@([^@\n]+)@")
 
@@ -72,7 +75,8 @@ def _measure(run: Run, path: str, line: Lifeline) -> None:
 def references(path: str, opened: Iterable[str] = ()) -> set[Path]:
     """Return the files, existing or not, that a file refers to directly or indirectly.
 
-    opened: the files that Blender has read with it. Layers in binary USD layers are not found, nor are missing tiles.
+    opened: the files that Blender has read with it. Layers in binary USD layers are not found, nor
+    are missing tiles.
     """
     waiting = [Path(path), *map(Path, opened)]
     known = set()

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Production of a file's document, by Blender or without it.
 
-Every failure is an entry in `errors` and stops nothing else; an unexpected one prints its traceback, too.
+Every failure is an entry in `errors` and stops nothing else; an unexpected one prints its
+traceback, too.
 """
 
 from __future__ import annotations
@@ -45,10 +46,10 @@ def blender_version() -> str | None:
 class Run:
     """The execution of a command line in this process.
 
-    threads: count for a measurement. memory: bytes that one file may take, None for any. progress: returns a counter
-    of the samples or faces read from a file. documents: one for each file, in order. internal_errors: count of the
-    errors that are faults of the program. has_saved: whether the last file was saved in place. opened: the files that
-    Blender has read with it.
+    threads: count for a measurement. memory: bytes that one file may take, None for any. progress:
+    returns a counter of the samples or faces read from a file. documents: one for each file, in
+    order. internal_errors: count of the errors that are faults of the program. has_saved: whether
+    the last file was saved in place. opened: the files that Blender has read with it.
     """
 
     options: Namespace

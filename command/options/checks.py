@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks before a process measures: options with files as values, and limits; findings about units and unused options.
+"""Checks before a process measures: options with files as values, and limits; findings about units
+and unused options.
 
 A failed check ends like wrong usage, with SystemExit(2) and a message.
 """
@@ -34,7 +35,9 @@ OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale", "positions")
 
 
 def prepare(options: Namespace) -> None:
-    """Prepare a measurement: set `options.limits` of scans, and `options.waves`, the wave vectors of the transform."""
+    """Prepare a measurement: set `options.limits` of scans, and `options.waves`, the wave vectors
+    of the transform.
+    """
     try:
         if options.material is not None and options.material not in BY_NAME:
             known = ", ".join(sorted(BY_NAME))
@@ -53,7 +56,10 @@ def prepare(options: Namespace) -> None:
 
 
 def wave_vectors_of(options: Namespace) -> FrequencyGrid | NDArray[np.float64] | None:
-    """Return the requested wave vectors, of a grid or a .npy file, or None. Raises MeasureError and UsageError."""
+    """Return the requested wave vectors, of a grid or a .npy file, or None.
+
+    Raises MeasureError and UsageError.
+    """
     dimension = 2 if options.flat else 3
     path = options.q
     if options.fourier is None:
@@ -87,7 +93,9 @@ def unused(names: Iterable[str]) -> Iterator[Finding]:
 
 
 def file_findings(path: str | None, options: Namespace) -> Iterator[Finding]:
-    """Yield findings if the unit of a mesh file was assumed, or options for other kinds of files are unused."""
+    """Yield findings if the unit of a mesh file was assumed, or options for other kinds of files
+    are unused.
+    """
     names = OF_ARRAYS if is_unitless(path) else (*OF_ARRAYS, "unit_scale")
     if is_unitless(path) and options.unit_scale is None:
         yield finding(UNIT_ASSUMED)

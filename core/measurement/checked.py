@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Documents read from files, checked once, so that commands can rely on their shape.
 
-The shape is that of `docs/record.schema.json`, as far as commands use it; other entries may hold anything. Standard
-library only.
+The shape is that of `docs/record.schema.json`, as far as commands use it; other entries may hold
+anything. Standard library only.
 """
 
 from __future__ import annotations
@@ -18,8 +18,9 @@ from .documents import SCHEMA
 MAX_DEPTH = 50  # of nested lists and objects, so that no later step nests too many calls
 _MAX_WHOLE = 1 << 128  # Products of several whole numbers still fit into float64.
 
-# A dict is an object with these entries: optional ones have a “?”, patterns stand for any number of entries. A list
-# with one shape is a list of any length, with more shapes one of that length. A tuple allows null, as does `float`.
+# A dict is an object with these entries: optional ones have a “?”, patterns stand for any number of
+# entries. A list with one shape is a list of any length, with more shapes one of that length. A
+# tuple allows null, as does `float`.
 _VECTOR = [float] * 3
 _TENSOR = [_VECTOR] * 3
 _TEXTS = {"warnings": [str], "notes": [str]}
@@ -107,7 +108,9 @@ _NAMES = {
 
 
 class _WrongError(ValueError):
-    """A value of another shape than expected. path: the keys and indices that lead to it, the innermost first."""
+    """A value of another shape than expected. path: the keys and indices that lead to it, the
+    innermost first.
+    """
 
     def __init__(self, message: str) -> None:
         super().__init__(message)
@@ -118,7 +121,10 @@ class _WrongError(ValueError):
 
 
 def parse_json(text: str, line: int = 1) -> Any:
-    """Return the content of a JSON text with finite numbers. ValueError if it is no such text. line: its first line."""
+    """Return the content of a JSON text with finite numbers.
+
+    ValueError if it is no such text. line: its first line.
+    """
     try:
         return json.loads(text, parse_constant=_not_finite, parse_float=_finite)
     except json.JSONDecodeError as error:
@@ -129,7 +135,9 @@ def parse_json(text: str, line: int = 1) -> Any:
 
 
 def check_document(document: Any) -> None:
-    """Raise ValueError, with the place in the document, if it has not the shape of a document of this program."""
+    """Raise ValueError, with the place in the document, if it has not the shape of a document of
+    this program.
+    """
     _check(document, {"schema": str})
     if document["schema"] != SCHEMA:
         raise ValueError("schema is {}, not {}".format(document["schema"], SCHEMA))

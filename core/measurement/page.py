@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Documents as one HTML file that needs no network: a table of all bodies to sort and to filter, with pictures.
+"""Documents as one HTML file that needs no network: a table of all bodies to sort and to filter,
+with pictures.
 
-Standard library only. Everything that comes from files is escaped, and the page's security policy allows no script but
-its own.
+Standard library only. Everything that comes from files is escaped, and the page's security policy
+allows no script but its own.
 """
 
 from __future__ import annotations
@@ -209,7 +210,9 @@ def _row(
 
 
 def _picture(entry: dict[str, Any]) -> str:
-    """Return HTML of the record's thumbnail, else of the box of equal inertia with its axes; empty without mass."""
+    """Return HTML of the record's thumbnail, else of the box of equal inertia with its axes; empty
+    without mass.
+    """
     thumbnail = entry.get("thumbnail")
     if isinstance(thumbnail, str) and _PICTURE.fullmatch(thumbnail):
         return '<img alt="" src="{}">'.format(thumbnail)

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Momentum of a body of moving parts from frame to frame, and the motion that a body without contacts must have.
+"""Momentum of a body of moving parts from frame to frame, and the motion that a body without
+contacts must have.
 
-Velocities refer to the middle between two frames. On a parabola the center's velocity is exact. Parts are followed in
-the axes of the heaviest part, whose rotation is interpolated as a quaternion: there a turning rigid body is at rest. No
-interpolation crosses a take-off or a landing, where velocities jump.
+Velocities refer to the middle between two frames. On a parabola the center's velocity is exact.
+Parts are followed in the axes of the heaviest part, whose rotation is interpolated as a quaternion:
+there a turning rigid body is at rest. No interpolation crosses a take-off or a landing, where
+velocities jump.
 """
 
 from __future__ import annotations
@@ -43,8 +45,9 @@ CONSTANT = 1e-9  # relative change of the angular momentum
 class Course:
     """The p parts of a body at f frames.
 
-    step: seconds from frame to frame. masses: (p,). centers: (f, p, 3). spreads: (f, p, 3, 3) integrals of r rᵀ dm
-    about each part's center. linear: (f, p, 3, 3) matrices from each part's own axes to the world.
+    step: seconds from frame to frame. masses: (p,). centers: (f, p, 3). spreads: (f, p, 3, 3)
+    integrals of r rᵀ dm about each part's center. linear: (f, p, 3, 3) matrices from each part's
+    own axes to the world.
     """
 
     step: float
@@ -69,7 +72,9 @@ class Course:
 
 
 def find_flights(touching: ArrayLike) -> list[Flight]:
-    """Return the flights, with the contact frames at their ends. touching: (f,) mask of the frames on the ground."""
+    """Return the flights, with the contact frames at their ends. touching: (f,) mask of the frames
+    on the ground.
+    """
     last = len(np.asarray(touching)) - 1
     return [
         (max(start - 1, 0), min(end, last)) for start, end in _runs(~np.asarray(touching, bool))
@@ -85,9 +90,11 @@ def _runs(true: NDArray[np.bool_]) -> list[tuple[int, int]]:
 def momenta_between(
     course: Course, first: int, last: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the motion in the middle between neighboring frames of a section without jumps, and (n, 3, 3) inertia.
+    """Return the motion in the middle between neighboring frames of a section without jumps, and
+    (n, 3, 3) inertia.
 
-    The motion is (n, 7): the center's velocity, the angular momentum about the center, and the kinetic energy.
+    The motion is (n, 7): the center's velocity, the angular momentum about the center, and the
+    kinetic energy.
     """
     rows = slice(first, last + 1)
     count = last - first
@@ -138,7 +145,9 @@ def momenta_between(
 def momenta(
     course: Course, flights: Sequence[Flight]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the (f, 7) motion at the frames and its rate; the ends of a flight have the motion of the flight."""
+    """Return the (f, 7) motion at the frames and its rate; the ends of a flight have the motion of
+    the flight.
+    """
     now, change = np.zeros((2, len(course.centers), 7))
     ends = sorted({0, len(course.centers) - 1, *(end for flight in flights for end in flight)})
     for first, last in sorted(zip(ends, ends[1:]), key=lambda section: section in flights):
@@ -152,9 +161,11 @@ def momenta(
 
 
 def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray) -> list[Span]:
-    """Return spans of frames in flights with a change of momenta that gravity does not explain, and its amount.
+    """Return spans of frames in flights with a change of momenta that gravity does not explain, and
+    its amount.
 
-    A force above a fifth of the weight is unexplained, and a torque above this force times the radius of gyration.
+    A force above a fifth of the weight is unexplained, and a torque above this force times the
+    radius of gyration.
     """
     spans = []
     mass = float(course.masses.sum())
@@ -180,9 +191,11 @@ def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray
 def zero_moment_points(
     center: NDArray, height: NDArray, force: NDArray, torque: NDArray, weight: NDArray
 ) -> NDArray[np.float64]:
-    """Return (f, 3) ground points about which contact forces have no moment along the ground; NaN without such forces.
+    """Return (f, 3) ground points about which contact forces have no moment along the ground; NaN
+    without such forces.
 
-    center: (f, 3). height: (f,) above the ground. force, torque: (f, 3) rates of the momenta. weight: (3,), a force.
+    center: (f, 3). height: (f,) above the ground. force, torque: (f, 3) rates of the momenta.
+    weight: (3,), a force.
     """
     up = -weight / np.linalg.norm(weight)
     carried = force - weight
@@ -202,7 +215,9 @@ def ballistic_arc(
 
 
 def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
-    """Return the frames, not whole, of a free fall between the ends of an (f, 3) path that rises as high as it."""
+    """Return the frames, not whole, of a free fall between the ends of an (f, 3) path that rises as
+    high as it.
+    """
     strength = float(np.linalg.norm(gravity))
     heights = -(center - center[0]) @ np.asarray(gravity, np.float64) / strength
     top = float(heights.max())
@@ -214,10 +229,12 @@ def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
 def turns_of_constant_spin(
     course: Course, first: int, last: int, share: float = 0.0
 ) -> NDArray[np.float64]:
-    """Return (last - first + 1, 3, 3) turns about the center that keep the angular momentum after the first frame.
+    """Return (last - first + 1, 3, 3) turns about the center that keep the angular momentum after
+    the first frame.
 
-    The turns are integrated from frame to frame, then corrected until the momentum of the turned body stays the same.
-    share: share of the last frame's angle about the momentum that is taken back at all frames.
+    The turns are integrated from frame to frame, then corrected until the momentum of the turned
+    body stays the same. share: share of the last frame's angle about the momentum that is taken
+    back at all frames.
     """
     (motion, inertia) = momenta_between(course, first, last)
     step = course.step
@@ -249,7 +266,9 @@ def turns_of_constant_spin(
 
 
 def _axes(linear: NDArray) -> NDArray[np.float64]:
-    """Return (f, 4) quaternions of a part's axes; each has the sign that is nearer to the previous quaternion."""
+    """Return (f, 4) quaternions of a part's axes; each has the sign that is nearer to the previous
+    quaternion.
+    """
     polar, _ = polar_rotation(linear)
     turns = quaternion(polar * np.sign(np.linalg.det(polar))[:, None, None])
     turns[1:] *= np.cumprod(np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))[
@@ -265,7 +284,8 @@ def _rotation(vector: NDArray) -> NDArray[np.float64]:
 
 
 class _stencils:
-    """Interpolation, or its derivative, of (count, ...) values at (k,) places between them, by their nearest nodes.
+    """Interpolation, or its derivative, of (count, ...) values at (k,) places between them, by
+    their nearest nodes.
 
     degree: of a polynomial fitted to the nodes; by default the polynomial goes through all of them.
     """

@@ -25,7 +25,9 @@ from .model import FreeAxis, Inertial, Joint, Link, Mimic, Pose, Robot, Shape
 
 
 class Candidate(NamedTuple):
-    """A measured body. link: None if the body has no mass. parents: names of other candidates, the nearest first."""
+    """A measured body. link: None if the body has no mass. parents: names of other candidates, the
+    nearest first.
+    """
 
     name: str
     link: Link | None
@@ -35,8 +37,8 @@ class Candidate(NamedTuple):
 class Connection(NamedTuple):
     """A joint between two candidates; "" stands for any object that is no candidate.
 
-    pose: the frame of the joint in the world, m; by default the second's. free: freedom of `second` relative to
-    `first`, the axis next to `first` first.
+    pose: the frame of the joint in the world, m; by default the second's. free: freedom of `second`
+    relative to `first`, the axis next to `first` first.
     """
 
     name: str
@@ -59,7 +61,9 @@ def make_candidate(
     scale: Sequence[float] = (1.0, 1.0, 1.0),
     is_fixed: bool = False,
 ) -> Candidate:
-    """Return a candidate with the measured body as a link in its own frame. scale: (3,) of the object's geometry."""
+    """Return a candidate with the measured body as a link in its own frame. scale: (3,) of the
+    object's geometry.
+    """
     body = measurement.in_object_frame()
     if not body.mass:
         return Candidate(name, None)
@@ -105,7 +109,8 @@ def assemble_robot(
 def _spanning_edges(
     links: Mapping[str, Link], parents: Mapping[str, str], connections: Sequence[Connection]
 ) -> tuple[list[Connection], list[str]]:
-    """Return edges that make trees of the links, parents first, and the names of connections that would close a loop.
+    """Return edges that make trees of the links, parents first, and the names of connections that
+    would close a loop.
 
     All fixed links count as one, the world, which has no name.
     """
@@ -189,7 +194,9 @@ def _directed_joints(links: Mapping[str, Link], edges: Sequence[Connection]) -> 
 
 
 def _check_mimics(joints: Iterable[Joint]) -> tuple[list[Joint], list[Finding]]:
-    """Return the joints, with mimics that name other joints of one axis, and findings about mimics that do not."""
+    """Return the joints, with mimics that name other joints of one axis, and findings about mimics
+    that do not.
+    """
     checked = [*joints]
     findings = []
     single = {joint.child: joint.name for joint in checked if len(joint.free) == 1}

@@ -18,12 +18,14 @@ DAMAGE_SIZE = error("damage_size", "it has {bytes} bytes of data, and its sizes 
 DAMAGE_INCOMPLETE = error("damage_incomplete", "it is not a complete {kind:word} ({error})")
 FILE_EXCEEDS_LIMIT = error(
     "file_exceeds_limit",
-    "“{file}” exceeds a limit: {count} {name} of at most {limit}. If you trust the file, set the environment "
+    "“{file}” exceeds a limit: {count} {name} of at most {limit}. If you trust the file, set the "
+    "environment "
     "variable BODY_MOMENTS_LIMITS to {name}={next}.",
 )
 LIMITS_UNRECOGNIZED = error(
     "limits_unrecognized",
-    "The environment variable BODY_MOMENTS_LIMITS has “{text}”, which is no limit. Use NAME=NUMBER, with a NAME "
+    "The environment variable BODY_MOMENTS_LIMITS has “{text}”, which is no limit. Use "
+    "NAME=NUMBER, with a NAME "
     "of {names}.",
 )
 HEADER_FIELD = error(
@@ -35,7 +37,8 @@ NAMED_FILE_MISSING = error(
 )
 NRRD_DATA_FILE_OUTSIDE = error(
     "nrrd_data_file_outside",
-    "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you trust the header, "
+    "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you "
+    "trust the header, "
     "turn on Allow Outside, or use --allow-outside.",
 )
 OTHERS_LEFT_OUT = warning(
@@ -43,7 +46,8 @@ OTHERS_LEFT_OUT = warning(
 )
 RAW_WITHOUT_LAYOUT = error(
     "raw_without_layout",
-    "A raw file does not describe its samples. Name it NAME_XxYxZ_TYPE.raw, such as head_128x128x54_uint16.raw, or add "
+    "A raw file does not describe its samples. Name it NAME_XxYxZ_TYPE.raw, such as "
+    "head_128x128x54_uint16.raw, or add "
     "an NRRD header.",
 )
 SCAN_IN_SEVERAL_FILES = error(
@@ -71,11 +75,13 @@ SCAN_UNSTATED = warning(
 )
 POSITIONS_COUNT = error(
     "positions_count",
-    "The positions along {axis} in “{file}” must be one row of numbers, {samples} as the scan has samples there, and "
+    "The positions along {axis} in “{file}” must be one row of numbers, {samples} as the scan has "
+    "samples there, and "
     "at least 2; the file has {array}. Save one for each sample, or leave it out.",
 )
 POSITIONS_NOT_ASCENDING = error(
     "positions_not_ascending",
-    "Position {place} along {axis} in “{file}” is not a finite number greater than the one before; the first is "
+    "Position {place} along {axis} in “{file}” is not a finite number greater than the one before; "
+    "the first is "
     "position 0. Correct it, or sort the positions, and the samples with them.",
 )

@@ -85,7 +85,9 @@ def _head(path: Path, packed: bool) -> bytes:
 
 
 def _sample_matrix(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
-    """Return the matrix of the samples (affine, else quaternion, else spacing), and whether the header states it."""
+    """Return the matrix of the samples (affine, else quaternion, else spacing), and whether the
+    header states it.
+    """
     matrix = np.eye(4)
     pixdim = struct.unpack_from(order + "8f", head, 76)
     qform, sform = struct.unpack_from(order + "2h", head, 252)

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The samples of a scan in a file: a memory map if they are not packed, so that they may be larger than memory.
+"""The samples of a scan in a file: a memory map if they are not packed, so that they may be larger
+than memory.
 
-A header is compared with the size of the file, and packed samples with their checksum, before they are used.
-Every fault of a file is a FileError that names the fault.
+A header is compared with the size of the file, and packed samples with their checksum, before they
+are used. Every fault of a file is a FileError that names the fault.
 """
 
 from __future__ import annotations
@@ -109,7 +110,9 @@ def wrong_field(format: str, name: str, wanted: str, *values: float) -> FileErro
 
 
 def check_length(path: Path, held: int, wanted: int) -> None:
-    """Raise FileError unless a file holds exactly the bytes of its samples; more bytes mean wrong sizes."""
+    """Raise FileError unless a file holds exactly the bytes of its samples; more bytes mean wrong
+    sizes.
+    """
     if held != wanted:
         raise damaged(path, DAMAGE_SIZE, bytes=held, total=wanted)
 
@@ -117,7 +120,9 @@ def check_length(path: Path, held: int, wanted: int) -> None:
 def map_samples(
     path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False
 ) -> NDArray:
-    """Return a memory map of samples, x fastest, from byte `offset` on, or at the end of the file if `from_end`."""
+    """Return a memory map of samples, x fastest, from byte `offset` on, or at the end of the file
+    if `from_end`.
+    """
     size = path.stat().st_size
     byte_count = dtype.itemsize * math.prod(shape)
     if from_end:
@@ -129,7 +134,9 @@ def map_samples(
 def unpack_samples(
     path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int, limits: Limits
 ) -> NDArray:
-    """Return samples, x fastest, gzipped from byte `start` on, without the first `skip` bytes; check all checksums."""
+    """Return samples, x fastest, gzipped from byte `start` on, without the first `skip` bytes;
+    check all checksums.
+    """
     byte_count = dtype.itemsize * math.prod(shape)
     total = skip + byte_count
     room = MAX_GZIP_RATIO * path.stat().st_size
@@ -151,8 +158,9 @@ def unpack_samples(
 def gzip_blocks(path: Path, start: int) -> Iterator[bytes]:
     """Yield the unpacked data from byte `start` of a file on, in blocks of at most BLOCK bytes.
 
-    zlib compares the checksum and the length of each member. Zero bytes behind a member are padding; anything else
-    there, which the gzip tool ignores with a warning, is damage: it may have been a member of samples.
+    zlib compares the checksum and the length of each member. Zero bytes behind a member are
+    padding; anything else there, which the gzip tool ignores with a warning, is damage: it may have
+    been a member of samples.
     """
     with open(path, "rb") as file:
         file.seek(start)

@@ -34,9 +34,10 @@ SAMPLE_TYPES = (
 class Limits:
     """Limits of a file.
 
-    samples: count in one scan. unpacked_bytes: size of compressed samples, which are unpacked into memory.
-    entries: count in an archive. header_bytes: size of a header. text_bytes: size of a file of surfaces, which is text.
-    allow_outside: True if a header may name a file of samples outside of its own folder.
+    samples: count in one scan. unpacked_bytes: size of compressed samples, which are unpacked into
+    memory. entries: count in an archive. header_bytes: size of a header. text_bytes: size of a file
+    of surfaces, which is text. allow_outside: True if a header may name a file of samples outside
+    of its own folder.
     """
 
     samples: int = 1 << 33
@@ -48,7 +49,9 @@ class Limits:
 
     @classmethod
     def parse(cls, text: str) -> Limits:
-        """Return limits, some replaced by a text such as “samples=2e10, entries=5000”. QueryError if it is invalid."""
+        """Return limits, some replaced by a text such as “samples=2e10, entries=5000”. QueryError
+        if it is invalid.
+        """
         names = [field.name for field in fields(cls) if field.type == "int"]
         given = {}
         for part in filter(None, text.replace(",", " ").split()):
@@ -80,11 +83,15 @@ DEFAULT_LIMITS = Limits()
 
 
 def scan_limits() -> Limits:
-    """Return the limits that the environment variable sets, or raise QueryError if it is invalid."""
+    """Return the limits that the environment variable sets, or raise QueryError if it is
+    invalid.
+    """
     return Limits.parse(os.environ.get("BODY_MOMENTS_LIMITS", ""))
 
 
 def scan_suffix(path: str | Path) -> str:
-    """Return the suffix of a scan's file in lower case, one of `SUFFIXES`; "" if it is no scan's."""
+    """Return the suffix of a scan's file in lower case, one of `SUFFIXES`; "" if it is no
+    scan's.
+    """
     name = str(path).lower()
     return next((end for end in SUFFIXES if name.endswith(end)), "")

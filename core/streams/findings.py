@@ -14,14 +14,17 @@ FILE_TOO_LARGE = error(
 )
 NON_FINITE_COORDINATES = error(
     "non_finite_coordinates",
-    "{count} number in the file is not finite (NaN or infinity), at {place}. Repair the file, or export it again.",
-    "{count} numbers in the file are not finite (NaN or infinity), the first at {place}. Repair the file, or "
+    "{count} number in the file is not finite (NaN or infinity), at {place}. Repair the file, or "
+    "export it again.",
+    "{count} numbers in the file are not finite (NaN or infinity), the first at {place}. Repair "
+    "the file, or "
     "export it again.",
 )
 AT_ROW = note("at_row", "{element:word} {row}")
 LINE_MISREAD = error(
     "line_misread",
-    "Line {line} would be misread: it has “{text}” in the place of {expected:word}. Repair the file, or export it "
+    "Line {line} would be misread: it has “{text}” in the place of {expected:word}. Repair the "
+    "file, or export it "
     "again.",
 )
 DAMAGE_PLY_ROWS = error(
@@ -34,5 +37,6 @@ STL_CUT_SHORT = error(
 )
 THREEMF_EXTENSION = error(
     "threemf_extension",
-    "The 3MF file needs an extension that changes its shape and is not read: {name}. Export it as plain meshes.",
+    "The 3MF file needs an extension that changes its shape and is not read: {name}. Export it as "
+    "plain meshes.",
 )

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""File > Import > Robot Description for Audit: a text with its findings, on request a page and a repaired copy."""
+"""File > Import > Robot Description for Audit: a text with its findings, on request a page and a
+repaired copy.
+"""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any

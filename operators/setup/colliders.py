@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Make Colliders, Remove Colliders, and Add Equal-Inertia Shape, whose shapes are colliders too.
 
-The origin of an equal-inertia shape is the center of mass and its axes are the principal ones, which Bullet assumes;
-and from a box Bullet computes exactly the inertia of that box. So a box with the object as its child falls as the
-object does.
+The origin of an equal-inertia shape is the center of mass and its axes are the principal ones,
+which Bullet assumes; and from a box Bullet computes exactly the inertia of that box. So a box with
+the object as its child falls as the object does.
 """
 
 from __future__ import annotations

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators of the buttons beside warnings: each applies a remedy, and most measure the objects again."""
+"""Operators of the buttons beside warnings: each applies a remedy, and most measure the objects
+again.
+"""
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
@@ -150,7 +152,8 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
 
     remeasure: BoolProperty(
         name="Measure Again",
-        description="Measure the objects of the view layer that were measured, as all their numbers change",
+        description="Measure the objects of the view layer that were measured, as all their "
+        "numbers change",
         default=True,
     )
 

@@ -35,7 +35,8 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
     )
     may_differ: EnumProperty(
         name="May Differ",
-        description="What the copies may have of their own; the shared mesh has that of the first one",
+        description="What the copies may have of their own; the shared mesh has that of the first "
+        "one",
         items=(
             ("UV", "UV Maps", "Copies get the UV maps of the shared mesh"),
             (
@@ -57,7 +58,9 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
     _found: tuple | None = None  # the settings of the last search, and its kinds of meshes
 
     def _kinds(self, context: Context) -> list["Copies"]:
-        """Return the kinds of meshes among the selected objects, or all visible ones if none is selected."""
+        """Return the kinds of meshes among the selected objects, or all visible ones if none is
+        selected.
+        """
         key = self.tolerance, frozenset(self.may_differ)
         if self._found is None or self._found[0] != key:
             chosen = self._objects or context.selected_objects or context.visible_objects

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Drawing in the 3D Viewport: a few batches for all bodies, remade only after a change.
 
-Lines and discs are drawn twice, to show how deep they lie: first through everything, lines faint and discs without
-their white quadrants, then in full if nothing is in front of them. The nearest discs come last. The drawing depends on
-the session's generation and the settings, discs also on the view: as long as these stay, a redraw makes no array.
+Lines and discs are drawn twice, to show how deep they lie: first through everything, lines faint
+and discs without their white quadrants, then in full if nothing is in front of them. The nearest
+discs come last. The drawing depends on the session's generation and the settings, discs also on the
+view: as long as these stay, a redraw makes no array.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 from numpy.typing import NDArray
 
-from ...blender.session.tracking import handlers
+from ...blender.session import memory
 from ...blender.settings.scene import BodyMomentsOverlaySettings
 from ...core.numerics.float32 import shortest_decimal
 from . import appearance as look
@@ -116,7 +117,9 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
 
 
 def draw_texts(context: Context) -> None:
-    """Draw the texts of the details into a region, beside their places, and the numbers of the active body's axes."""
+    """Draw the texts of the details into a region, beside their places, and the numbers of the
+    active body's axes.
+    """
     drawn = _regions.get(context.region.as_pointer())
     scale = _scale()
     if drawn is None:
@@ -167,7 +170,7 @@ def _key(context: Context) -> tuple:
     """Return everything that the drawing depends on, besides the view."""
     settings = context.scene.body_moments.overlay
     return (
-        handlers.generation(),
+        memory.state.generation,
         context.scene.session_uid,
         context.view_layer.name,
         context.space_data.local_view is not None,
@@ -190,7 +193,9 @@ def _axis_colors() -> tuple[tuple[float, float, float], ...]:
 
 
 def _joined(parts: list[Colored]) -> dict[str, NDArray[np.float32]]:
-    """Return the vertices of parts: (k, c, 3) points of shapes with c corners, and (k, 4) colors; {} without any."""
+    """Return the vertices of parts: (k, c, 3) points of shapes with c corners, and (k, 4) colors;
+    {} without any.
+    """
     parts = [(shapes, colors) for shapes, colors in parts if len(shapes)]
     if not parts:
         return {}

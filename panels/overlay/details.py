@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Details of single objects: faults, support polygons and weights, as colored shapes and texts in the world."""
+"""Details of single objects: faults, support polygons and weights, as colored shapes and texts in
+the world.
+"""
 
 from __future__ import annotations
 
@@ -71,7 +73,9 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
 
 
 def _path(path: balance_groups.Path) -> Detail:
-    """Return a line from frame to frame with a tick at each, orange if the center is outside the support polygon."""
+    """Return a line from frame to frame with a tick at each, orange if the center is outside the
+    support polygon.
+    """
     ticks = np.stack([path.centers, path.centers], axis=1)
     ticks[:, 1, 2] += 0.01 * float(np.ptp(path.centers, axis=0).max())
     inside = np.ones(len(ticks), bool) if path.inside is None else path.inside
@@ -91,7 +95,9 @@ def _path(path: balance_groups.Path) -> Detail:
 
 
 def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
-    """Return the arc of free fall beside each flight of a path, with a cross at take-off and at landing."""
+    """Return the arc of free fall beside each flight of a path, with a cross at take-off and at
+    landing.
+    """
     if path.contact is None or not scene.use_gravity:
         return []
     details = []
@@ -138,7 +144,9 @@ def _weight(context: Context, weight: Weight) -> list[Detail]:
 
 
 def support_detail(support: Support) -> Detail:
-    """Return the support polygon, filled if the body stands, and an arrow from the foot to the tipping edge."""
+    """Return the support polygon, filled if the body stands, and an arrow from the foot to the
+    tipping edge.
+    """
     color = look.TIPS if not support.stands else look.EDGE if support.is_near_edge else look.SUPPORT
     corners, foot = support.polygon, support.foot
     outline = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)

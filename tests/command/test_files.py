@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files opened by the command line: every format, its unit and axes, and broken files of all kinds."""
+"""Files opened by the command line: every format, its unit and axes, and broken files of all
+kinds.
+"""
 
 import gzip
 import json

@@ -116,7 +116,9 @@ def fake(tmp_path, monkeypatch):
 
 @pytest.fixture
 def main(tmp_path, fake, capsys):
-    """`measure` with these words: exit code, documents by file, lines on the standard error, lines of the journal."""
+    """`measure` with these words: exit code, documents by file, lines on the standard error, lines
+    of the journal.
+    """
     (tmp_path / "out").mkdir()
 
     def run(*words, reads=True):
@@ -220,7 +222,10 @@ def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
 def test_child_over_its_time_or_memory_is_ended(
     name, status, words, reason, tmp_path, main, monkeypatch
 ):
-    """One at a time: what takes too much may take long, too, where memory is slow. What is late may clean up first."""
+    """One at a time: what takes too much may take long, too, where memory is slow.
+
+    What is late may clean up first.
+    """
     monkeypatch.setattr(processes, "_GRACE", 10.0)  # A busy machine may need as much.
     code, documents, said, journal = main(tmp_path / name, tmp_path / "ok", *words, "--jobs", "1")
     assert code == 1 and [one["status"] for one in documents] == [status, "ok"]
@@ -256,7 +261,8 @@ def test_recorded_file_is_not_measured_again(tmp_path, main, fake):
     assert again == documents and said[-1] == totals.format("2 files")
     assert (
         said[0]
-        == "body_moments: 3 of 5 files reused; to measure: 1 changed, 1 whose references have changed"
+        == "body_moments: 3 of 5 files reused; to measure: 1 changed, 1 whose references have "
+        "changed"
     )
     assert {one["path"] for one in fake("verb")[asked:]} == {str(paths[0]), str(paths[2])}
     assert len(journal) == 7

@@ -19,7 +19,9 @@ print(options.function.__name__, options.arguments, getattr(options, "subject", 
 
 
 def parsed(*words: str) -> str:
-    """Return the parsed command line, from a process of its own: no other module has the name there."""
+    """Return the parsed command line, from a process of its own: no other module has the name
+    there.
+    """
     command = [sys.executable, "-c", PARSED, str(TESTS), *words]
     return subprocess.run(command, capture_output=True, encoding="utf-8", check=True).stdout.strip()
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Start of the add-on in a Blender that has not loaded numpy: registration and panels do without it."""
+"""Start of the add-on in a Blender that has not loaded numpy: registration and panels do without
+it.
+"""
 
 import subprocess
 import sys

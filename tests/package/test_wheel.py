@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The wheel in an environment that has numpy alone, once the oldest numpy that it states and once the newest."""
+"""The wheel in an environment that has numpy alone, once the oldest numpy that it states and once
+the newest.
+"""
 
 import json
 import os
@@ -120,7 +122,9 @@ def test_the_command_tells_what_needs_blender(scripts, tmp_path):
 
 @pytest.mark.skipif(os.name == "nt", reason="the action's shell is bash")
 def test_action_fails_for_an_impossible_robot(scripts, tmp_path):
-    """Its commands as a runner starts them: in the workspace, with its variables and the defaults of the inputs."""
+    """Its commands as a runner starts them: in the workspace, with its variables and the defaults
+    of the inputs.
+    """
     action = (ROOT / "action.yml").read_text(encoding="utf-8")
     inputs = dict(
         re.findall(r"^  ([\w-]+):\n    description: .*\n    default: (.*)$", action, re.MULTILINE)
@@ -149,7 +153,9 @@ def test_action_fails_for_an_impossible_robot(scripts, tmp_path):
 
 
 def test_pre_commit_refuses_an_impossible_robot(scripts, tmp_path):
-    """pre-commit itself installs the hook from this repository, and runs it on files that are added."""
+    """pre-commit itself installs the hook from this repository, and runs it on files that are
+    added.
+    """
     run([scripts / "python", "-m", "pip", "install", "pre-commit"], check=True)
     run(["git", "init", "-q", tmp_path], check=True)
     for text, code in (

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Work that takes long: the window lives on and shows how far it is, Esc leaves nothing half-written, and results come.
+"""Work that takes long: the window lives on and shows how far it is, Esc leaves nothing
+half-written, and results come.
 
 Measure Library from the menu, by mouse, then a thousand parts, then a Fourier transform.
 """
@@ -127,7 +128,8 @@ def test_esc_during_rigid_body_masses_changes_no_object(parts):
     window = parts
     window.point_at_view()
     window.ask(
-        "bpy.ops.object.body_moments_set_rigid_body_mass('INVOKE_DEFAULT', True, add=True, axes=True)"
+        "bpy.ops.object.body_moments_set_rigid_body_mass('INVOKE_DEFAULT', True, add=True, "
+        "axes=True)"
     )
     window.key("Escape")
     window.wait("not " + RUNNING, limit=200.0)

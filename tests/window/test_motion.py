@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A floaty jump in the real window: its momentum from nothing is listed, and Put on Parabola takes it away."""
+"""A floaty jump in the real window: its momentum from nothing is listed, and Put on Parabola takes
+it away.
+"""
 
 import os
 
@@ -83,7 +85,8 @@ def test_jump_is_filmed_floaty_and_falling(run_blender, cube_file, tmp_path):
     with open_window(run_blender, cube_file, tmp_path) as window:
         window.ask(FIGURE + JUMP)
         window.ask(
-            "view = area.spaces.active.region_3d\nview.view_location.y, view.view_distance = -0.65, 4.6"
+            "view = area.spaces.active.region_3d\nview.view_location.y, view.view_distance = "
+            "-0.65, 4.6"
         )
         window.ask("bpy.context.preferences.system.viewport_aa = '8'")
         window.open_tab("Moments")

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The overlay's pixels in the window: the disc is at the projected center, says the verdict, follows a move in the same
-redraw, and is gone when it is switched off or the add-on is disabled.
+"""The overlay's pixels in the window: the disc is at the projected center, says the verdict,
+follows a move in the same redraw, and is gone when it is switched off or the add-on is disabled.
 
 The tests run in the order of the file and go on from one another.
 """
@@ -38,7 +38,8 @@ def white_pixels_of_disc(window, name):
     window.get("True")
     screen = window.pixels(name)
     x, y = window.ask(
-        "from bpy_extras.view3d_utils import location_3d_to_region_2d as project\nregion = regions['WINDOW']\n"
+        "from bpy_extras.view3d_utils import location_3d_to_region_2d as project\nregion = "
+        "regions['WINDOW']\n"
         "center = bpy.data.objects['Cube'].matrix_world.translation\n"
         "place = project(region, area.spaces.active.region_3d, center)\n"
         "result = [round(region.x + place.x), round(region.y + place.y)]"

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Preferences go into the scene when it is first used: elsewhere, with other preferences, the file gives the same."""
+"""Preferences go into the scene when it is first used: elsewhere, with other preferences, the file
+gives the same.
+"""
 
 import json
 
@@ -43,7 +45,10 @@ print("SEEN", json.dumps([seen, settings.overlay.show, cube["body_mass"]]))
 
 @pytest.fixture(scope="module")
 def saved(run_blender, cube_file, tmp_path_factory):
-    """The file that was measured where the preferences were those above. They were not saved as preferences."""
+    """The file that was measured where the preferences were those above.
+
+    They were not saved as preferences.
+    """
     folder = tmp_path_factory.mktemp("preferences")
     script, file = folder / "measured.py", folder / "measured.blend"
     script.write_text(MEASURED, encoding="utf-8")

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A character and an assembly in the real window: buttons pressed by the mouse, what panels and overlay then show."""
+"""A character and an assembly in the real window: buttons pressed by the mouse, what panels and
+overlay then show.
+"""
 
 import pytest
 
@@ -81,7 +83,8 @@ def test_bones_are_measured_and_drawn_in_their_pose(rig):
     window.ask("bpy.context.scene.body_moments.overlay.show = True")
     window.ask("bpy.ops.object.mode_set(mode='POSE')\nbpy.ops.pose.select_all(action='SELECT')")
     window.ask(
-        "with bpy.context.temp_override(area=area, region=regions['WINDOW']):\n    bpy.ops.view3d.view_all()"
+        "with bpy.context.temp_override(area=area, region=regions['WINDOW']):\n    "
+        "bpy.ops.view3d.view_all()"
     )
     window.picture("rig-overlay")
     assert "Traceback" not in window.output()
@@ -101,7 +104,8 @@ def test_the_assembly_is_a_tree(rig):
     window = rig
     window.ask(
         "bpy.ops.object.mode_set(mode='OBJECT')\n"
-        "bpy.context.view_layer.active_layer_collection = bpy.context.view_layer.layer_collection.children['Character']"
+        "bpy.context.view_layer.active_layer_collection = "
+        "bpy.context.view_layer.layer_collection.children['Character']"
     )
     window.ask("bpy.ops.object.body_moments_measure_assembly('EXEC_DEFAULT', True)")
     assert (

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of measured objects in the window: a click on a line selects, one on a column sorts, a button copies."""
+"""The list of measured objects in the window: a click on a line selects, one on a column sorts, a
+button copies.
+"""
 
 import csv
 import io
@@ -84,7 +86,8 @@ def test_a_click_on_a_line_selects_that_object(listed):
     ]
     found = []
     for line in range(3):
-        window.buttons.clear()  # the panel above the list changes with the active object, and moves it
+        # the panel above the list changes with the active object, and moves it
+        window.buttons.clear()
         x, y = center(window, "object.body_moments_copy")
         window.click(x, y + FIRST_OF_CLOSED - line * LINE_STEP)
         window.redraw()

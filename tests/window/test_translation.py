@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Languages of a real Blender: translations are read when one is chosen, and are gone with the add-on."""
+"""Languages of a real Blender: translations are read when one is chosen, and are gone with the
+add-on.
+"""
 
 import json
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The node group Center of Mass in a Blender that has never seen the add-on: modifiers and animation are followed."""
+"""The node group Center of Mass in a Blender that has never seen the add-on: modifiers and
+animation are followed.
+"""
 
 import json
 import subprocess
@@ -83,7 +85,9 @@ print("SEEN", json.dumps(seen))
 
 @pytest.fixture(scope="module")
 def without_addon(run_blender, tmp_path_factory):
-    """Return the numbers of the file in a Blender with factory settings and an empty user folder."""
+    """Return the numbers of the file in a Blender with factory settings and an empty user
+    folder.
+    """
     folder = tmp_path_factory.mktemp("nodes")
     made, read, file = folder / "made.py", folder / "read.py", folder / "nodes.blend"
     made.write_text(MADE, encoding="utf-8")

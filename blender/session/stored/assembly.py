@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stored results of an assembly: on it, on its assemblies and measured objects; its tree and bill of masses."""
+"""The stored results of an assembly: on it, on its assemblies and measured objects; its tree and
+bill of masses.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +41,8 @@ from ...write import properties
 from ..tracking import handlers, staleness, stamps
 from . import reference, results
 
-SAME_RTOL = 1e-5  # relative to mass and radius of gyration: other coordinates of the same body may change as much
+# relative to mass and radius of gyration: other coordinates of the same body may change as much
+SAME_RTOL = 1e-5
 COLUMNS = (
     *("level", "name", "type", "counted", "method", "mass", "share", "density", "volume", "area"),
     *(f"center_of_mass_{axis}" for axis in "xyz"),
@@ -56,7 +59,9 @@ COLUMNS = (
 
 
 def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
-    """Store the results of an assembly and its members; return names of members that cannot hold them, and reasons."""
+    """Store the results of an assembly and its members; return names of members that cannot hold
+    them, and reasons.
+    """
     scene = context.scene
     depsgraph = context.evaluated_depsgraph_get()
     unit = shortest_decimal(scene.unit_settings.scale_length)
@@ -89,7 +94,9 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
 
 
 def clear(root: Root) -> bool:
-    """Remove the results of an assembly; return whether there were any; EditRefusedError if it cannot be changed."""
+    """Remove the results of an assembly; return whether there were any; EditRefusedError if it
+    cannot be changed.
+    """
     properties.require_storable(root)
     settings_of(root).rows.clear()
     return properties.clear(root)
@@ -97,10 +104,12 @@ def clear(root: Root) -> bool:
 
 @contextmanager
 def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[None]:
-    """Keep assemblies up to date while a block gives members other frames, or stores other masses of them.
+    """Keep assemblies up to date while a block gives members other frames, or stores other masses
+    of them.
 
-    A total that is the plain sum of its members follows their masses. An assembly keeps its old stamp if a member's
-    results are out of date, or if instances or given masses are in its total. member: the only one that changes.
+    A total that is the plain sum of its members follows their masses. An assembly keeps its old
+    stamp if a member's results are out of date, or if instances or given masses are in its total.
+    member: the only one that changes.
     """
     scene = context.scene
     depsgraph = context.view_layer.depsgraph
@@ -176,7 +185,9 @@ def _is_sum(root: Root, bodies: dict[Object, PlainBody]) -> bool:
 
 
 def _scale_rows(root: Root, gains: dict[str, float], mass: float) -> None:
-    """Add the gains of objects, by name, to their rows and to those of the assemblies that they are in."""
+    """Add the gains of objects, by name, to their rows and to those of the assemblies that they are
+    in.
+    """
     above: list[PropertyGroup] = []
     for row in settings_of(root).rows:
         above = [*(upper for upper in above if upper.depth < row.depth), row]
@@ -229,7 +240,9 @@ def _write_rows(assembly: Assembly) -> None:
 def _tree(
     part: MemberBody, depth: int, factor: float, counted: bool
 ) -> Iterator[tuple[int, MemberBody, float, bool]]:
-    """Yield for each member its depth, itself, the factor of its mass by instances, and whether its mass counts."""
+    """Yield for each member its depth, itself, the factor of its mass by instances, and whether its
+    mass counts.
+    """
     yield depth, part, factor, counted
     below = sum([_own_mass(member) for member in part.parts], 0.0)
     if part.member.kind == MemberKind.INSTANCE and below > 0.0:
@@ -256,7 +269,8 @@ def _row_findings(part: MemberBody) -> list[Finding]:
 
 
 def bill_csv(root: MemberBody, mass: float) -> list[str]:
-    """Return the lines of the bill of an assembly with this mass, kg, as CSV: the header, then its rows.
+    """Return the lines of the bill of an assembly with this mass, kg, as CSV: the header, then its
+    rows.
 
     SI units; the inertia of a member is about its own center of mass, along the world axes.
     """

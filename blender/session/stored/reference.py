@@ -29,7 +29,9 @@ Point = tuple[float, ...]
 
 
 def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Finding | None:
-    """Return an owner's inertia about the scene's reference, from stored results; else the reason, or None if none."""
+    """Return an owner's inertia about the scene's reference, from stored results; else the reason,
+    or None if none.
+    """
     choice = ReferenceChoice.from_settings(scene.body_moments_reference)
     body = _stored_body(owner, scene)
     if body is None:
@@ -41,7 +43,9 @@ def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Find
 
 
 def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None = None) -> None:
-    """Write the inertia about a reference, by default the scene's, beside stored results, or raise MeasureError."""
+    """Write the inertia about a reference, by default the scene's, beside stored results, or raise
+    MeasureError.
+    """
     choice = choice or ReferenceChoice.from_settings(scene.body_moments_reference)
     body = _stored_body(owner, scene)
     if body is None:
@@ -74,7 +78,9 @@ def stored_choice(owner: Object | Collection) -> ReferenceChoice | None:
 
 
 def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None) -> None:
-    """Store the inertia about the stored reference again after new results, unless the reference is gone."""
+    """Store the inertia about the stored reference again after new results, unless the reference is
+    gone.
+    """
     if choice is not None:
         with suppress(MeasureError):
             store(owner, scene, choice)
@@ -139,7 +145,9 @@ class ReferenceChoice:
             return None
 
     def resolve(self, owner: bpy.types.ID, scene: Scene, center: Sequence[float]) -> Reference:
-        """Return the reference frame (SI, world axes) for an owner with this center of mass, or raise QueryError."""
+        """Return the reference frame (SI, world axes) for an owner with this center of mass, or
+        raise QueryError.
+        """
         unit = shortest_decimal(scene.unit_settings.scale_length)
         if self.about == "CENTER":
             return Reference(center)

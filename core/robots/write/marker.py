@@ -20,12 +20,15 @@ _SARIF = re.compile(
 )
 MARKER = "Body Moments: {}"  # In the first lines of our robot files, which may be overwritten.
 _HEAD = re.compile(
-    rb"(<\?xml [^>]*>\s*<!-- |#usda 1.0\s*\(\s*\"\"\"|\{\s*\"asset\": \{\s*\"generator\": \")Body Moments: \w+[\s\"]"
+    rb"(<\?xml [^>]*>\s*<!-- |#usda "
+    rb"1.0\s*\(\s*\"\"\"|\{\s*\"asset\": \{\s*\"generator\": \")Body Moments: \w+[\s\"]"
 )
 
 
 def is_audit(head: bytes) -> bool:
-    """Return whether a file that begins with `head` is an audit report in a form other than JSON."""
+    """Return whether a file that begins with `head` is an audit report in a form other than
+    JSON.
+    """
     first = head.split(b"\n", 1)[0].rstrip(b"\r").decode("utf-8", "replace")
     return first in (",".join(AUDIT_COLUMNS), AUDIT_PAGE, AUDIT_TEXT, AUDIT_COMMANDS) or bool(
         _SARIF.match(head)

@@ -38,7 +38,9 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def _order(joint: Joint) -> bool | None:
-    """Return True if a joint moves before it turns, False if it turns first, None if it does neither."""
+    """Return True if a joint moves before it turns, False if it turns first, None if it does
+    neither.
+    """
     kinds = [free.kind for free in joint.free]
     return (
         True if kinds == sorted(kinds, reverse=True) else False if kinds == sorted(kinds) else None
@@ -103,7 +105,10 @@ def _add_geometry(parent: Element, shape: Shape) -> None:
 
 
 def _add_frame(parent: Element, name: str, body: str, pose: Pose) -> Element:
-    """Add a frame of a body, "" for the ground, and return it. Its angles turn about its own x, y and z in turn."""
+    """Add a frame of a body, "" for the ground, and return it.
+
+    Its angles turn about its own x, y and z in turn.
+    """
     frame = SubElement(parent, "PhysicalOffsetFrame", name=name)
     add_text(frame, "socket_parent", "/bodyset/" + body if body else "/ground")
     add_text(frame, "translation", numbers(pose.position))
@@ -129,7 +134,10 @@ def _add_root(joints: Element, robot: Robot, link: Link, name: str) -> None:
 def _add_joint(
     joints: Element, robot: Robot, joint: Joint, name: str, names: dict[str, str]
 ) -> None:
-    """Add a joint. A CustomJoint moves before it turns; one that turns first is stated from its other side."""
+    """Add a joint.
+
+    A CustomJoint moves before it turns; one that turns first is stated from its other side.
+    """
     place = robot.pose_in_parent(robot.link(joint.child)) @ joint.pose
     ends = ((names[joint.parent], place), (names[joint.child], joint.pose))
     kind = "BallJoint" if joint.is_ball else "CustomJoint" if joint.free else "WeldJoint"

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of materials beside rounded values that engineers' tables agree on: a slip of a digit is seen."""
+"""The list of materials beside rounded values that engineers' tables agree on: a slip of a digit is
+seen.
+"""
 
 import pytest
 from body_moments.core.density.materials import BY_NAME, MATERIALS
