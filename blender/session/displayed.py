@@ -19,13 +19,13 @@ from bpy.types import ID, Context, Object, PoseBone, Scene, ViewLayer
 
 from ...core.inertia.plain_body import PlainBody, add_bodies
 from ...core.lazy import loaded_module
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
 from ...core.verdict.method import Method, Procedure
 from ...core.verdict.sentences import Group, grouped
 from ...core.verdict.verdict import Verdict, find_verdict, open_body_caveats
 from .. import read
 from ..read.fingerprint import has_transform
+from ..scale import meters_per_unit
 from ..write import properties
 from ..write.units import Units
 from . import live, memory
@@ -121,7 +121,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
     if own is None:
         return None
     verdict = Verdict.OUT_OF_DATE if is_behind else find_verdict(method, findings)
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     return Displayed(
         own, own.in_world(obj.matrix_world, unit), unit, method, findings, verdict, reason, now, lag
     )
@@ -212,7 +212,7 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     own = properties.stored(bone)
     if own is None:
         return None
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     world = own.in_world(armature.matrix_world @ bone.matrix, unit)
     method = properties.method(bone)
     findings = properties.findings(armature)
@@ -229,7 +229,7 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
     world = add_bodies([part.world for part in known])
     if world is None:
         return None
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     rest = properties.optional(armature, "body_mass")
     if rest is not None:  # posing stretches and squeezes the skin, and leaves the mass
         factor = rest / world.mass
@@ -258,7 +258,7 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     weight = character.weight(armature, depsgraph)
     if weight is None:
         return None
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     method = properties.method(armature)
     findings = properties.findings(armature)
     reason = stale_reason(armature, scene)

@@ -106,8 +106,8 @@ class ObjReader:
         points, weights = self._points()
         bodies: dict[str, list[Face]] = {}
         for element in self._elements:
-            faces = partial(_faces, element, points, weights, self._for_blender)
-            made = self._refusals.keep(KIND, element.name, faces)
+            make = partial(_faces, element, points, weights, self._for_blender)
+            made = self._refusals.keep(KIND, element.name, make)
             bodies.setdefault(element.body, []).extend(made)
         return self._refusals.file(
             [SurfaceBody(name, tuple(patches)) for name, patches in bodies.items()]

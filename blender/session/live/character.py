@@ -28,6 +28,7 @@ from ...bodies.rig import Rig, measure_rig
 from ...read.bones import RestBones
 from ...read.mesh import vertex_points
 from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
+from ...scale import meters_per_unit
 from ...scene.rigid_world import down
 from ...write import properties
 from ...write.reports import Refused
@@ -215,7 +216,7 @@ class Character:
         """Return a held object as a part at its own place, without mass if it cannot be
         measured.
         """
-        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        unit = meters_per_unit(depsgraph.scene)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         mass = np.zeros(1)
         center = matrix[:3, 3]
@@ -337,7 +338,7 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     """
 
     def stand() -> Weight | None:
-        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        unit = meters_per_unit(depsgraph.scene)
         known = character(armature, unit)
         if known is None or any(
             name not in armature.pose.bones for name in known.names
@@ -377,7 +378,7 @@ def find(context: Context, armature: Object) -> tuple[Character, float, Rig | No
     Measure and find the ground only if necessary.
     """
     settings = armature.body_moments_weight
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     if not settings.show:
         require_gravity(context.scene)
     rig = _measure_outdated(context, armature)

@@ -13,9 +13,9 @@ from ....core.inertia.mass_properties import affine_image
 from ....core.inertia.plain_body import PlainBody
 from ....core.measurement.measurement import Measurement
 from ....core.moments.affine_maps import are_singular
-from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
 from ...read.fingerprint import has_transform
+from ...scale import meters_per_unit
 from ...settings.options import object_settings
 from .. import memory
 from .following import Followed, Lag
@@ -73,7 +73,7 @@ def _mapped(
     if linear is None or current.matrix is None:
         return shown
     now = float64_matrix(obj.matrix_world)
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     stretch = abs(np.linalg.det(linear))
     center = measured.mass_properties.center / unit
     if current.first_order is None:

@@ -26,6 +26,7 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import MeasureError
 from ...bodies.measure_object import Measured
 from ...bodies.request import Request, measurement_of
+from ...scale import meters_per_unit
 from ...settings import hooks
 from ...settings.density import grid_key
 from ...write import properties
@@ -64,7 +65,7 @@ def remember(obj: Object, measured: Measured, scene: Scene) -> None:
     stamp = stamps.Stamp.parse(measured.measurement.fingerprint)
     reading = measured.reading
     body = measured.body
-    of_stamp = {stamp.geometry}, stamp.transform, shortest_decimal(scene.unit_settings.scale_length)
+    of_stamp = {stamp.geometry}, stamp.transform, meters_per_unit(scene)
     if isinstance(body, WallBody) and body.walls is not None:
         memory.walls[obj] = _Kept(replace(reading, parts=[]), body.walls.drop_arrays(), *of_stamp)
         if on_wall_setting not in hooks.on_wall_change:
@@ -146,7 +147,7 @@ def _current(
         or stamp.transform != kept.transform
     ):
         return None
-    if scene is not None and shortest_decimal(scene.unit_settings.scale_length) != kept.unit:
+    if scene is not None and meters_per_unit(scene) != kept.unit:
         return None
     return None if scene is not None and staleness.is_edited(obj) else kept
 

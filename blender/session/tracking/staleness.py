@@ -27,7 +27,6 @@ import bpy
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ....core import measurement
-from ....core.numerics.float32 import shortest_decimal
 from ... import read
 from ...read.fingerprint import (
     colliders_digest,
@@ -37,6 +36,7 @@ from ...read.fingerprint import (
     settings_hash,
 )
 from ...read.tracking import tracking_paused
+from ...scale import meters_per_unit
 from ...settings.given import COLLIDERS
 from ...write import properties
 from .. import memory
@@ -93,7 +93,7 @@ def _has_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
 
 
 def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
-    return stamp.extra == shortest_decimal(scene.unit_settings.scale_length)
+    return stamp.extra == meters_per_unit(scene)
 
 
 def _has_colliders(obj: Object, _stamp: Stamp, _scene: Scene) -> bool:

@@ -81,8 +81,9 @@ class Stamp(NamedTuple):
 
 
 def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
-    """Attach a stamp to an original object's data in memory, and return it. number: of the last update
-    at their making.
+    """Attach a stamp to an original object's data in memory, and return it.
+
+    number: of the last update at their making.
     """
     stamp = Stamp(
         kind,
