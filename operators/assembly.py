@@ -14,12 +14,12 @@ from bpy.types import Context, Event, Operator
 from mathutils import Matrix
 
 from ..blender import bodies, read, scene, session
+from ..blender.scale import meters_per_unit
 from ..blender.scene.changes import require_editable
 from ..blender.scene.findings import OPEN_OBJECT
 from ..blender.session import stored
 from ..blender.settings.assembly import Root, active_assembly, is_assembly
 from ..blender.write import properties, reports
-from ..core.numerics.float32 import shortest_decimal
 from ..core.verdict.finding import EditRefusedError, MeasureError, Severity
 from ..core.verdict.method import Procedure
 from ..core.verdict.sentences import of_severity
@@ -144,7 +144,7 @@ class _SnapToAssembly:
         for part in assembly.root.walk():
             if part.measurement is not None and part.measurement.method.procedure == Procedure.OPEN:
                 raise EditRefusedError(OPEN_OBJECT, subject=part.member.name)
-        unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = meters_per_unit(context.scene)
         center = (assembly.measurement.mass_properties.center / unit).tolist()
         return selection.report(self, self._place(context, assembly, center))
 
@@ -192,7 +192,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
             empty[FRAME_OF] = owner
             context.scene.collection.objects.link(empty)
         require_editable(empty)
-        unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = meters_per_unit(context.scene)
         empty.empty_display_size = max(float(body.radii_of_gyration.max()) / unit, 1e-3)
         frame = Matrix(body.principal.axes.tolist()).to_4x4()
         frame.translation = center

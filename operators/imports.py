@@ -24,9 +24,9 @@ from bpy_extras.io_utils import ImportHelper
 
 from .. import core
 from ..blender import read, scene
+from ..blender.scale import meters_per_unit
 from ..blender.write import reports
 from ..blender.write.findings import FILE_NOT_WRITTEN
-from ..core.numerics.float32 import shortest_decimal
 from ..core.scans.scan_files import SAMPLE_TYPES, SUFFIXES
 from ..core.verdict.finding import FileError, Finding, MeasureError
 from . import selection
@@ -122,7 +122,7 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         target = placed.target
         if target.exists() and not self.overwrite:
             raise FileError(FILE_EXISTS, file=target.name)
-        unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = meters_per_unit(context.scene)
         try:
             low = scene.write_volume(module, placed, unit)
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors

@@ -11,6 +11,7 @@ from math import degrees, dist
 from bpy.types import Context, Object
 
 from ..blender.read.visibility import measurable
+from ..blender.scale import meters_per_unit
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_colliders
 from ..blender.settings.given import COLLIDER, COLLIDERS
@@ -68,7 +69,7 @@ class CollidersPanel:
         rows.filled(
             column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"]
         )
-        size = max(body.dimensions) * context.scene.unit_settings.scale_length
+        size = max(body.dimensions) * meters_per_unit(context.scene)
         shift = dist(stored["center_shift"], (0.0, 0.0, 0.0))
         changes = (
             abs(stored.get("mass_ratio", 1.0) - 1.0),

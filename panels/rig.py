@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 from bpy.types import Context, Panel, PoseBone, UILayout
 
+from ..blender.scale import meters_per_unit
 from ..blender.session import live
 from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..core.lazy import loaded_module
-from ..core.numerics.float32 import shortest_decimal
 from . import rows
 from .places import AmongProperties, in_both_places
 
@@ -80,7 +80,7 @@ class WeightPanel:
         layout, armature = self.layout, context.object
         layout.use_property_decorate = False
         settings = armature.body_moments_weight
-        unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = meters_per_unit(context.scene)
         row = layout.row()
         row.scale_y = 1.4
         row.operator("pose.body_moments_show_weight", icon="CON_FLOOR", depress=settings.show)

@@ -44,6 +44,7 @@ from ...core.scans.scan_files import Limits, scan_suffix
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.splines import keep_faces
+from ..scale import meters_per_unit
 from .findings import SCAN_NON_FINITE, SURFACES_ROUNDED
 
 MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit
@@ -264,7 +265,7 @@ def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -
         file = read_surfaces(path, limits)
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-    scale = shortest_decimal(context.scene.unit_settings.scale_length)
+    scale = meters_per_unit(context.scene)
     factor = (shortest_decimal(unit) if file.unit is None else file.unit) / scale
     made = import_bodies(file.bodies, context.collection, factor)
     patches = [patch for body in file.bodies for patch in body.patches]

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import bpy
 from bpy.types import Context, GeometryNodeTree, Node, NodeSocket, Object
 
-from ...core.numerics.float32 import shortest_decimal
+from ..scale import meters_per_unit
 from ..settings.density import object_density
 
 GROUP_NAME = "Center of Mass"
@@ -169,7 +169,7 @@ def add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object
     source = make.node("GeometryNodeObjectInfo", 1, transform_space="RELATIVE")
     source.inputs["Object"].default_value = obj
     nodes = make.node("GeometryNodeGroup", 2, node_tree=group)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     nodes.inputs["Density"].default_value = (
         object_density(obj.body_moments, context.scene) * unit**3
     )

@@ -16,9 +16,9 @@ from bpy.types import Context, Object, PoseBone
 from mathutils import Matrix, Vector
 
 from ...core.mesh.surface import join_surfaces
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError
 from ..bodies.rig import BonePart, Rig
+from ..scale import meters_per_unit
 from .changes import MadeCollection
 from .findings import RIGID_BODY_MASS_TOO_SMALL
 from .rigid_world import MIN_MASS, add_joint, add_rigid_bodies, require_rigid_world
@@ -30,7 +30,7 @@ RIG_OF = "physics_rig_of"
 def add_center(context: Context, rig: Rig) -> None:
     """Add an empty that follows the character's center of mass."""
     armature = rig.armature
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     made = MadeCollection(context, armature, CENTER_OF, "Center of Mass")
     center = bpy.data.objects.new("{:s} Center of Mass".format(armature.name), None)
     center.empty_display_type = "SPHERE"
@@ -84,7 +84,7 @@ def create_physics_rig(context: Context, rig: Rig) -> tuple[int, int]:
                 limit=MIN_MASS,
             )
     require_rigid_world(context.scene, joints=True)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     made = MadeCollection(context, rig.armature, RIG_OF, "Physics Rig")
     bodies = {part.name: _body(made, rig.armature, part, unit) for part in parts}
     add_rigid_bodies(context, list(bodies.values()))

@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from ...core.bodies.reading import Part
 from ...core.measurement.measurement import Measurement
 from ...core.moments.moments import Measure
-from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.balancing import balance
 from ...core.statics.findings import BALANCE_NO_EFFECT, BALANCE_SHORT
 from ...core.verdict.finding import EditRefusedError, MeasureError
@@ -33,6 +32,7 @@ from ..read.findings import SCALE_ZERO_AXIS
 from ..read.mesh import vertex_points
 from ..read.objects import read_object
 from ..read.tracking import tracking_paused
+from ..scale import meters_per_unit
 from .findings import (
     BALANCE_NO_VERTICES,
     BALANCE_SETTINGS,
@@ -137,7 +137,7 @@ def balance_mesh(
     """
     mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _StoredMesh(obj, group)
     up = -down(context.scene)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     across = np.eye(3) if align == "ALL" else np.linalg.svd(up[None])[2][1:]
     target = np.array(point, np.float64) * unit
     _require_balanceable(obj)

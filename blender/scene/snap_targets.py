@@ -22,13 +22,13 @@ from numpy.typing import NDArray
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.plain_body import EQUAL_AXES
 from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
-from ...core.numerics.float32 import shortest_decimal
 from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict.finding import EditRefusedError, Finding
 from ...core.verdict.method import Procedure
 from ..bodies.measure_object import Measured, measure_body
 from ..bodies.stacks.many import measured_in_turn
 from ..bodies.stacks.stack import Stacked
+from ..scale import meters_per_unit
 from ..settings.options import MeasureOptions
 from . import reframe
 from .changes import ancestors
@@ -136,7 +136,7 @@ def target_of(
     """Return the `snap_target` of a measured object."""
     if measured.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     body = measured.mass_properties
     principal = body.principal
     if strict:
@@ -218,7 +218,7 @@ def plan_match(
     """
     if match.is_mirror_image:
         raise EditRefusedError(MIRROR_IMAGE)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     matrix = world(obj)
     matrix[:3, :3] = match.rotation @ matrix[:3, :3]
     matrix[:3, 3] = (target.center + match.rotation @ (matrix[:3, 3] * unit - shape.center)) / unit

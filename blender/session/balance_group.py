@@ -12,7 +12,6 @@ import numpy as np
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
-from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.support import Support, find_contacts, support_of_contacts
 from ...core.verdict import internal_error
 from ...core.verdict.finding import EditRefusedError, MeasureError
@@ -20,6 +19,7 @@ from ..bodies.assembly.assembly import measure_assembly
 from ..read.assembly import Member, MemberKind, members_of, settings_of
 from ..read.rig import is_skin_of
 from ..read.visibility import measurable
+from ..scale import meters_per_unit
 from ..scene.rigid_world import down
 from ..write.properties import BALANCE_GROUP
 from ..write.reports import Refused
@@ -129,7 +129,7 @@ class BalanceGroup:
         """Return the common center at this frame, in Blender's units."""
         if self._assembly is not None:
             body = measure_assembly(self._assembly, depsgraph).measurement.mass_properties
-            return body.center / shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+            return body.center / meters_per_unit(depsgraph.scene)
         masses, centers = zip(*[motion.mass_and_center(obj, depsgraph) for obj in self.objects])
         return centers[0] + np.einsum(
             "i,ij->j", np.array(masses) / np.sum(masses), np.array(centers) - centers[0]

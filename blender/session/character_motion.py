@@ -19,12 +19,12 @@ from mathutils import Euler, Quaternion
 from numpy.typing import NDArray
 
 from ...core.bodies.reading import float64_matrix
-from ...core.numerics.float32 import shortest_decimal
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.rig import motion
 from ...core.verdict.finding import EditRefusedError
 from ..read.rig import require_armature
 from ..read.tracking import tracking_paused
+from ..scale import meters_per_unit
 from ..scene import fcurves
 from ..scene.changes import require_editable
 from ..scene.transforms import TransformChannels
@@ -86,7 +86,7 @@ class CharacterMotion(BalanceGroup):
         finally:
             scene.frame_set(before, subframe=subframe)
         self._context = context
-        self.unit = shortest_decimal(scene.unit_settings.scale_length)
+        self.unit = meters_per_unit(scene)
         self.armature, self.frames = armature, frames
         self.step = scene.render.fps_base / scene.render.fps
         self.objects, self.feet = [armature], [armature]

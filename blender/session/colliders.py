@@ -20,12 +20,12 @@ from ...core.measurement.settings import digest
 from ...core.mesh.hulls import convex_hull
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.moments.affine_maps import are_singular
-from ...core.numerics.float32 import shortest_decimal
 from ...core.robots.model import Pose, Shape
 from ...core.verdict.finding import ReadError
 from ..bodies.measure_object import Measured, measure_body
 from ..read.findings import OBJECT_WITHOUT_GEOMETRY, SCALE_ZERO_AXIS
 from ..read.fingerprint import colliders_digest
+from ..scale import meters_per_unit
 from ..scene import colliders as scene
 from ..scene.changes import require_storable_data
 from ..settings.given import COLLIDER, COLLIDERS
@@ -67,7 +67,7 @@ def plan_colliders(
     require_storable_data(obj)
     measured = measure_body(obj, depsgraph, WITHOUT_AXES)
     measurement = measured.measurement
-    unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    unit = meters_per_unit(depsgraph.scene)
     surface = _surface(obj, measured)
     stretch = scene.stretch_of(obj, measurement.rotation)
     if are_singular(stretch[None])[0]:
@@ -132,7 +132,7 @@ def _surface(obj: Object, measured: Measured) -> Surface:
 
 def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> list[Object]:
     """Make the planned colliders in place of earlier ones, store their effects, and return them."""
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     earlier = scene.colliders_by_body(context.scene.objects)
     meshes: dict[str, list] = {}
     made = []

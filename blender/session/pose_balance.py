@@ -16,10 +16,10 @@ from bpy.types import Context, Object, PoseBone
 from mathutils import Quaternion, Vector
 from numpy.typing import NDArray
 
-from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.support import ground_axes
 from ...core.verdict.finding import EditRefusedError
 from ..read.tracking import tracking_paused
+from ..scale import meters_per_unit
 from ..write.reports import Refused
 from .findings import NO_SUCH_NAME
 from .live import character
@@ -111,7 +111,7 @@ class _Search:
         self.context = context
         self.armature = armature
         self.known = known
-        self.unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        self.unit = meters_per_unit(context.scene)
         self.failure = Refused(UNMOVABLE)
         self.axes = ground_axes(-weight.support.up)
         self.target = weight.support.target(margin)
@@ -214,7 +214,7 @@ def balance_pose(
     None for the middle. Return the bone, the remaining gap and the margin, m; nothing if the
     character is balanced already.
     """
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     character.require_gravity(context.scene)
     if name and name not in armature.pose.bones:
         raise EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)

@@ -15,13 +15,13 @@ import bpy
 from bpy.types import Context, Object
 
 from ...core.inertia.mass_properties import combine
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError
 from ...core.verdict.method import Procedure
 from ..bodies.measure_object import Measured as MeasuredBody
 from ..bodies.stacks.many import measured_in_turn
 from ..bodies.stacks.stack import Stacked
 from ..read.tracking import tracking_paused
+from ..scale import meters_per_unit
 from ..scene import reframe
 from ..scene.changes import require_storable_data
 from ..scene.colliders import colliders_by_body
@@ -220,7 +220,7 @@ def _measured(
         whole = combine(moments, preferred_axes=measurements[0].rotation)
     if whole.mass < MIN_MASS:
         raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(whole.mass), limit=MIN_MASS)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     target = SnapTarget.of_body(body.obj, whole, whole.principal, unit)
     volume = sum(measurement.volume for measurement in measurements)
     return Measured(body, target, whole.mass / volume, tuple(parts))

@@ -16,6 +16,7 @@ from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
 from ...core.density.materials import BY_NAME, CT_DENSITIES, DENSITY_UNITS, density_unit
 from ...core.numerics.float32 import shortest_decimal
+from ..scale import meters_per_unit
 from .density import object_density
 from .given import (
     GIVEN_PROPERTIES,
@@ -361,7 +362,7 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
         settings.mass_from = "MASS"
         settings.mass = options.mass
     if options.thickness is not None:
-        settings.thickness = options.thickness / shortest_decimal(scene.unit_settings.scale_length)
+        settings.thickness = options.thickness / meters_per_unit(scene)
 
 
 CLASSES = (BodyMomentsObjectSettings, BodyMomentsMaterialSettings)

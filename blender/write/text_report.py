@@ -17,11 +17,11 @@ from ...core.inertia.plain_body import TENSOR, PlainBody, add_bodies, principal_
 from ...core.measurement.documents import document, plain
 from ...core.measurement.plain_text import visible
 from ...core.measurement.record import described
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.method import Method, Procedure
 from ...core.verdict.sentences import HEALTH, METHODS, method_key
 from ...core.wall.findings import WALL_MEASURED
+from ..scale import meters_per_unit
 from . import properties
 from .findings import NO_STORED_RESULTS, STALE_RESULTS
 from .units import INDENT, clean, report_line, report_number, report_vector, rounded_up
@@ -43,7 +43,7 @@ def stored_document(
     outdated: names. caveats: about the total.
     """
     scene = context.scene
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     frame = scene.body_moments.frame.lower()
     entries = []
     bodies = []

@@ -26,6 +26,7 @@ from ...blender.bodies.stacks.stack import Stacked
 from ...blender.read.assembly import left_out_reasons
 from ...blender.read.objects import read_object
 from ...blender.read.visibility import measurable, measurable_objects
+from ...blender.scale import meters_per_unit
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.settings.given import shows_collection
 from ...blender.settings.options import MeasureOptions
@@ -35,7 +36,6 @@ from ...core.bodies.findings import SIGNATURE_NEEDS_POLYGONS
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.record import flat_record
 from ...core.moments.complex_form import flusser_invariants, hu_invariants, normalize
-from ...core.numerics.float32 import shortest_decimal
 from ...core.scans.findings import OTHERS_LEFT_OUT
 from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
 from ...core.verdict.method import Source
@@ -102,7 +102,7 @@ def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | 
     unit: meters per unit, else the scene's.
     """
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    unit = unit or meters_per_unit(depsgraph.scene)
     try:
         surface = read_object(obj, depsgraph, edges=False).join()
     except MeasureError:  # such as a grid of densities

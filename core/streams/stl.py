@@ -220,7 +220,7 @@ def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:
         corners = np.empty((TRIANGLES_PER_BLOCK, 3, 3), np.float32)
         done = 0
         while count and done < TRIANGLES_PER_BLOCK:
-            count = file.readinto(memoryview(records).cast("B")) // RECORD  # type: ignore[attr-defined]
+            count = file.readinto(records.view(np.uint8)) // RECORD  # type: ignore[attr-defined]
             corners[done : done + count] = records["at"][:count]
             done += count
         if done:

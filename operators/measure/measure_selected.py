@@ -179,13 +179,13 @@ class OBJECT_OT_body_moments_live(Operator):
         objects = _subjects(context)
         if any(live.following.is_live(obj) for obj in armatures.subjects([context.object])):
             for obj in objects:
-                live.live.stop(obj)
+                live.measuring.stop(obj)
             selection.redraw(context)
             return {"FINISHED"}
         depsgraph = context.evaluated_depsgraph_get()
         refusals = []
         for obj in objects:
-            result = live.live.start(obj, depsgraph)
+            result = live.measuring.start(obj, depsgraph)
             if result.refusal is not None:
                 refusals.append(reports.failure(obj.name, result.refusal))
         if refusals:

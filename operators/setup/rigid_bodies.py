@@ -14,12 +14,12 @@ from bpy.types import Context, Object, Operator
 
 from ...blender import scene, session
 from ...blender.read.tracking import tracking_paused
+from ...blender.scale import meters_per_unit
 from ...blender.scene.changes import require_storable_data
 from ...blender.scene.findings import RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
 from ...blender.write import reports
 from ...blender.write.translations import localized
 from ...blender.write.units import Units
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
 from ..findings import NOT_A_RIGID_BODY, RIGID_BODY_CENTER_ELSEWHERE
@@ -249,7 +249,7 @@ def _display_scaled(context: Context, count: int) -> list[str]:
     """Return the message that Blender shows masses multiplied by the cube of the unit scale, if it
     shows any.
     """
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     if not count or unit == 1.0 or context.scene.unit_settings.system == "NONE":
         return []
     text = (

@@ -9,6 +9,7 @@ from bpy.types import Context, Event, Operator
 
 from ...blender import scene, session
 from ...blender.read.tracking import tracking_paused
+from ...blender.scale import meters_per_unit
 from ...blender.write import reports
 from .. import selection
 
@@ -135,7 +136,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
             "{count} objects linked, {size} saved, vertices moved by up to {maximum:length}",
             count=len(linked.objects),
             size=_size(linked.saved),
-            maximum=linked.farthest * context.scene.unit_settings.scale_length,
+            maximum=linked.farthest * meters_per_unit(context.scene),
         )
         total = len(linked.objects) + len(left_out)
         return selection.summarize(

@@ -18,10 +18,10 @@ from mathutils import Matrix
 
 from ...blender import bodies, scene, session
 from ...blender.read.visibility import measurable
+from ...blender.scale import meters_per_unit
 from ...blender.scene.findings import OPEN_OBJECT
 from ...blender.write import reports
 from ...core import inertia
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, MeasureError, Severity
 from ...core.verdict.method import Procedure
 from .. import selection
@@ -193,9 +193,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
             if len(bodies_measured) > 1:
                 total = inertia.combine([moments for moments, _ in bodies_measured])
             cursor = context.scene.cursor
-            cursor.location = total.center / shortest_decimal(
-                context.scene.unit_settings.scale_length
-            )
+            cursor.location = total.center / meters_per_unit(context.scene)
             if self.rotate:
                 turn_cursor(cursor, total.principal.axes.tolist())
                 findings = [total.principal.finding] if total.principal.finding is not None else []

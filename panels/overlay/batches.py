@@ -25,9 +25,9 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 from numpy.typing import NDArray
 
-from ...blender.session.tracking import handlers
+from ...blender.scale import meters_per_unit
+from ...blender.session import memory
 from ...blender.settings.scene import BodyMomentsOverlaySettings
-from ...core.numerics.float32 import shortest_decimal
 from . import appearance as look
 from . import discs, lines
 from .bodies import Bodies, Entry, collect
@@ -96,9 +96,7 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
     rows = list(range(len(entries)))
     if before is not None and before.key[1:] == key[1:] and len(before.entries) == len(entries):
         rows = [row for row in rows if entries[row] is not before.entries[row]]
-    bodies = Bodies.of(
-        [entries[row] for row in rows], shortest_decimal(scene.unit_settings.scale_length)
-    )
+    bodies = Bodies.of([entries[row] for row in rows], meters_per_unit(scene))
     segments = lines.body_lines(bodies, settings)
     if before is not None and len(rows) < len(entries):
         before.bodies.put(rows, bodies)
@@ -170,7 +168,7 @@ def _key(context: Context) -> tuple:
     """Return everything that the drawing depends on, besides the view."""
     settings = context.scene.body_moments.overlay
     return (
-        handlers.generation(),
+        memory.state.generation,
         context.scene.session_uid,
         context.view_layer.name,
         context.space_data.local_view is not None,

@@ -12,11 +12,11 @@ import numpy as np
 from bpy.types import Context, Object, Scene
 from numpy.typing import NDArray
 
+from ...blender.scale import meters_per_unit
 from ...blender.session import live
 from ...blender.session.live.character import Weight
 from ...blender.session.stored import balance_groups, faults, stability
 from ...blender.write import reports
-from ...core.numerics.float32 import shortest_decimal
 from ...core.rig.motion import ballistic_arc, find_flights
 from ...core.statics.support import Support
 from ..rig import standing
@@ -133,7 +133,7 @@ def _faults(obj: Object, found: faults.Faults) -> Detail:
 
 def _weight(context: Context, weight: Weight) -> list[Detail]:
     """Return a character's plumb line with its margin at the foot, and its support polygon."""
-    text, lengths, _ = standing(weight, shortest_decimal(context.scene.unit_settings.scale_length))
+    text, lengths, _ = standing(weight, meters_per_unit(context.scene))
     polygon = None if weight.support is None else support_detail(weight.support)
     color = look.TIPS if polygon is None else polygon.segments[1][0]
     plumb = _tinted(np.array([[weight.parts.center, weight.foot]]), color)

@@ -30,7 +30,8 @@ ORDER = {
         ("colliders",),
     ),
     "blender": (
-        ("registration", "settings", "write"),
+        ("registration", "scale"),
+        ("settings", "write"),
         ("read",),
         ("bodies",),
         ("scene",),

@@ -31,7 +31,6 @@ from ....core.measurement.measurement import Body
 from ....core.moments.affine_maps import affine_matrices
 from ....core.moments.exponents import monomial_count, monomials
 from ....core.moments.moments import Measure, Moments
-from ....core.numerics.float32 import shortest_decimal
 from ....core.nurbs.curve_moments import length_moments, plane_moments
 from ....core.nurbs.flat_face import planar_region
 from ....core.nurbs.splines import Curve
@@ -43,6 +42,7 @@ from ...read.findings import FLAT_OF_TYPE, RENDER_DIFFERS, SECTION_EXTRUDED, SEC
 from ...read.objects import read_lines
 from ...read.section import SectionReading, read_outline_curves, read_section
 from ...read.visibility import shows_flat_region
+from ...scale import meters_per_unit
 from ..findings import (
     CURVE_FILL_MEASURED,
     OUTLINES_CROSS,
@@ -131,7 +131,7 @@ def flat_region(
     it is not one.
     """
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
-    unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    unit = unit or meters_per_unit(depsgraph.scene)
     with name_subject(obj.name):
         found = _region_of(reading, obj.type, unit)
         outlines = _curves(obj, depsgraph, reading, found.plane, unit) if exact else None

@@ -28,13 +28,13 @@ from ...bodies.rig import Rig, measure_rig
 from ...read.bones import RestBones
 from ...read.mesh import vertex_points
 from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
+from ...scale import meters_per_unit
 from ...scene.rigid_world import down
 from ...write import properties
 from ...write.reports import Refused
-from .. import stored
+from .. import memory, stored
 from ..tracking import handlers
 from ..tracking.armatures import deformed_meshes
-from ..tracking.cache import SessionCache, current_value
 from ..tracking.staleness import stale_reason
 from .motion import Motion
 
@@ -216,7 +216,7 @@ class Character:
         """Return a held object as a part at its own place, without mass if it cannot be
         measured.
         """
-        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        unit = meters_per_unit(depsgraph.scene)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         mass = np.zeros(1)
         center = matrix[:3, 3]
@@ -304,12 +304,6 @@ class Character:
         return known[rows]
 
 
-_characters: SessionCache[tuple[str, Character | None]] = (
-    SessionCache()
-)  # with the stamp of the results
-_weights: SessionCache[tuple[tuple, Weight | None]] = SessionCache()
-
-
 def measure(context: Context, armature: Object) -> Rig:
     """Measure the bones; raise MeasureError if there are no parts, or no vertex of the meshes has a
     weight.
@@ -335,7 +329,7 @@ def character(armature: Object, unit: float) -> Character | None:
         )
 
     bones = armature.pose.bones
-    return current_value(_characters, armature, properties.fingerprint(armature), read)
+    return memory.current_value(memory.characters, armature, properties.fingerprint(armature), read)
 
 
 def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
@@ -344,7 +338,7 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     """
 
     def stand() -> Weight | None:
-        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        unit = meters_per_unit(depsgraph.scene)
         known = character(armature, unit)
         if known is None or any(
             name not in armature.pose.bones for name in known.names
@@ -367,8 +361,8 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
         )
         return Weight(parts, contacts, support, foot, body)
 
-    return current_value(
-        _weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand
+    return memory.current_value(
+        memory.weights, armature, (memory.state.generation, depsgraph.scene.session_uid), stand
     )
 
 
@@ -384,7 +378,7 @@ def find(context: Context, armature: Object) -> tuple[Character, float, Rig | No
     Measure and find the ground only if necessary.
     """
     settings = armature.body_moments_weight
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     if not settings.show:
         require_gravity(context.scene)
     rig = _measure_outdated(context, armature)
@@ -422,7 +416,7 @@ def keep(armature: Object, known: Character, ground: float, rig: Rig | None) -> 
     try:
         stored.results.store_rig(rig)
     except EditRefusedError:
-        _characters[armature] = properties.fingerprint(armature), known
+        memory.characters[armature] = properties.fingerprint(armature), known
         handlers.count_change(armature)
 
 

@@ -20,13 +20,13 @@ from ....core.bodies.reading import float64_matrix, to_si
 from ....core.mesh.hulls import ConvexHull
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Measure, Moments
-from ....core.numerics.float32 import shortest_decimal
 from ....core.statics.mixes import Mixes, fit_mixes, sample_count
 from ....core.verdict.finding import EditRefusedError
 from ....core.verdict.method import Method, Procedure
 from ...bodies.measure_object import measure_body
 from ...bodies.mesh import object_hull
 from ...read.objects import read_object
+from ...scale import meters_per_unit
 from ...scene.findings import OPEN_OBJECT
 from ...settings.options import object_settings
 from ..tracking import updates
@@ -74,7 +74,7 @@ class Motion:
         """Return an object's mass, kg, and (3,) center, Blender's units; MeasureError if there is
         no certain one.
         """
-        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        unit = meters_per_unit(depsgraph.scene)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._entry(obj)
         if followed.change == -1 and followed.mixes is None:
@@ -89,7 +89,7 @@ class Motion:
         """Return the moments of an object's mass to second order, in the world and SI units, or
         raise MeasureError.
         """
-        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        unit = meters_per_unit(depsgraph.scene)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._entry(obj)
         change = updates.last_change_of_geometry(obj)

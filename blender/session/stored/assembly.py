@@ -20,7 +20,6 @@ from ....core.inertia.plain_body import TENSOR, PlainBody, add_bodies
 from ....core.measurement.builder import find_properties
 from ....core.measurement.documents import table
 from ....core.measurement.settings import digest
-from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity, finding
 from ....core.verdict.sentences import of_severity, sentence
@@ -37,6 +36,7 @@ from ...read.assembly import (
     members_of,
     settings_of,
 )
+from ...scale import meters_per_unit
 from ...write import properties
 from ..tracking import handlers, staleness, stamps
 from . import reference, results
@@ -64,7 +64,7 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     """
     scene = context.scene
     depsgraph = context.evaluated_depsgraph_get()
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     root = assembly.root.member.data
     about = reference.stored_choice(root)
     properties.store(root, assembly.measurement)
@@ -148,7 +148,7 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
             _follow_defaults(root, now)
         elif _is_sum(root, bodies) and (total := add_bodies([*now.values()])) is not None:
             matrix = getattr(root, "matrix_world", Matrix())
-            unit = shortest_decimal(scene.unit_settings.scale_length)
+            unit = meters_per_unit(scene)
             properties.store_body(root, total.in_object(matrix, unit), text)
             _scale_rows(
                 root, {obj.name: now[obj].mass - bodies[obj].mass for obj in now}, total.mass
@@ -180,7 +180,7 @@ def _is_sum(root: Root, bodies: dict[Object, PlainBody]) -> bool:
     own = properties.stored(root)
     if total is None or own is None:
         return False
-    unit = shortest_decimal(bpy.context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(bpy.context.scene)
     return _is_same(total, own.in_world(getattr(root, "matrix_world", Matrix()), unit))
 
 
@@ -200,7 +200,7 @@ def _scale_rows(root: Root, gains: dict[str, float], mass: float) -> None:
 
 def _member_bodies(root: Member) -> dict[Object, PlainBody]:
     """Return each member's stored results in the world."""
-    unit = shortest_decimal(bpy.context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(bpy.context.scene)
     objects = [
         member.data
         for member in root.walk()

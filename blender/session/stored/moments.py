@@ -33,15 +33,14 @@ from ...bodies.measure_object import THREADS, measure_object
 from ...read.fingerprint import matrix_hash, settings_hash
 from ...settings.options import MeasureOptions
 from ...write.units import number
+from .. import memory
 from ..findings import INVARIANTS_ORDER, MASS_MOMENTS_UNKNOWN, MOMENTS_OF_AREA_ONLY
-from ..tracking import staleness, stamps, updates
-from ..tracking.cache import SessionCache
+from ..tracking import staleness, stamps
 from ..tracking.stamps import Kind, Stamp
 from .reference import ReferenceChoice
 
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
 HU_ORDER = 3  # order of Hu's invariants
-MAX_CACHED_OBJECTS = 16  # objects
 ZERO_DISPLAY_RTOL = 1e-12  # relative to the largest moment of a degree: shown as 0
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -106,8 +105,6 @@ Display = tuple[
     tuple[Degree, ...], Finding | None
 ]  # a panel's degrees, and the reason if there are none
 
-_computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
-
 
 def compute_moments(
     context: Context, obj: Object, order: int
@@ -150,15 +147,15 @@ def compute_moments(
 
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
     """Cache an object's freshly computed moments."""
-    _computed[obj] = computed
+    memory.moments[obj] = computed
     settings = settings_hash(obj, depsgraph.scene)
-    stamp = stamps.carry(obj, Kind.MOMENTS, updates.count(), matrix_hash(obj), settings)
+    stamp = stamps.carry(obj, Kind.MOMENTS, memory.state.updates, matrix_hash(obj), settings)
     staleness.mark_stamp(obj, stamp, depsgraph)
 
 
 def computed_moments(obj: Object) -> ComputedMoments | None:
     """Return an object's computed moments; None if there are none."""
-    return _computed.get(obj)
+    return memory.moments.get(obj)
 
 
 def stamp_of(obj: Object) -> Stamp | None:

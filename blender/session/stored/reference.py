@@ -21,6 +21,7 @@ from ....core.inertia.plain_body import PlainBody, Reference, ReferredInertia, r
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, MeasureError, QueryError
 from ...read.findings import REFERENCE_OBJECT_MISSING
+from ...scale import meters_per_unit
 from ...write import properties
 from ...write.findings import NO_STORED_RESULTS
 from ..tracking import staleness
@@ -92,9 +93,7 @@ def _stored_body(owner: Object | Collection, scene: Scene) -> PlainBody | None:
     if stored is None:
         return None
     if isinstance(owner, bpy.types.Object):
-        stored = stored.in_world(
-            owner.matrix_world, shortest_decimal(scene.unit_settings.scale_length)
-        )
+        stored = stored.in_world(owner.matrix_world, meters_per_unit(scene))
     return stored
 
 
@@ -148,7 +147,7 @@ class ReferenceChoice:
         """Return the reference frame (SI, world axes) for an owner with this center of mass, or
         raise QueryError.
         """
-        unit = shortest_decimal(scene.unit_settings.scale_length)
+        unit = meters_per_unit(scene)
         if self.about == "CENTER":
             return Reference(center)
         if self.about == "ORIGIN" and isinstance(owner, Object):

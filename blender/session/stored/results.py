@@ -15,11 +15,11 @@ import numpy as np
 from bpy.types import Context, Object, Scene
 
 from ....core.measurement.settings import fingerprint
-from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import MeasuredStack, Stacked
 from ...read.fingerprint import matrix_hash, scale_hash, settings_hash
+from ...scale import meters_per_unit
 from ...settings.density import is_density_unset
 from ...write import properties, section
 from ..tracking import armatures, staleness, stamps
@@ -150,7 +150,7 @@ def _elements(found: Symmetry) -> list[tuple[str, int, np.ndarray]]:
 
 def store_sections(context: Context, sections: Sequence[tuple[Object, MeasuredSection]]) -> None:
     """Store sections on their objects."""
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     for obj, (found, description, findings) in sections:
         parts = (found.plane.origin, found.plane.axes.ravel(), found.second, found.centroid)
         numbers = np.concatenate([*parts, [found.area, found.perimeter]])

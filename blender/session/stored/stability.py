@@ -36,9 +36,9 @@ from ...scene.findings import OPEN_OBJECT
 from ...scene.rigid_world import down
 from ...scene.transforms import world
 from ...write import properties, reports
+from .. import memory
 from ..displayed import drawn
-from ..tracking import handlers, staleness, stamps, updates
-from ..tracking.cache import SessionCache
+from ..tracking import handlers, staleness, stamps
 from ..tracking.stamps import Kind, Stamp
 from . import results
 
@@ -48,7 +48,7 @@ SAME_SHAPE_RTOL = (
 
 
 @dataclass(eq=False)
-class _Remembered:
+class KnownHull:
     """An object's hull, with its support and poses.
 
     hull: in the object's coordinates. shape: the (4, 3) scale and center for which `poses` hold.
@@ -62,21 +62,18 @@ class _Remembered:
     support: Support | None = None
 
 
-_remembered: SessionCache[_Remembered] = SessionCache()
-
-
 def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     """Compute and cache the hull of an evaluated object, or raise MeasureError if it has none."""
     hull = object_hull(obj, depsgraph)
-    _remembered[obj] = _Remembered(hull)
-    staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, updates.count()), depsgraph)
+    memory.hulls[obj] = KnownHull(hull)
+    staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, memory.state.updates), depsgraph)
     handlers.count_change(obj)
     return hull
 
 
 def is_known(obj: Object) -> bool:
     """Return whether a hull of the object is cached, because its stability was checked."""
-    return obj in _remembered
+    return obj in memory.hulls
 
 
 def stamp_of(obj: Object) -> Stamp | None:
@@ -89,10 +86,10 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
     out of date.
     """
     scene = scene or bpy.context.scene
-    remembered = _remembered.get(obj)
+    remembered = memory.hulls.get(obj)
     if remembered is None or staleness.stale_reason(obj, scene, stamp_of):
         return None
-    key = (handlers.generation(), scene.session_uid)
+    key = (memory.state.generation, scene.session_uid)
     if remembered.support_key != key:
         remembered.support_key = key
         remembered.support = None
@@ -114,7 +111,7 @@ def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | N
     None.
     """
     scene = scene or bpy.context.scene
-    remembered = _remembered.get(obj)
+    remembered = memory.hulls.get(obj)
     if remembered is None or staleness.stale_reason(obj, scene, stamp_of):
         return None
     body = drawn(obj, scene)
