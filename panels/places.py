@@ -43,7 +43,7 @@ PLACES = {  # by the beginning of the panels' identifiers
 
 
 class AmongProperties:
-    """Base of panels among the properties of something else than the object, named by `bl_context`."""
+    """Base of panels among the properties of another thing than the object."""
 
     bl_label = "Body Moments"
     bl_space_type, bl_region_type = "PROPERTIES", "WINDOW"

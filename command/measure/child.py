@@ -16,9 +16,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from ...core.files.limits import file_limits
+from ...core.files.text_fields import map_file
 from ...core.scans.nrrd import data_file, read_header
-from ...core.scans.scan_files import scan_limits
-from ...core.streams.text_fields import map_file
 from ...core.verdict.finding import MeasureError
 from ..files.finite import MALFORMED, Buffers, unquote
 from ..interruption import Progress
@@ -92,7 +92,7 @@ def references(path: str, opened: Iterable[str] = ()) -> set[Path]:
 
 
 def _of_nrrd(path: Path) -> Iterator[str]:
-    fields, _ = read_header(path, scan_limits())
+    fields, _ = read_header(path, file_limits())
     yield data_file(fields) or path.name
 
 

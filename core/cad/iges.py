@@ -18,9 +18,9 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.findings import FILE_TOO_LARGE
 from ..nurbs.flat_face import FlatFace
 from ..nurbs.splines import Curve, Face, Patch, patches_size
-from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, finding
 from .findings import (
     CURVES_LEFT_OUT,

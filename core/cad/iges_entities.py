@@ -20,10 +20,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.findings import FILE_UNRECOGNIZED
 from ..numerics.bspline import SplineSpace, clamped_space
 from ..nurbs.blender_knots import bezier_curves
 from ..nurbs.splines import Curve
-from ..scans.findings import FILE_UNRECOGNIZED
 from ..verdict.finding import FileError
 from .findings import IGES_DAMAGED, IGES_NOT_ASCII, IGES_UNIT
 

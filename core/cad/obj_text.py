@@ -16,7 +16,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from ..streams.text_fields import (
+from ..files.text_fields import (
     BLOCK,
     MARK,
     SHORT,

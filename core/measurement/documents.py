@@ -209,13 +209,14 @@ def _csv_rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
 
 
 _COLUMNS = (
-    "file", "frame", "name", "type", "kind", "verdict", "method", "density", "mass", "volume", "area",
+    *("file", "frame", "name", "type", "kind", "verdict", "method"),
+    *("density", "mass", "volume", "area"),
     *(f"center_of_mass_{axis}" for axis in "xyz"),
     *(f"inertia_{name}" for name, *_ in TENSOR),
     *(f"principal_moment_{number}" for number in (1, 2, 3)),
     *(f"principal_axis_{number}_{axis}" for number in (1, 2, 3) for axis in "xyz"),
     "symmetry",
-)  # fmt: skip
+)
 _OPTIONAL_COLUMNS = (
     "armature",
     "density_from",

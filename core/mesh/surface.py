@@ -38,8 +38,7 @@ INDEX_SHAPES = {
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Triangles and quads over shared points, counter-clockwise from outside: the input of every
-    measurement.
+    """Triangles and quads over shared points, counter-clockwise from outside.
 
     Parameters
     ----------

@@ -125,14 +125,10 @@ def moments(
     Examples
     --------
     >>> from body_moments.core.papers.durso_2005 import moments, perpendicular_feet
-    >>> points, faces = (
-    ...     [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
-    ...     [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)],
-    ... )
-    >>> [
-    ...     round(moments(points, faces, 2, apexes)[4] * 60, 12)
-    ...     for apexes in (None, perpendicular_feet(points, faces))
-    ... ]
+    >>> points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> feet = perpendicular_feet(points, faces)
+    >>> [round(moments(points, faces, 2, apexes)[4] * 60, 12) for apexes in (None, feet)]
     [1.0, 1.0]
     """
     apexes = [points[face[0]] for face in faces] if apexes is None else apexes

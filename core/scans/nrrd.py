@@ -15,19 +15,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..verdict.finding import FileError
-from ..verdict.number_text import parse_number, parse_whole
-from .findings import (
+from ..files.damage import damaged
+from ..files.findings import (
     DAMAGE_CUT_SHORT,
     FILE_UNRECOGNIZED,
     HEADER_FIELD,
     NAMED_FILE_MISSING,
-    NRRD_DATA_FILE_OUTSIDE,
-    SCAN_IN_SEVERAL_FILES,
-    SCAN_SAMPLE_TYPE,
 )
-from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
-from .scan_files import Limits
+from ..files.limits import Limits
+from ..files.number_text import parse_number, parse_whole
+from ..verdict.finding import FileError
+from .findings import NRRD_DATA_FILE_OUTSIDE, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
+from .scan import (
+    Scan,
+    map_samples,
+    shape_of,
+    unpack_samples,
+)
 
 HEADER_BLOCK = 1 << 16  # bytes of a header that are read at a time
 MAX_AXES = 16

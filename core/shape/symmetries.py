@@ -125,9 +125,8 @@ def symmetry(
     >>> from body_moments.core.mesh import Surface
     >>> from body_moments.core.polyhedron import polyhedron_moments
     >>> from body_moments.core.shape import symmetry
-    >>> surface = Surface.from_triangles(
-    ...     np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
-    ... )
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> symmetry(polyhedron_moments(surface, 6)[0]).group
     'C3v'
     """

@@ -226,7 +226,7 @@ SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
 
 
 class OBJECT_OT_body_moments_save_numbers(Operator):
-    """Save the stored mass properties of the selected objects and their total, in SI units, as .csv, .json or .jsonl"""
+    """Save the selected objects' results and their total, in SI units, as .csv, .json or .jsonl"""
 
     bl_idname = "object.body_moments_save_numbers"
     bl_label = "Save CSV or JSON"

@@ -32,7 +32,7 @@ AS_SET = "AS_SET"
 
 
 class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator):
-    """Compute the exact mass properties of the selected objects and store them as custom properties"""
+    """Compute exact mass properties of the selected objects and store them as custom properties"""
 
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"

@@ -46,7 +46,7 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
 
 
 class _OnActive:
-    """Base of operators that change the active object's settings; refused if the object cannot hold settings."""
+    """Base of operators that change the active object's settings; refused without settings."""
 
     bl_options = {"REGISTER", "UNDO"}
 

@@ -42,10 +42,10 @@ Batch = gpu.types.GPUBatch
 
 @dataclass(eq=False)
 class _Drawn:
-    """The batches of a region; `key`: everything that they depend on besides the view, first the generation.
+    """The batches of a region; `key`: all that they depend on besides the view.
 
-    `segments`: (n, k, 2, 3) lines of the bodies, `entries` as arrays. While these are the same, their rows stay.
-    `active`: the row with labels, or -1.
+    The key begins with the generation. `segments`: (n, k, 2, 3) lines of the bodies, `entries` as
+    arrays. While these are the same, their rows stay. `active`: the row with labels, or -1.
     """
 
     key: tuple

@@ -393,7 +393,8 @@ def _heading(of: str, about: str, frame: str) -> str:
 def _flat_heading(computed: ComputedMoments, about: str, frame: str) -> str:
     assert computed.flat is not None
     x, y, normal = (" ".join(map(repr, axis)) for axis in computed.flat.plane.axes.T.tolist())
-    return "area moments of the flat shape, along x = ({:s}) and y = ({:s}), front ({:s}), {:s}".format(
+    heading = "area moments of the flat shape, along x = ({:s}) and y = ({:s}), front ({:s}), {:s}"
+    return heading.format(
         x,
         y,
         normal,
