@@ -12,16 +12,16 @@ from pathlib import Path
 from typing import Any
 
 from ..blender.write.findings import FILE_NOT_WRITTEN
+from ..core.files.findings import FILE_WITHOUT_OBJECTS
+from ..core.files.whole_file import whole_file
 from ..core.measurement.plain_text import counted, print_message
 from ..core.robots.audit import Audit, Auditor, repaired_copy
 from ..core.robots.findings import DESCRIPTION_UNKNOWN, XML_ENTITIES
 from ..core.robots.formats import AUDITED_SUFFIXES
 from ..core.robots.read.descriptions import Roots, read_description
 from ..core.robots.write import audit_report
-from ..core.streams.findings import FILE_WITHOUT_OBJECTS
 from ..core.verdict import internal_error
 from ..core.verdict.finding import FileError, MeasureError, system_reason
-from ..core.whole_file import whole_file
 from . import audit_gate
 from .files import output
 from .options import option_types
@@ -199,8 +199,8 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
         except OSError as error:
             file = str(options.write_baseline)
             raise FileError(FILE_NOT_WRITTEN, file=file, error=system_reason(error)) from error
-    fails = audit_gate.fails(documents, options.fail_on)
-    return [audit_report.FORMATS[options.format](documents)], 70 if internal else 1 if fails else 0
+    code = 70 if internal else int(audit_gate.fails(documents, options.fail_on))
+    return [audit_report.FORMATS[options.format](documents)], code
 
 
 def _documents(options: argparse.Namespace) -> Iterator[dict[str, Any]]:

@@ -90,7 +90,7 @@ def in_both_places(
             own["bl_parent_id"] = _idname(prefix, parent)
         elif prefix == "VIEW3D_PT_":
             own["bl_options"] = set()
-        panels.append(type(idname, (contents, Panel), {**shared, **own}))
+        panels.append(type(idname, (contents, Panel), (shared | own)))
     return tuple(panels)
 
 

@@ -12,13 +12,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arguments import check_type, float_array
-from ..verdict.finding import FileError, Finding, finding
-from .findings import (
+from ..files.damage import wrong_field
+from ..files.findings import (
     FILE_MISSING,
     FILE_NOT_REGULAR,
     FILE_TYPE,
     NAMED_FILE_MISSING,
+)
+from ..files.limits import DEFAULT_LIMITS, Limits
+from ..numerics.arguments import check_type, float_array
+from ..verdict.finding import FileError, Finding, finding
+from .findings import (
     POSITIONS_COUNT,
     POSITIONS_NOT_ASCENDING,
     SCAN_OUT_OF_MEMORY,
@@ -29,8 +33,8 @@ from .findings import (
 from .nifti import read_nifti
 from .nrrd import read_nrrd
 from .numpy_files import map_array, read_named_raw, read_npy, read_npz
-from .scan import Scan, wrong_field
-from .scan_files import DEFAULT_LIMITS, SUFFIXES, Limits, scan_suffix
+from .scan import Scan
+from .scan_files import SUFFIXES, scan_suffix
 
 READERS: dict[str, Callable[[Path, Limits], Scan]] = dict(
     zip(

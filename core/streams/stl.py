@@ -16,11 +16,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface
-from ..verdict.finding import FileError
-from .file_mesh import Box, FileMesh, Polygons, box_of_blocks, merge_equal, name_of_file
-from .findings import STL_CUT_SHORT
-from .text_fields import (
+from ..files.text_fields import (
     MARK,
     MAX_FLOAT32,
     SHORT,
@@ -33,6 +29,10 @@ from .text_fields import (
     refuse_line,
     shorten,
 )
+from ..mesh.surface import Surface
+from ..verdict.finding import FileError
+from .file_mesh import Box, FileMesh, Polygons, box_of_blocks, merge_equal, name_of_file
+from .findings import STL_CUT_SHORT
 
 # Bytes before the triangles, and bytes of each triangle.
 HEAD = 84

@@ -121,7 +121,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
         failed = session.store_measured(context, self._results)
         for armature in filter(armatures.stands_for_meshes, context.selected_objects):
             live.character.store_rest(context, armature)
-        refusals = {**self._refusals, **failed}
+        refusals = self._refusals | failed
         self._failures = [
             reports.failure(obj.name_full, refusals[obj])
             for obj in self._objects

@@ -148,7 +148,9 @@ def support_detail(support: Support) -> Detail:
     """Return the support polygon, filled if the body stands, and an arrow from the foot to the
     tipping edge.
     """
-    color = look.TIPS if not support.stands else look.EDGE if support.is_near_edge else look.SUPPORT
+    color = look.EDGE if support.is_near_edge else look.SUPPORT
+    if not support.stands:
+        color = look.TIPS
     corners, foot = support.polygon, support.foot
     outline = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     fan = np.stack(

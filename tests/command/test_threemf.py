@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("bpy")
 
-from body_moments.core.scans.scan_files import Limits
+from body_moments.core.files.limits import Limits
 from body_moments.core.streams import threemf
 from body_moments.core.verdict.finding import FileError
 

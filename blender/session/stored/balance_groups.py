@@ -103,7 +103,7 @@ def store(
                 del empty[name]
             continue
         is_truth = values.dtype == bool
-        empty[name] = 0 if is_truth else 0.0 if values.ndim == 1 else [0.0] * 3
+        empty[name] = np.zeros_like(values[0], int if is_truth else float).tolist()
         ui = empty.id_properties_ui(name)
         ui.update(description=description, **({"min": 0, "max": 1} if is_truth else {}))
         for axis, column in enumerate(values.reshape(len(frames), -1).T):

@@ -310,13 +310,9 @@ def _in_plane(
 
 def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
     moments = _select_moments(computed, of).truncate(order)
-    origin = (
-        moments.center
-        if about != "ORIGIN"
-        else np.zeros(3)
-        if frame == "WORLD"
-        else computed.location
-    )
+    origin = np.zeros(3) if frame == "WORLD" else computed.location
+    if about != "ORIGIN":
+        origin = moments.center
     if frame == "OBJECT":
         moments = moments.in_frame(computed.rotation, origin)
     if about == "NORMALIZED":

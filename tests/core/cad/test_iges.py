@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from body_moments.core.cad.iges_entities import UNIT_NAMES, UNITS
 from body_moments.core.cad.surface_file import read_surfaces
+from body_moments.core.files.limits import Limits
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.patch_moments import area_moments
 from body_moments.core.nurbs.solid import measure_patches
 from body_moments.core.nurbs.splines import Patch
-from body_moments.core.scans.scan_files import Limits
 from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import flux_moment, sphere, torus
