@@ -26,11 +26,6 @@ NOTHING_RENDERED = error(
     "Nothing was measured: {count} object was left out. Use --all, or turn on its rendering.",
     "Nothing was measured: {count} objects were left out. Use --all, or turn on their rendering.",
 )
-MISSING_REFERENCES = error(
-    "missing_references",
-    "The file refers to what cannot be found: {names}. Restore these files, or make linked data "
-    "local.",
-)
 FILE_HIDES = note("file_hides", "The file does not show it: {cause:word}. Use --all to measure it.")
 USD_CAGE = warning(
     "usd_cage",

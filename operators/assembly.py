@@ -64,7 +64,7 @@ def measured_assembly(context: Context, target: str) -> "Assembly":
 
 
 class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
-    """Measure all members of a collection, or all children of an empty, and store the total on it"""
+    """Measure all members of a collection or all children of an empty, and store the total"""
 
     bl_idname = "object.body_moments_measure_assembly"
     bl_label = "Measure Assembly"
@@ -102,7 +102,7 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
 
 
 class OBJECT_OT_body_moments_clear_assembly(Operator):
-    """Remove the stored results of the assembly. Its settings and the results of its members are kept"""
+    """Remove the stored results of the assembly. Settings and results of members are kept"""
 
     bl_idname = "object.body_moments_clear_assembly"
     bl_label = "Clear Assembly Results"
@@ -172,7 +172,7 @@ class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
 
 
 class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
-    """Add an empty at the center of mass of the assembly, along its principal axes. One added before is moved"""
+    """Add or move an empty at the assembly's center of mass, along its principal axes"""
 
     bl_idname = "object.body_moments_assembly_empty"
     bl_label = "Add Empty at Assembly"
@@ -230,7 +230,7 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
 
 
 class OBJECT_OT_body_moments_export_bill(Operator):
-    """Write the masses, centers and inertia of all members of an assembly as a table (.csv), in SI units"""
+    """Write masses, centers and inertia of an assembly's members as a table (.csv), in SI units"""
 
     bl_idname = "object.body_moments_export_bill"
     bl_label = "Export Bill of Masses"

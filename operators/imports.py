@@ -113,7 +113,7 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
 
     def _import(self, context: Context, module: ModuleType, path: Path) -> list[Finding | str]:
         """Make the object, and return findings and texts about the steps and decisions."""
-        limits = replace(core.scans.scan_files.scan_limits(), allow_outside=self.allow_outside)
+        limits = replace(core.files.limits.file_limits(), allow_outside=self.allow_outside)
         raw = (self.raw_shape, self.raw_type, self.raw_big_endian) if all(self.raw_shape) else None
         files = {"x": self.x_positions, "y": self.y_positions, "z": self.z_positions}
         files = {axis: bpy.path.abspath(file) for axis, file in files.items() if file}
@@ -211,7 +211,7 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
 
     def _import(self, context: Context, path: Path) -> tuple[list[Object], list[Finding | str]]:
         """Return the objects of a file, and findings about the steps and decisions."""
-        found = scene.import_surfaces(path, core.scans.scan_files.scan_limits(), self.unit, context)
+        found = scene.import_surfaces(path, core.files.limits.file_limits(), self.unit, context)
         texts = (
             "Imported {count} patch of order {order} from {file}.",
             "Imported {count} patches of order {order} at most from {file}.",

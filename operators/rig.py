@@ -47,7 +47,7 @@ class InPoseMode:
 
 
 class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
-    """Measure the part of each bone of the active armature in rest pose, and store it on the pose bone"""
+    """Measure each bone's part of the active armature in rest pose; store it on the pose bone"""
 
     bl_idname = "object.body_moments_measure_bones"
     bl_label = "Measure Bones"
@@ -126,7 +126,7 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
 
 
 class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
-    """Show the center of mass and the support of the selected characters while they are posed, or hide them again"""
+    """Show or hide center of mass and support of the selected characters while they are posed"""
 
     bl_idname = "pose.body_moments_show_weight"
     bl_label = "Show Weight"
@@ -152,7 +152,7 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
 
 
 class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
-    """Move a bone by the least length or angle that brings the center of mass over the support; held feet stay"""
+    """Move a bone as little as brings the center of mass over the support; held feet stay"""
 
     bl_idname = "pose.body_moments_balance_pose"
     bl_label = "Balance Pose"

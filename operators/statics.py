@@ -23,7 +23,7 @@ EMPTY_FLIGHT = "Landing must be at least two frames after Take-off. Change one o
 
 
 class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
-    """Compute whether the selected objects stand on the ground below them, and in which poses they rest."""
+    """Compute whether the selected objects stand on the ground, and in which poses they rest."""
 
     bl_idname = "object.body_moments_stability"
     bl_label = "Check Stability"
@@ -298,7 +298,7 @@ class KeyedFlight(ModalDialog, OnArmature):
 
 
 class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
-    """Key the root so that the center of mass falls freely from take-off to landing. Poses stay as they are"""
+    """Key the root for a free fall of the center of mass from take-off to landing; poses stay"""
 
     bl_idname = "pose.body_moments_parabola"
     bl_label = "Put on Parabola"
@@ -320,7 +320,7 @@ class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
 
 
 class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
-    """Turn the root so that the angular momentum stays that of take-off: a tucked body spins faster"""
+    """Turn the root so that angular momentum stays that of take-off: a tucked body spins faster"""
 
     bl_idname = "pose.body_moments_keep_spin"
     bl_label = "Keep Spin"
@@ -369,7 +369,7 @@ class KeyedPath(ModalSteps, OnArmature):
 
 
 class POSE_OT_body_moments_bake_curves(KeyedPath, Operator):
-    """Key momentum and balance of the character on an empty, and list frames with momentum from nothing"""
+    """Key the character's momentum and balance on an empty, and list momentum from nothing"""
 
     bl_idname = "pose.body_moments_bake_curves"
     bl_label = "Bake Curves"

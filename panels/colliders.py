@@ -40,7 +40,7 @@ REMEDIES = {  # by the kind of correction that did not suffice
 
 
 class CollidersPanel:
-    """Colliders, and how an engine that takes mass, center and inertia from them differs from the object"""
+    """Colliders, and how an engine that takes mass, center and inertia from them differs"""
 
     bl_label = "Colliders"
 

@@ -47,7 +47,7 @@ PLACES = {  # by the beginning of the panels' identifiers
 
 
 class AmongProperties:
-    """Base of panels among the properties of something else than the object, named by `bl_context`."""
+    """Base of panels among the properties of another thing than the object."""
 
     bl_label = "Body Moments"
     bl_space_type, bl_region_type = "PROPERTIES", "WINDOW"
@@ -101,7 +101,7 @@ def in_both_places(
             own["bl_parent_id"] = _idname(prefix, parent)
         elif prefix == "VIEW3D_PT_":
             own["bl_options"] = set()
-        panels.append(type(idname, (contents, Panel), {**shared, **own}))
+        panels.append(type(idname, (contents, Panel), (shared | own)))
     return tuple(panels)
 
 

@@ -251,7 +251,9 @@ def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
     into a row.
     """
     letters = max(map(len, labels))
-    share = INDEX_LABEL_SHARE if letters < 2 else SHORT_LABEL_SHARE if letters < 4 else LABEL_SHARE
+    share = LABEL_SHARE
+    if letters < 4:
+        share = INDEX_LABEL_SHARE if letters < 2 else SHORT_LABEL_SHARE
     room = _room()
     if room is None:
         return share, True

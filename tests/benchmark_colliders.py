@@ -34,7 +34,8 @@ modifier = bpy.context.object.modifiers.new("", "REMESH")
 modifier.mode, modifier.voxel_size = "VOXEL", 0.08
 mesh = bpy.context.object.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
 mesh.calc_loop_triangles()
-np.savez({!r}, points=[v.co[:] for v in mesh.vertices], triangles=[t.vertices[:] for t in mesh.loop_triangles])
+triangles = [t.vertices[:] for t in mesh.loop_triangles]
+np.savez({!r}, points=[v.co[:] for v in mesh.vertices], triangles=triangles)
 """
 
 
@@ -264,7 +265,9 @@ def bodies() -> dict[str, Part]:
         "star": extrude(circle(10) * np.where(np.arange(10) % 2, 0.4, 1.0)[:, None], 0.4),
         "gear": extrude(circle(96) * wave[:, None], 0.3),
         "crescent": extrude(moon, 0.4),
-        "arrow": extrude([(0, -0.2), (2, -0.2), (2, -0.7), (3, 0), (2, 0.7), (2, 0.2), (0, 0.2)], 0.3),
+        "arrow": extrude(
+            [(0, -0.2), (2, -0.2), (2, -0.7), (3, 0), (2, 0.7), (2, 0.2), (0, 0.2)], 0.3
+        ),
         "hand": extrude(fingers, 0.8),
         "spiral": extrude(np.concatenate([outer, inner[::-1]]), 0.5),
         "helix": tube(np.stack([np.cos(helix), np.sin(helix), helix / 10], axis=1), 0.2),

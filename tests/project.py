@@ -71,7 +71,8 @@ On Debian and Ubuntu its libraries come by
 
     sudo {}
 
-elsewhere by the same names without numbers (Fedora: libX11, libXi, libglvnd-glx, ...); macOS and Windows have them."""
+elsewhere by the same names without numbers (Fedora: libX11, libXi, libglvnd-glx, ...); macOS and
+Windows have them."""
 PROBE = """\
 import ensurepip, platform, sys, venv
 assert sys.maxsize > 2**32 and platform.python_implementation() == "CPython"
@@ -508,7 +509,7 @@ def test_subject(subject: str, extra: list[str]) -> int:
     version = any_blender()
     python = prepare_blender(version)
     print(
-        f"The tests of {subject}, on Blender {version} alone; at most half a minute on two idle cores."
+        f"The tests of {subject}, on Blender {version} alone; at most half a minute on two cores."
     )
     runner, groups = Runner(), known[subject]
     return finish(
@@ -547,7 +548,8 @@ def test(options: argparse.Namespace) -> int:
         )
     minutes = sum(GROUPS[group] for group in groups)
     print(
-        f"Tests of {', '.join(groups)} on Blender {' and '.join(versions)}: about {minutes} minutes on two idle cores,"
+        f"Tests of {', '.join(groups)} on Blender {' and '.join(versions)}: about {minutes} minutes"
+        " on two idle cores,"
         " four times that on a slow machine. Environments that are not there yet come first.",
         flush=True,
     )

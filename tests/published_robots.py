@@ -56,12 +56,13 @@ WORDS = {
 }
 HEAD = """# Published Robots, Audited
 
-This page audits robot descriptions in packages of the Python index, with their real meshes. A row is one robot: if
-several files describe a robot of that name, it is the file with the most links. {robots} robots with {links} links:
-{error} errors, {warning} warnings. In all {files} files of these packages the audit repaired {repaired} links; of
-these, {left} have an error or a warning about their inertial when audited again. The geometry's numbers assume that
-the drawn shapes of a link hold all of its mass. [Audit](robots.md#audit) says what the findings mean. The page was
-made by `python tests/published_robots.py`.
+This page audits robot descriptions in packages of the Python index, with their real meshes. A row
+is one robot: if several files describe a robot of that name, it is the file with the most links.
+{robots} robots with {links} links: {error} errors, {warning} warnings. In all {files} files of
+these packages the audit repaired {repaired} links; of these, {left} have an error or a warning
+about their inertial when audited again. The geometry's numbers assume that the drawn shapes of a
+link hold all of its mass. [Audit](robots.md#audit) says what the findings mean. The page was made
+by `python tests/published_robots.py`.
 
 | package | robot | file | links | errors | warnings | what was found (links) |
 |---|---|---|---|---|---|---|

@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 from ...core.bodies.findings import GRID_TOO_LARGE
 from ...core.bodies.reading import Reading, float64_matrix, name_subject
 from ...core.density.findings import GRID_TRANSFORM_SINGULAR
+from ...core.files.findings import OTHERS_LEFT_OUT
 from ...core.mesh.surface import Surface
 from ...core.numerics.float32 import shortest_decimal
-from ...core.scans.findings import OTHERS_LEFT_OUT
 from ...core.verdict.finding import Finding, ReadError, finding
 from .decisions import modifier_findings
 from .findings import (

@@ -93,9 +93,15 @@ def collider_mesh(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Me
 
 
 def place_colliders(
-    context: Context, obj: Object, old: Sequence[Object], shapes: Sequence[Shape], meshes: Sequence[Mesh],
-    stretch: NDArray[np.float64], unit: float, engine: str,
-) -> list[Object]:  # fmt: skip
+    context: Context,
+    obj: Object,
+    old: Sequence[Object],
+    shapes: Sequence[Shape],
+    meshes: Sequence[Mesh],
+    stretch: NDArray[np.float64],
+    unit: float,
+    engine: str,
+) -> list[Object]:
     """Give an object these colliders in place of its `old` ones, which are used again, and return
     them.
     """

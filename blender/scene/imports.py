@@ -27,6 +27,8 @@ from ...core.bodies.reading import SplineReading
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import MAX_ORDER, SurfaceBody, is_storable
 from ...core.density.grid_values import positions_text
+from ...core.files.findings import FILE_UNREADABLE
+from ...core.files.limits import Limits
 from ...core.numerics.float32 import shortest_decimal
 from ...core.nurbs.blender_knots import bezier_space
 from ...core.nurbs.flat_face import FlatFace
@@ -40,8 +42,7 @@ from ...core.scans.formats import (
 )
 from ...core.scans.numpy_files import read_raw
 from ...core.scans.scan import Scan
-from ...core.scans.scan_files import Limits, scan_suffix
-from ...core.streams.findings import FILE_UNREADABLE
+from ...core.scans.scan_files import scan_suffix
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.splines import keep_faces
 from ..scale import meters_per_unit

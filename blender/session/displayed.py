@@ -30,11 +30,10 @@ from ..scale import meters_per_unit
 from ..settings.chosen import chosen_objects, pinned_object
 from ..write import properties
 from ..write.units import Units
-from . import live, stored
+from . import live, memory, stored
 from .live import following
 from .live.following import Lag, LiveResult
 from .tracking import armatures, handlers
-from .tracking.cache import SessionCache, current_value
 from .tracking.staleness import stale_reason
 from .tracking.stamps import Stale, of_results
 
@@ -95,14 +94,6 @@ class Total:
     groups: tuple[Group, ...]
 
 
-_drawn: dict[int, Displayed] = {}  # session uid → drawn numbers, of objects that depend on no other
-_drawn_in: tuple = ()  # the scene's part in them
-_moved: set[int] = set()  # session uids of objects that have only moved since
-# A scene's last total, after its generation and view layer: the panel is drawn at every mouse
-# movement.
-_totals: SessionCache[tuple[tuple, Total]] = SessionCache()
-
-
 def displayed(obj: Object, scene: Scene) -> Displayed | None:
     """Return the displayed numbers of an original object: posed, live or stored; None if there are
     none.
@@ -112,20 +103,20 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
         return weighed
     if obj.type == "ARMATURE" and armatures.stands_for_meshes(obj):
         meshes = armatures.deformed_meshes(obj)
-        if "body_mass" in obj and not any(mesh in following.followed for mesh in meshes):
+        if "body_mass" in obj and not any(mesh in memory.followed for mesh in meshes):
             parts = [drawn_bone(bone, scene) for bone in obj.pose.bones]
         else:
             parts = [displayed(mesh, scene) for mesh in meshes]
         total = _as_one(obj, scene, parts)
         if total is not None:
             return total
-    current = following.followed.get(obj)
+    current = memory.followed.get(obj)
     now = None if current is None else current.result
     if current is not None and now is not None and (measurement := now.measurement) is not None:
-        own = live.live.map_properties(obj, current, measurement, scene)
+        own = live.mapping.map_properties(obj, current, measurement, scene)
         method = measurement.method
         findings = stored.density.noted(obj, measurement, scene).findings
-        lag = following.lag(obj)
+        lag = live.mapping.lag(obj)
         reason = stale_reason(obj, scene, following.stamp_of)
         is_behind = reason is not None or lag == Lag.BEHIND
     else:
@@ -156,7 +147,6 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
     """Return `drawn` of many objects, cached until Blender or the session reports a change of the
     object.
     """
-    global _drawn_in
     settings = scene.body_moments
     key = (
         scene.session_uid,
@@ -164,14 +154,16 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
         settings.default_material,
         settings.default_density,
     )
-    if key != _drawn_in:
-        _drawn.clear()
-        _drawn_in = key
+    if key != memory.state.drawn_in:
+        memory.drawn.clear()
+        memory.state.drawn_in = key
     found = []
     for obj in objects:
         uid = obj.session_uid
-        known = _drawn.get(uid)
-        found.append(known if known is not None and uid not in _moved else _draw(obj, scene, known))
+        known = memory.drawn.get(uid)
+        found.append(
+            known if known is not None and uid not in memory.moved else _draw(obj, scene, known)
+        )
     return found
 
 
@@ -188,9 +180,7 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
         if before is not None and stamp is not None and has_transform(obj, stamp.transform):
             shown = before._replace(world=before.numbers.in_world(obj.matrix_world, before.unit))
         else:
-            shown = (
-                displayed(obj, scene) if "body_mass" in obj or obj in following.followed else None
-            )
+            shown = displayed(obj, scene) if "body_mass" in obj or obj in memory.followed else None
     if shown is None or not shown.world.mass > 0.0:
         return None
     shows_others = obj.instance_type != "NONE" or len(obj.particle_systems)
@@ -200,8 +190,8 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
         or obj.body_moments.density_from in BY_OTHERS
     )
     if not (shows_others or depends or shown.live is not None):
-        _drawn[obj.session_uid] = shown
-        _moved.discard(obj.session_uid)
+        memory.drawn[obj.session_uid] = shown
+        memory.moved.discard(obj.session_uid)
     return shown
 
 
@@ -210,17 +200,17 @@ def note_updates(events: handlers.Updates) -> None:
     place.
     """
     for uid in (*events.reshaped, *events.others):
-        _drawn.pop(uid, None)
-    _moved.update(_drawn.keys() & events.moved)
+        memory.drawn.pop(uid, None)
+    memory.moved.update(memory.drawn.keys() & events.moved)
 
 
 def forget_drawn(data: ID | None = None) -> None:
     """Drop the cached numbers of an object, or of all."""
     if data is None:
-        _drawn.clear()
-        _moved.clear()
+        memory.drawn.clear()
+        memory.moved.clear()
     else:
-        _drawn.pop(data.session_uid, None)
+        memory.drawn.pop(data.session_uid, None)
 
 
 def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
@@ -299,8 +289,8 @@ def total(context: Context) -> Total:
     numbers.
     """
     pinned = pinned_object(context)
-    key = handlers.generation(), context.view_layer.name, pinned and pinned.session_uid
-    return current_value(_totals, context.scene, key, lambda: _sum(context))
+    key = memory.state.generation, context.view_layer.name, pinned and pinned.session_uid
+    return memory.current_value(memory.totals, context.scene, key, lambda: _sum(context))
 
 
 def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
@@ -357,23 +347,15 @@ class SortBy(StrEnum):
     VERDICT = "VERDICT"  # the least trustworthy first
 
 
-_masses: SessionCache[tuple[tuple, dict[int, str]]] = (
-    SessionCache()
-)  # by scene: the last query, and its answer
-_listings: SessionCache[tuple[tuple, Listing]] = (
-    SessionCache()
-)  # by scene: the last query, and its answer
-
-
 def listing(
     scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool
 ) -> Listing:
     """Return two lists over a view layer's objects: whether each is listed, and its line, warnings
     first on request.
     """
-    key = (handlers.generation(), view_layer.name, name, sort_by, warnings_first)
-    return current_value(
-        _listings,
+    key = (memory.state.generation, view_layer.name, name, sort_by, warnings_first)
+    return memory.current_value(
+        memory.listings,
         scene,
         key,
         lambda: _listing(scene, view_layer, name.lower(), sort_by, warnings_first),
@@ -397,8 +379,8 @@ def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
             zip([obj.session_uid for obj in masses], units.texts("mass", list(masses.values())))
         )
 
-    return current_value(
-        _masses, scene, (handlers.generation(), view_layer.name, units), list_masses
+    return memory.current_value(
+        memory.masses, scene, (memory.state.generation, view_layer.name, units), list_masses
     )
 
 

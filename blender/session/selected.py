@@ -18,13 +18,11 @@ from ...core.density.materials import DENSITY_UNITS
 from ..settings.chosen import chosen_objects, pinned_object
 from ..settings.given import COLLIDER, GivenPartProperties, has_density
 from ..settings.properties import COPIED_PROPERTIES, BodyMomentsObjectSettings, comparable
-from .tracking import armatures, handlers
-from .tracking.cache import SessionCache, current_value
+from . import memory
+from .tracking import armatures
 
 NAMES = (*COPIED_PROPERTIES, *("density_" + unit.lower() for unit in DENSITY_UNITS))
 SHAPE = {"kind", "wall", "thickness", "overlap", "density_from"}  # settings without use for volumes
-# By scene: the last selection, its owners of settings, and the settings that differ among them.
-_chosen: SessionCache[tuple[tuple, tuple[list[Object], dict[str, bool]]]] = SessionCache()
 
 
 def subject(context: Context) -> Object | None:
@@ -56,10 +54,10 @@ def _owners(context: Context) -> tuple[list[Object], dict[str, bool]]:
     layer = context.view_layer
     pinned = pinned_object(context)
     uid = None if pinned is None else pinned.session_uid
-    return current_value(
-        _chosen,
+    return memory.current_value(
+        memory.chosen,
         context.scene,
-        (handlers.generation(), layer.name, len(layer.objects.selected), uid),
+        (memory.state.generation, layer.name, len(layer.objects.selected), uid),
         lambda: (objects_with_settings(chosen_objects(context)), {}),
     )
 

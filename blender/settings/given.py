@@ -60,7 +60,7 @@ def density_property(description: str, update: Hook, **special: Any) -> Any:
         "step": 1000,
         "precision": 3,
     }
-    return FloatProperty(description=description, update=update, **{**usual, **special})
+    return FloatProperty(description=description, update=update, **(usual | special))
 
 
 class GivenPartProperties:

@@ -50,8 +50,9 @@ def text(*parts: Finding | str) -> str:
             if isinstance(part, str)
             else sentence(part, bpy.app.translations.pgettext_rpt, _length)
         )
-        between = " " if joined.endswith((".", ":")) else ". " if added.endswith(".") else "; "
-        joined += between + added if joined else added
+        if joined and not joined.endswith((".", ":")):
+            joined += "." if added.endswith(".") else ";"
+        joined += " " + added if joined else added
     return joined
 
 

@@ -23,9 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.cad.obj_text import check_obj_text
-from ...core.scans.findings import DAMAGE_SIZE, FILE_DAMAGED
-from ...core.streams.file_mesh import refuse_non_finite
-from ...core.streams.text_fields import (
+from ...core.files.damage import refuse_non_finite
+from ...core.files.findings import DAMAGE_SIZE, FILE_DAMAGED, MISSING_REFERENCES
+from ...core.files.text_fields import (
     BLOCK,
     MAX_FLOAT32,
     SHORT,
@@ -35,7 +35,6 @@ from ...core.streams.text_fields import (
     refuse_line,
 )
 from ...core.verdict.finding import FileError, finding
-from ..findings import MISSING_REFERENCES
 
 MALFORMED = (
     ValueError,

@@ -22,7 +22,7 @@ from ...blender.scene.findings import SURFACES_ROUNDED
 from ...blender.scene.imports import surface_data
 from ...core.cad.obj import UPRIGHT
 from ...core.cad.surfaces import revolved_solid
-from ...core.streams.findings import FILE_UNREADABLE
+from ...core.files.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, USD_CAGE, USD_UNREAD
 from .references import Opened, reported_references

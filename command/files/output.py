@@ -21,11 +21,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
+from ...core.files.whole_file import whole_file
 from ...core.measurement.documents import FLAT_SPECTRUM_ARRAYS, SPECTRUM_ARRAYS, to_csv
 from ...core.measurement.plain_text import print_message
 from ...core.robots.write.marker import is_audit, is_ours
 from ...core.verdict.finding import system_reason
-from ...core.whole_file import whole_file
 from ..options.arguments import TARGETS
 from ..options.arguments import fail as fail_measure
 
@@ -184,7 +184,6 @@ def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
     if target.exists() and any(os.path.exists(path) and target.samefile(path) for path in read):
         return "{} is a file that is read. Use another name".format(target)
     if not (force or is_replaceable(target)):
-        return "{} is not a result of body_moments and would be lost. Use another name, or --force".format(
-            target
-        )
+        lost = "{} is not a result of body_moments and would be lost. Use another name, or --force"
+        return lost.format(target)
     return ""

@@ -15,8 +15,9 @@ from dataclasses import dataclass, field
 
 import bpy
 
+from ...core.files.findings import MISSING_REFERENCES
 from ...core.verdict.finding import Finding, finding
-from ..findings import DRIVER_BLOCKED, MISSING_REFERENCES, SCRIPT_BLOCKED, SCRIPTS_ALLOWED
+from ..findings import DRIVER_BLOCKED, SCRIPT_BLOCKED, SCRIPTS_ALLOWED
 
 # An error of composing a stage, by stage.cpp: "… -- In </A>: Could not open asset @file@ for
 # reference …".

@@ -29,13 +29,13 @@ from ...core.bodies.findings import DENSITY_DEFAULTED, SHAPE_OF_GRID
 from ...core.bodies.reading import measure_reading
 from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_meshes
+from ...core.files.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import Settings
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.scans import formats as scans
 from ...core.streams.file_mesh import FileMesh
-from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import (
     FileError,
     Finding,
@@ -163,9 +163,9 @@ class BareFile:
             self._measure_array(name, count) if is_scan else self._measure_stream(name, count)
         )
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
-        shapeless = (
-            unused(requested) if not is_scan else [finding(SHAPE_OF_GRID)] if requested else []
-        )
+        shapeless = unused(requested)
+        if is_scan:
+            shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
         more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
         self._add(contents, measurement, shapeless, more)
 

@@ -16,9 +16,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from ...core.files.limits import file_limits
+from ...core.files.text_fields import map_file
 from ...core.scans.nrrd import data_file, read_header
-from ...core.scans.scan_files import scan_limits
-from ...core.streams.text_fields import map_file
 from ...core.verdict.finding import MeasureError
 from ..files.finite import MALFORMED, Buffers, unquote
 from ..interruption import Progress
@@ -92,7 +92,7 @@ def references(path: str, opened: Iterable[str] = ()) -> set[Path]:
 
 
 def _of_nrrd(path: Path) -> Iterator[str]:
-    fields, _ = read_header(path, scan_limits())
+    fields, _ = read_header(path, file_limits())
     yield data_file(fields) or path.name
 
 
@@ -110,7 +110,10 @@ def _of_usd(path: Path) -> Iterator[str]:
 
 
 _NAMES: dict[str, Callable[[Path], Iterator[str]]] = {
-    **dict.fromkeys((".nrrd", ".nhdr"), _of_nrrd),
-    **dict.fromkeys((".gltf", ".glb"), _of_gltf),
-    **dict.fromkeys((".usd", ".usda"), _of_usd),
+    ".nrrd": _of_nrrd,
+    ".nhdr": _of_nrrd,
+    ".gltf": _of_gltf,
+    ".glb": _of_gltf,
+    ".usd": _of_usd,
+    ".usda": _of_usd,
 }

@@ -33,10 +33,10 @@ from ...blender.settings.options import MeasureOptions
 from ...blender.write import spectrum
 from ...blender.write.thumbnail import thumbnail
 from ...core.bodies.findings import SIGNATURE_NEEDS_POLYGONS
+from ...core.files.findings import OTHERS_LEFT_OUT
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.record import flat_record
 from ...core.moments.complex_form import flusser_invariants, hu_invariants, normalize
-from ...core.scans.findings import OTHERS_LEFT_OUT
 from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
 from ...core.verdict.method import Source
 from ..files.output import guard

@@ -16,10 +16,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ...core.bodies.findings import DENSITY_DEFAULTED
+from ...core.files.findings import FILE_MISSING
 from ...core.measurement import record
 from ...core.measurement.documents import document
 from ...core.measurement.plain_text import print_message
-from ...core.scans.findings import FILE_MISSING
 from ...core.verdict import internal_error
 from ...core.verdict.finding import MeasureError
 from .. import measure

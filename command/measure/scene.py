@@ -28,9 +28,9 @@ from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...blender.write.properties import store
 from ...core.bodies.findings import DENSITY_DEFAULTED
+from ...core.files.findings import FILE_UNREADABLE
 from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
-from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ...core.verdict.verdict import open_body_caveats
 from ..files.files import newer_version, open_file, requested_file

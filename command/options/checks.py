@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 
 from ...core.density.materials import BY_NAME
 from ...core.density.polynomial import parse_polynomial
+from ...core.files.limits import file_limits
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
 from ...core.measurement.measurement import Measurement
 from ...core.scans.numpy_files import map_array
-from ...core.scans.scan_files import scan_limits
 from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
 from ..files.suffixes import file_suffix
 from ..findings import OPTIONS_UNUSED, UNIT_ASSUMED
@@ -46,7 +46,7 @@ def prepare(options: Namespace) -> None:
             )
         if options.polynomial is not None:
             parse_polynomial(options.polynomial)
-        options.limits = replace(scan_limits(), allow_outside=options.allow_outside)
+        options.limits = replace(file_limits(), allow_outside=options.allow_outside)
     except (MeasureError, UsageError) as error:
         fail(str(error))
     try:

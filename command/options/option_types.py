@@ -12,9 +12,9 @@ from argparse import ArgumentTypeError
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
+from ...core.files.number_text import parse_number, parse_whole
 from ...core.measurement import documents
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
-from ...core.verdict.number_text import parse_number, parse_whole
 from ..parser import COMMANDS
 
 # Equal to the values in the core, which needs numpy: the process that supervises others may have
@@ -37,7 +37,7 @@ def _to_robot(file_documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 # Functions from documents, which may be iterated twice, to pieces of text.
-FORMATS = {**documents.FORMATS, **dict.fromkeys(ROBOT_FORMATS, _to_robot)}
+FORMATS = documents.FORMATS | dict.fromkeys(ROBOT_FORMATS, _to_robot)
 
 
 def command(text: str) -> str:

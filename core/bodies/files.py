@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ..density.findings import POSITIONS_ONLY_AS_DENSITY
 from ..density.grid_options import GridOptions
+from ..files.limits import DEFAULT_LIMITS, Limits
 from ..measurement.findings import NO_VOLUME
 from ..measurement.measurement import Body, Measurement
 from ..measurement.settings import Settings
@@ -24,7 +25,6 @@ from ..moments.moments import Moments
 from ..scans import Scan, read_scan, sample_matrix
 from ..scans.findings import SCAN_UNSTATED
 from ..scans.formats import place_samples, read_all_positions
-from ..scans.scan_files import DEFAULT_LIMITS, Limits
 from ..solid.findings import INVERTED_COMPONENTS
 from ..streams.file_mesh import FileMesh, box_of_blocks
 from ..streams.measure import MeshFile, StreamIntegrals, measure_stream, open_mesh_file

@@ -13,13 +13,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..files.findings import FILE_UNREADABLE
 from ..measurement.builder import measure_body
 from ..measurement.measurement import Body, Measurement
 from ..measurement.settings import Settings, fingerprint
 from ..mesh.surface import Surface, join_surfaces
 from ..moments.affine_maps import are_singular
 from ..nurbs.splines import Curve, Face
-from ..streams.findings import FILE_UNREADABLE
 from ..verdict.finding import Finding, MeasureError, ReadError, system_reason
 
 NO_SLOTS = np.empty(0, np.intp)

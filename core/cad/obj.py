@@ -20,12 +20,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.findings import FILE_TOO_LARGE
+from ..files.number_text import parse_number, parse_whole
+from ..files.text_fields import map_file, parse_decimals
 from ..nurbs.splines import Face
 from ..streams.file_mesh import FileMesh, name_of_file, without_repeats
-from ..streams.findings import FILE_TOO_LARGE
-from ..streams.text_fields import map_file, parse_decimals
 from ..verdict.finding import FileError
-from ..verdict.number_text import parse_number, parse_whole
 from .findings import OBJ_CALL, SURFACE_ORDER, SURFACE_TRIMMED, SURFACE_UNSUPPORTED
 from .obj_text import Lines, blocks, check_obj_text
 from .surfaces import (

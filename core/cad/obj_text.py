@@ -16,7 +16,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from ..streams.text_fields import (
+from ..files.text_fields import (
     BLOCK,
     MARK,
     SHORT,
@@ -51,7 +51,7 @@ _FIELDS = {
 }
 _LINES = re.compile(
     rb"(?:(?:v(?:%(n)b{3,}+|t%(m)b++|n%(m)b{3,}+)|f%(i)b{3,}+|l%(i)b{2,}+|p%(i)b++)[ \r\v]*+\n"
-    rb"|[ \r\v]*+(?!(?:%(kinds)b)(?!\S))[^\n]*+\n)*+" % {**_FIELDS, b"kinds": _KINDS}
+    rb"|[ \r\v]*+(?!(?:%(kinds)b)(?!\S))[^\n]*+\n)*+" % (_FIELDS | {b"kinds": _KINDS})
 )
 
 

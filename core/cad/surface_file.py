@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scans.findings import FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
-from ..scans.scan_files import DEFAULT_LIMITS, Limits
+from ..files.findings import FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
+from ..files.limits import DEFAULT_LIMITS, Limits
 from ..streams.file_mesh import FileMesh, box_of_blocks
 from ..streams.measure import KINDS
 from ..verdict.finding import FileError

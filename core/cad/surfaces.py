@@ -13,11 +13,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..files.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
 from ..numerics.bspline import SplineSpace
 from ..nurbs.blender_knots import bezier_patches, bezier_space
 from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 from ..nurbs.splines import Face, Patch
-from ..streams.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
 from .findings import (
     NO_SURFACE_KEPT,

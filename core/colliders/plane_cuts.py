@@ -167,9 +167,12 @@ def connected_parts(piece: Piece) -> Iterator[Piece]:
     owner = list(range(len(parts)))
     for i in np.flatnonzero(np.array(volumes) < 0.0).tolist():
         around = [
-            j for j in owner
-            if volumes[j] > 0.0 and (boxes[j][0] <= boxes[i][0]).all() and (boxes[j][1] >= boxes[i][1]).all()
-        ]  # fmt: skip
+            j
+            for j in owner
+            if volumes[j] > 0.0
+            and (boxes[j][0] <= boxes[i][0]).all()
+            and (boxes[j][1] >= boxes[i][1]).all()
+        ]
         owner[i] = min(around, key=volumes.__getitem__, default=i)
     for i in sorted({*owner}):
         members = [part for part, whose in zip(parts, owner) if whose == i]

@@ -76,8 +76,7 @@ def threshold_body(
     preview: bool = False,
     value: Callable[[NDArray], NDArray] | None = None,
 ) -> ThresholdBody:
-    """Return the moments of the set where the trilinear interpolant of samples is at least a
-    threshold.
+    """Return the moments of the set where the trilinear interpolant reaches a threshold.
 
     The moments are about the position of the sample in the middle of the grid.
 

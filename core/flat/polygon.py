@@ -341,10 +341,9 @@ def region_moments(
     rounded: float = 0.0,
     stored: float = 0.0,
 ) -> Moments:
-    """Return ∫ x^p y^q dA of the region to the left of directed edges, for all p + q ≤ order, with
-    error bounds.
+    """Return ∫ x^p y^q dA, p + q ≤ order, of the region to the left of directed edges.
 
-    The moments are about the centroid, up to rounding, unless `about` is given.
+    The moments, with error bounds, are about the centroid, up to rounding, unless `about` is given.
 
     Parameters
     ----------

@@ -182,7 +182,8 @@ def measure_section(
     >>> from body_moments.core.flat import directed_edges, measure_section
     >>> from body_moments.core.flat.section_properties import Plane
     >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-    >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
+    >>> plane = Plane(np.zeros(3), np.eye(3), 0.0, "X")
+    >>> section = measure_section(plane, points, directed_edges([range(4)]))
     >>> round(section.area, 9), section.center, np.round(section.second * 12, 9).tolist()
     (2.0, (1.0, 0.5, 0.0), [2.0, 8.0, 0.0])
     """

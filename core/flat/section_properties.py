@@ -62,7 +62,8 @@ class Section:
     >>> from body_moments.core.flat import directed_edges, measure_section
     >>> from body_moments.core.flat.section_properties import Plane
     >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-    >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
+    >>> plane = Plane(np.zeros(3), np.eye(3), 0.0, "X")
+    >>> section = measure_section(plane, points, directed_edges([range(4)]))
     >>> [round(6 * modulus, 9) for modulus in section.moduli], round(section.polar * 6, 9)
     ([2.0, 4.0, 4.0, 2.0], 5.0)
     """

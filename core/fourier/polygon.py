@@ -27,8 +27,7 @@ SERIES_TERMS = 10  # Terms of sinc(t) - 1 for t up to 1.
 
 
 def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
-    """Return the Fourier transform of polygons in the plane, F(q) = ∫ exp(-i q·x) dA, in closed
-    form.
+    """Return the closed-form transform F(q) = ∫ exp(-i q·x) dA of polygons in the plane.
 
     Parameters
     ----------

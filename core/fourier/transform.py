@@ -52,8 +52,7 @@ ROUNDING_FACTOR = 64.0
 
 
 def solid_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int = 1) -> Spectrum:
-    """Return the Fourier transform of the body in a closed surface, F(q) = ∫ exp(-i q·x) dV, in
-    closed form.
+    """Return the closed-form transform F(q) = ∫ exp(-i q·x) dV of the body in a closed surface.
 
     Parameters
     ----------
@@ -83,7 +82,8 @@ def solid_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int
     Examples
     --------
     >>> from body_moments.core import Surface, solid_transform
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> spectrum = solid_transform(surface, [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]])
     >>> np.round(spectrum.values * 6, 6).tolist()
     [(1+0j), (0.062359-0.879355j)]

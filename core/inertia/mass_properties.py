@@ -51,7 +51,8 @@ class MassProperties:
     Examples
     --------
     >>> from body_moments.core import MassProperties, Surface, polyhedron_moments
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> properties = MassProperties.from_moments(polyhedron_moments(surface)[0], density=6000.0)
     >>> round(properties.mass, 9), np.round(properties.principal.moments, 6).tolist()
     (1000.0, [62.5, 62.5, 100.0])
@@ -221,9 +222,11 @@ def combine(
     --------
     >>> from body_moments.core import Surface, polyhedron_moments
     >>> from body_moments.core.inertia import combine
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> volume, _ = polyhedron_moments(surface)
-    >>> round(combine([(volume, 6.0), (volume.transform(np.diag([2.0, 1.0, 1.0, 1.0])), 6.0)]).mass, 9)
+    >>> stretched = volume.transform(np.diag([2.0, 1.0, 1.0, 1.0]))
+    >>> round(combine([(volume, 6.0), (stretched, 6.0)]).mass, 9)
     3.0
     """
     for moments, _ in bodies:

@@ -344,7 +344,7 @@ def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
             False,
             finding(AXES_FREE, axes=[1, 2, 3]),
         ),
-        rounding_error={**bounds, "inertia": float(central.rounding_error[4:].sum())},
+        rounding_error=(bounds | {"inertia": float(central.rounding_error[4:].sum())}),
         input_error={"mass": 0.0, "center": 0.0, "inertia": float(central.input_error[4:].sum())},
     )
 
@@ -395,9 +395,10 @@ def mass_properties(points: ArrayLike, triangles: ArrayLike, *, density: float) 
     Examples
     --------
     >>> from body_moments.core import mass_properties
-    >>> corners = np.eye(4, 3, -1)
-    >>> body = mass_properties(corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], density=6000.0)
-    >>> str(body.method), round(body.mass_properties.mass, 9), body.mass_properties.center.round(9).tolist()
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> body = mass_properties(np.eye(4, 3, -1), faces, density=6000.0)
+    >>> found = body.mass_properties
+    >>> str(body.method), round(found.mass, 9), found.center.round(9).tolist()
     ('exact', 1000.0, [0.25, 0.25, 0.25])
     """
     solid = measure_solid(Surface.from_triangles(points, triangles))

@@ -197,25 +197,26 @@ def _csv_rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
         place = {"file": file_document["file"], "frame": file_document["frame"]}
         for name in ("objects", "assemblies", "bones"):
             for entry in file_document.get(name, ()):
-                yield {**place, **_columns(entry)}
+                yield (place | _columns(entry))
         for entry in file_document.get("flat", ()):
-            yield {**place, **_flat_columns(entry)}
+            yield (place | _flat_columns(entry))
         for column, entries in (
             ("left_out", file_document["left_out"]),
             ("error", file_document["errors"]),
         ):
             for entry in entries:
-                yield {**place, "name": entry["name"], column: entry["reason"]}
+                yield (place | {"name": entry["name"], column: entry["reason"]})
 
 
 _COLUMNS = (
-    "file", "frame", "name", "type", "kind", "verdict", "method", "density", "mass", "volume", "area",
+    *("file", "frame", "name", "type", "kind", "verdict", "method"),
+    *("density", "mass", "volume", "area"),
     *(f"center_of_mass_{axis}" for axis in "xyz"),
     *(f"inertia_{name}" for name, *_ in TENSOR),
     *(f"principal_moment_{number}" for number in (1, 2, 3)),
     *(f"principal_axis_{number}_{axis}" for number in (1, 2, 3) for axis in "xyz"),
     "symmetry",
-)  # fmt: skip
+)
 _OPTIONAL_COLUMNS = (
     "armature",
     "density_from",

@@ -60,7 +60,8 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
         int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1
     )  # a negative edge becomes a large one
     if count > 2 * len(corners) or count > np.iinfo(edges.dtype).max // 2:
-        return None  # most of them without faces, or too many for their type: the table would cost more than a search
+        # Most of them without faces, or too many for their type: a table costs more than a search.
+        return None
     sides = np.full(2 * count, -1, np.int32)
     for start in range(0, len(corners), EDGES_PER_BLOCK):
         faces, upward = sides_at(start)

@@ -38,8 +38,7 @@ INDEX_SHAPES = {
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Triangles and quads over shared points, counter-clockwise from outside: the input of every
-    measurement.
+    """Triangles and quads over shared points, counter-clockwise from outside.
 
     Parameters
     ----------
@@ -62,7 +61,9 @@ class Surface:
     >>> from body_moments.core import Surface
     >>> cube = Surface(
     ...     np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]),
-    ...     quads=np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]),
+    ...     quads=np.array(
+    ...         [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    ...     ),
     ... )
     >>> cube.box[1].tolist(), len(cube.all_triangles()[0])
     ([1.0, 1.0, 1.0], 12)

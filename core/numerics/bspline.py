@@ -21,8 +21,7 @@ from .arguments import float_array
 
 @dataclass(frozen=True)
 class SplineSpace:
-    """The B-splines of one order over one knot vector: a direction's function space, without
-    control points.
+    """The B-splines of one order over one knot vector, without control points.
 
     Parameters
     ----------

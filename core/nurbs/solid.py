@@ -120,7 +120,8 @@ def measure_patches(
     --------
     >>> from body_moments.core.nurbs import Patch, measure_patches
     >>> from body_moments.core.numerics import clamped_space
-    >>> line, corners = clamped_space(2), np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
+    >>> line = clamped_space(2)
+    >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
     >>> around = np.stack([np.insert(corners, 2, z, axis=1) for z in (0.0, 1.0)], axis=1)
     >>> body = measure_patches([Patch((clamped_space(2, (0.25, 0.5, 0.75)), line), around)])
     >>> str(body.method), round(body.volume.total, 9)

@@ -76,7 +76,8 @@ class Curve:
     --------
     >>> from body_moments.core.nurbs import Curve
     >>> from body_moments.core.numerics import clamped_space
-    >>> curve = Curve(clamped_space(3), np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 0.0], [2.0, 0.0, 0.0]]))
+    >>> points = np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 0.0], [2.0, 0.0, 0.0]])
+    >>> curve = Curve(clamped_space(3), points)
     >>> curve.evaluate([0.5]).tolist()
     [[1.0, 1.0, 0.0]]
     """

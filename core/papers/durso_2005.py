@@ -43,7 +43,7 @@ ZEROTH = (6, {"": 1})
 FIRST = (24, {"a": 1, "b": 1, "p": 1})
 SECOND = (120, {"aa": 2, "ab": 1, "ba": 1, "bb": 2, "ap": 1, "pa": 1, "pp": 2, "bp": 1, "pb": 1})
 THIRD = (720, {"".join(word): (6, 2, 1)[len(set(word)) - 1] for word in product("abp", repeat=3)})
-THIRD_AS_PRINTED = (720, {**THIRD[1], "baa": 0, "bab": 4})
+THIRD_AS_PRINTED = (720, (THIRD[1] | {"baa": 0, "bab": 4}))
 FORMULAS = (ZEROTH, FIRST, SECOND, THIRD)
 
 
@@ -125,8 +125,10 @@ def moments(
     Examples
     --------
     >>> from body_moments.core.papers.durso_2005 import moments, perpendicular_feet
-    >>> points, faces = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-    >>> [round(moments(points, faces, 2, apexes)[4] * 60, 12) for apexes in (None, perpendicular_feet(points, faces))]
+    >>> points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> feet = perpendicular_feet(points, faces)
+    >>> [round(moments(points, faces, 2, apexes)[4] * 60, 12) for apexes in (None, feet)]
     [1.0, 1.0]
     """
     apexes = [points[face[0]] for face in faces] if apexes is None else apexes

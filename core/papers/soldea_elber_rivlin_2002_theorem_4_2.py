@@ -4,8 +4,9 @@
 
 With δ_{x,y} = (t_{x+y} - t_x) / y and [t_m, t_{m+1}) the interval that holds t,
 
-    ∫_{t_i}^t τ^l B_{i,k}(τ) dτ = δ_{i,k} Σ_{j=0..l} (-1)^j (t^l)^{(j)} Σ_{s0=i..m} B_{s0,k+j+1}(t)
-                                  Σ_{s1=i..s0} δ_{s1,k+j} ... Σ_{sj=i..s(j-1)} δ_{sj,k+1}.          (11)
+    ∫_{t_i}^t τ^l B_{i,k}(τ) dτ =
+        δ_{i,k} Σ_{j=0..l} (-1)^j (t^l)^{(j)} Σ_{s0=i..m} B_{s0,k+j+1}(t)
+        Σ_{s1=i..s0} δ_{s1,k+j} ... Σ_{sj=i..s(j-1)} δ_{sj,k+1}.    (11)
 
 The theorem is right, but costs l nested sums, so only tests use it. The arithmetic is that of its
 arguments: exact with `fractions.Fraction`.

@@ -99,8 +99,10 @@ def mesh_moments(
     Examples
     --------
     >>> from body_moments.core.papers.zhang_chen_2001 import mesh_moments
-    >>> points, triangles = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-    >>> [round(float(value) * 120, 9) for value in mesh_moments(points, triangles, [(2, 0, 0), (1, 1, 0)])]
+    >>> points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> triangles = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> values = mesh_moments(points, triangles, [(2, 0, 0), (1, 1, 0)])
+    >>> [round(float(value) * 120, 9) for value in values]
     [2.0, 1.0]
     """
     dimension = len(points[0])

@@ -108,7 +108,8 @@ def polyhedron_moments(
     Examples
     --------
     >>> from body_moments.core import Surface, polyhedron_moments
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> volume, area = polyhedron_moments(surface, 8, area_order=0, about=(0, 0, 0))
     >>> round(volume.total * 6, 12), round(area.total, 6)
     (1.0, 2.366025)

@@ -5,15 +5,14 @@ boundary itself.
 
 Sheynin and Tuzikov's formulae hold in any dimension. Over the simplex of the origin and v_1 … v_n
 
-    ∫ x^α = det(v_1 … v_n) · S_α · α! / (|α|+n)!,    S_α the coefficient of ξ^α in Π_i 1 / (1 -
-                                                     v_i·ξ),
+    ∫ x^α = det(v_1 … v_n) · S_α · α! / (|α|+n)!,
 
-and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, in place of det, and
-|α|+n-1 in place of
-|α|+n. Each factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), over blocks of simplices.
-det = v_1·N; minors give N, the generalized cross product of the facet's edges. As there are only
-products and sums, rounding is relative to the same expression in absolute values, which gives a
-rigorous bound.
+S_α the coefficient of ξ^α in Π_i 1 / (1 - v_i·ξ), and over the facet v_1 … v_n alone the same with
+|N|, (n-1)! times its measure, in place of det, and |α|+n-1 in place of |α|+n. Each factor is one
+pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), over blocks of simplices. det =
+v_1·N; minors give N, the generalized cross product of the facet's edges. As there are only products
+and sums, rounding is relative to the same expression in absolute values, which gives a rigorous
+bound.
 """
 
 from __future__ import annotations
@@ -136,8 +135,7 @@ def enclosed_moments(
 def facet_moments(
     points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLike | None = None
 ) -> SimplexMoments:
-    """Return the moments of the boundary itself: length in the plane, area in space, points on a
-    line.
+    """Return the moments of the boundary: length in the plane, area in space, points on a line.
 
     The moments are about the middle of the bounding box of the used points, unless `about` is
     given.

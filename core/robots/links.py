@@ -86,8 +86,11 @@ def assemble_robot(
     A connection takes the place of the fixed joint to a parent, or holds links that have no parent.
     """
     links = {one.name: one.link for one in candidates if one.link is not None}
-    nearest = {one.name: next((name for name in one.parents if name in links and name != one.name), None)
-               for one in candidates if one.link is not None}  # fmt: skip
+    nearest = {
+        one.name: next((name for name in one.parents if name in links and name != one.name), None)
+        for one in candidates
+        if one.link is not None
+    }
     parents = {child: parent for child, parent in nearest.items() if parent is not None}
     loose = [one.name for one in connections if (one.first in links) != (one.second in links)]
     edges, loops = _spanning_edges(

@@ -43,9 +43,9 @@ def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
     moments ascend.
 
     It has the least moment along its axis and the mean of the others across it, if possible; else
-    it is a ball. With t
-    = L/r, r = 1: V = π(t + 4/3); ∫x² dV is π(t/4 + 4/15) across and π(t³/12 + t²/3 + t/2 + 4/15) along the axis. Their
-    ratio grows with t from 1, the ratio of a ball.
+    it is a ball. With the ratio t of L to r and r = 1, V is π(t + 4/3), and ∫x² dV is
+    π(t/4 + 4/15) across and π(t³/12 + t²/3 + t/2 + 4/15) along the axis. Their ratio grows with t
+    from 1, the ratio of a ball.
     """
     along = (moments[1] + moments[2] - moments[0]) / 2.0  # ∫x² dm
     across = max(moments[0] / 2.0, LEAST_SPREAD * along)

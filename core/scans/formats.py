@@ -12,13 +12,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arguments import check_type, float_array
-from ..verdict.finding import FileError, Finding, finding
-from .findings import (
+from ..files.damage import wrong_field
+from ..files.findings import (
     FILE_MISSING,
     FILE_NOT_REGULAR,
     FILE_TYPE,
     NAMED_FILE_MISSING,
+)
+from ..files.limits import DEFAULT_LIMITS, Limits
+from ..numerics.arguments import check_type, float_array
+from ..verdict.finding import FileError, Finding, finding
+from .findings import (
     POSITIONS_COUNT,
     POSITIONS_NOT_ASCENDING,
     SCAN_OUT_OF_MEMORY,
@@ -29,8 +33,8 @@ from .findings import (
 from .nifti import read_nifti
 from .nrrd import read_nrrd
 from .numpy_files import map_array, read_named_raw, read_npy, read_npz
-from .scan import Scan, wrong_field
-from .scan_files import DEFAULT_LIMITS, SUFFIXES, Limits, scan_suffix
+from .scan import Scan
+from .scan_files import SUFFIXES, scan_suffix
 
 READERS: dict[str, Callable[[Path, Limits], Scan]] = dict(
     zip(
@@ -48,8 +52,7 @@ EVEN: Positions = (None, None, None)
 
 
 def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
-    """Read the scan in a file, by its suffix: NRRD, NIfTI-1, .npy, .npz, or .raw called
-    NAME_XxYxZ_TYPE.raw.
+    """Read the scan in a file: NRRD, NIfTI-1, .npy, .npz, or .raw called NAME_XxYxZ_TYPE.raw.
 
     Parameters
     ----------
@@ -133,7 +136,8 @@ def sample_matrix(
     Examples
     --------
     >>> from body_moments.core.scans import Scan, sample_matrix
-    >>> matrix, findings = sample_matrix(Scan(np.zeros((2, 2, 2)), np.eye(4)), (2.0, 2.0, 3.0), None, 0.001)
+    >>> scan = Scan(np.zeros((2, 2, 2)), np.eye(4))
+    >>> matrix, findings = sample_matrix(scan, (2.0, 2.0, 3.0), None, 0.001)
     >>> matrix.diagonal().tolist(), findings
     ([0.002, 0.002, 0.003, 1.0], ())
     """

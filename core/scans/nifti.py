@@ -12,11 +12,19 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.damage import damaged, wrong_field
+from ..files.findings import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED
+from ..files.limits import Limits
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import FileError
-from .findings import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
-from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samples, wrong_field
-from .scan_files import Limits
+from .findings import SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
+from .scan import (
+    Scan,
+    gzip_blocks,
+    map_samples,
+    shape_of,
+    unpack_samples,
+)
 
 HEADER = 348  # bytes
 TYPES = {

@@ -15,19 +15,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..verdict.finding import FileError
-from ..verdict.number_text import parse_number, parse_whole
-from .findings import (
+from ..files.damage import damaged
+from ..files.findings import (
     DAMAGE_CUT_SHORT,
     FILE_UNRECOGNIZED,
     HEADER_FIELD,
     NAMED_FILE_MISSING,
-    NRRD_DATA_FILE_OUTSIDE,
-    SCAN_IN_SEVERAL_FILES,
-    SCAN_SAMPLE_TYPE,
 )
-from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
-from .scan_files import Limits
+from ..files.limits import Limits
+from ..files.number_text import parse_number, parse_whole
+from ..verdict.finding import FileError
+from .findings import NRRD_DATA_FILE_OUTSIDE, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
+from .scan import (
+    Scan,
+    map_samples,
+    shape_of,
+    unpack_samples,
+)
 
 HEADER_BLOCK = 1 << 16  # bytes of a header that are read at a time
 MAX_AXES = 16
@@ -46,7 +50,12 @@ UNITS = {
         for prefix, unit in _METERS.items()
         for name in ("meter", "meters", "metre", "metres")
     },
-    **{"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "nm": 1e-9, "km": 1e3},
+    "m": 1.0,
+    "dm": 0.1,
+    "cm": 1e-2,
+    "mm": 1e-3,
+    "nm": 1e-9,
+    "km": 1e3,
     **dict.fromkeys(("um", "\u00b5m", "\u03bcm", "micron", "microns"), 1e-6),
     **dict.fromkeys(("in", "inch", "inches"), 0.0254),
     **dict.fromkeys(("ft", "foot", "feet"), 0.3048),

@@ -17,16 +17,18 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.damage import check_length, damaged
+from ..files.findings import DAMAGE_INCOMPLETE, OTHERS_LEFT_OUT
+from ..files.limits import DEFAULT_LIMITS, Limits
 from ..verdict.finding import FileError, finding
-from .findings import (
-    DAMAGE_INCOMPLETE,
-    OTHERS_LEFT_OUT,
-    RAW_WITHOUT_LAYOUT,
-    SCAN_SAMPLE_TYPE,
-    SCAN_SIZE,
+from .findings import RAW_WITHOUT_LAYOUT, SCAN_SAMPLE_TYPE, SCAN_SIZE
+from .scan import (
+    Scan,
+    map_samples,
+    real_samples,
+    shape_of,
 )
-from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
-from .scan_files import DEFAULT_LIMITS, SAMPLE_TYPES, Limits
+from .scan_files import SAMPLE_TYPES
 
 ENTRY = b"PK\1\2"  # first bytes of an entry in a zip archive's directory
 MAX_ARRAY_HEADER = 10_000  # bytes, like numpy.load

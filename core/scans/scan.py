@@ -14,22 +14,19 @@ import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..verdict.finding import FileError, Finding, finding
-from .findings import (
+from ..files.damage import check_length, damaged
+from ..files.findings import (
     DAMAGE_CUT_SHORT,
     DAMAGE_INCOMPLETE,
     DAMAGE_SIZE,
-    FILE_DAMAGED,
-    HEADER_FIELD,
-    SCAN_SAMPLE_TYPE,
-    SCAN_SIZE,
 )
-from .scan_files import Limits
+from ..files.limits import Limits
+from ..verdict.finding import FileError, Finding
+from .findings import SCAN_SAMPLE_TYPE, SCAN_SIZE
 
 MAX_GZIP_RATIO = 1032  # Most bytes that one byte of a gzip file can unpack to.
 PACKED = 1 << 16  # Packed bytes read at a time; the rest after each small member is copied.
@@ -91,30 +88,6 @@ def real_samples(array: NDArray) -> NDArray:
     if array.ndim != 3 or not array.size:
         raise FileError(SCAN_SIZE, samples=list(array.shape))
     return array
-
-
-def damaged(path: Path, code: str, **values: Any) -> FileError:
-    """Return the error for a damaged file, with the code of the fault."""
-    return FileError(FILE_DAMAGED, file=path.name, cause=finding(code, **values).as_record())
-
-
-def wrong_field(format: str, name: str, wanted: str, *values: float) -> FileError:
-    """Return the error for numbers of a header's field."""
-    return FileError(
-        HEADER_FIELD,
-        format=format,
-        field=name,
-        wanted=wanted,
-        text=" ".join(map("{:g}".format, values)),
-    )
-
-
-def check_length(path: Path, held: int, wanted: int) -> None:
-    """Raise FileError unless a file holds exactly the bytes of its samples; more bytes mean wrong
-    sizes.
-    """
-    if held != wanted:
-        raise damaged(path, DAMAGE_SIZE, bytes=held, total=wanted)
 
 
 def map_samples(

@@ -179,7 +179,8 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
     Examples
     --------
     >>> from body_moments.core import Surface, polyhedron_moments, signature
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> volume = polyhedron_moments(surface, 20)[0].about_center()
     >>> radius = float(np.linalg.norm(surface.points - volume.about, axis=1).max())
     >>> round(signature(volume, radius).size, 6)
@@ -252,9 +253,12 @@ def similarity(a: Signature, b: Signature) -> Likeness:
     >>> from body_moments.core.mesh import Surface
     >>> from body_moments.core.polyhedron import polyhedron_moments
     >>> from body_moments.core.shape import signature, similarity
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> small, large = (
-    ...     signature(polyhedron_moments(surface.transform(size * np.eye(3)), 20)[0].about_center(), size)
+    ...     signature(
+    ...         polyhedron_moments(surface.transform(size * np.eye(3)), 20)[0].about_center(), size
+    ...     )
     ...     for size in (1.0, 3.0)
     ... )
     >>> likeness = similarity(small, large)

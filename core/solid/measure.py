@@ -93,9 +93,11 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     Examples
     --------
     >>> from body_moments.core import Surface, measure_solid
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 3, 2]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 3, 2]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> body = measure_solid(surface)
-    >>> str(body.method), round(body.volume.total * 6, 9), body.health.defective_elements.flipped_faces.tolist()
+    >>> flipped = body.health.defective_elements.flipped_faces
+    >>> str(body.method), round(body.volume.total * 6, 9), flipped.tolist()
     ('reoriented', 1.0, [3])
     """
     checked = check_surface(surface)

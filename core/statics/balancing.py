@@ -100,7 +100,8 @@ def balance(
     --------
     >>> from body_moments.core.mesh import Surface
     >>> from body_moments.core.statics import balance
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> result = balance(surface, np.arange(4), np.array([0.25, 0.25, 0.3]))
     >>> np.round(result.after, 9).tolist()
     [0.25, 0.25, 0.3]

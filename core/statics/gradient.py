@@ -35,8 +35,7 @@ TRIANGLES_PER_BLOCK = 65536  # triangles at a time
 
 
 def volume_gradient(surface: Surface, about: ArrayLike, order: int = 1) -> NDArray[np.float64]:
-    """Return the derivatives of the volume and its moments to an order of at most two by every
-    vertex.
+    """Return the derivatives of the volume moments to order two at most by every vertex.
 
     Parameters
     ----------
@@ -55,7 +54,8 @@ def volume_gradient(surface: Surface, about: ArrayLike, order: int = 1) -> NDArr
     --------
     >>> from body_moments.core.mesh import Surface
     >>> from body_moments.core.statics import volume_gradient
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> np.round(volume_gradient(surface, np.zeros(3))[3, 0] * 6, 9).tolist()
     [0.0, 0.0, 1.0]
     """

@@ -13,10 +13,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.damage import refuse_non_finite
 from ..mesh.surface import Surface
 from ..mesh.welding import first_at_equal_position
-from ..verdict.finding import FileError, finding
-from .findings import AT_ROW, NON_FINITE_COORDINATES
 
 CORNERS_PER_BLOCK = 1 << 18
 
@@ -143,15 +142,6 @@ def box_of_blocks(blocks: Iterable[NDArray[np.floating]], element: str) -> Box:
         rows += len(block)
     refuse_non_finite(bad, element, first)
     return (low, high) if rows else (np.zeros(3), np.zeros(3))
-
-
-def refuse_non_finite(count: int, element: str, row: int | str) -> None:
-    """Raise FileError if the count is not zero. row: the first element with such a number, or its
-    name.
-    """
-    if count:
-        place = finding(AT_ROW, element=element, row=row).as_record()
-        raise FileError(NON_FINITE_COORDINATES, count=count, place=place)
 
 
 def strip_triangles(strip: NDArray[np.integer]) -> NDArray[np.integer]:

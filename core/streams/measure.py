@@ -11,14 +11,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.findings import FILE_TYPE, FILE_WITHOUT_OBJECTS
 from ..mesh.boundary import BoundarySum
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..polyhedron.integration import polyhedron_moments
 from ..polyhedron.third_order import box_center
-from ..scans.findings import FILE_TYPE
 from ..verdict.finding import FileError
-from .findings import FILE_WITHOUT_OBJECTS
 from .ply import PlyFile
 from .stl import StlFile
 

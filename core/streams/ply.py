@@ -16,31 +16,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface
-from ..scans.findings import FILE_UNRECOGNIZED
-from ..scans.scan import damaged
-from ..verdict.finding import FileError
-from .file_mesh import (
-    Box,
-    FileMesh,
-    Polygons,
-    box_of_blocks,
-    name_of_file,
-    polygon_surface,
-    strip_triangles,
-)
-from .findings import DAMAGE_INDEX, DAMAGE_PLY_ROWS, FILE_WITHOUT_OBJECTS
-from .ply_rows import (
-    INDICES,
-    MAX_HEADER,
-    Element,
-    Header,
-    Property,
-    RowReader,
-    RowsError,
-    parse_header,
-)
-from .text_fields import (
+from ..files.damage import damaged
+from ..files.findings import DAMAGE_INDEX, FILE_UNRECOGNIZED, FILE_WITHOUT_OBJECTS
+from ..files.text_fields import (
     BLOCK,
     SHORT,
     SHORT_OR_NAN,
@@ -54,6 +32,28 @@ from .text_fields import (
     map_file,
     refuse_line,
     shorten,
+)
+from ..mesh.surface import Surface
+from ..verdict.finding import FileError
+from .file_mesh import (
+    Box,
+    FileMesh,
+    Polygons,
+    box_of_blocks,
+    name_of_file,
+    polygon_surface,
+    strip_triangles,
+)
+from .findings import DAMAGE_PLY_ROWS
+from .ply_rows import (
+    INDICES,
+    MAX_HEADER,
+    Element,
+    Header,
+    Property,
+    RowReader,
+    RowsError,
+    parse_header,
 )
 
 MAX_SPREAD = (

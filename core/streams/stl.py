@@ -16,11 +16,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface
-from ..verdict.finding import FileError
-from .file_mesh import Box, FileMesh, Polygons, box_of_blocks, merge_equal, name_of_file
-from .findings import STL_CUT_SHORT
-from .text_fields import (
+from ..files.text_fields import (
     MARK,
     MAX_FLOAT32,
     SHORT,
@@ -33,6 +29,10 @@ from .text_fields import (
     refuse_line,
     shorten,
 )
+from ..mesh.surface import Surface
+from ..verdict.finding import FileError
+from .file_mesh import Box, FileMesh, Polygons, box_of_blocks, merge_equal, name_of_file
+from .findings import STL_CUT_SHORT
 
 # Bytes before the triangles, and bytes of each triangle.
 HEAD = 84
@@ -220,7 +220,7 @@ def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:
         corners = np.empty((TRIANGLES_PER_BLOCK, 3, 3), np.float32)
         done = 0
         while count and done < TRIANGLES_PER_BLOCK:
-            count = file.readinto(memoryview(records).cast("B")) // RECORD  # type: ignore[attr-defined]
+            count = file.readinto(records.view(np.uint8)) // RECORD  # type: ignore[attr-defined]
             corners[done : done + count] = records["at"][:count]
             done += count
         if done:

@@ -21,13 +21,24 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scans.findings import DAMAGE_INCOMPLETE
-from ..scans.scan import damaged
-from ..scans.scan_files import DEFAULT_LIMITS, Limits
+from ..files.damage import damaged
+from ..files.findings import (
+    DAMAGE_INCOMPLETE,
+    DAMAGE_INDEX,
+    FILE_TOO_LARGE,
+    FILE_UNREADABLE,
+    LINE_MISREAD,
+)
+from ..files.limits import DEFAULT_LIMITS, Limits
+from ..files.number_text import (
+    SPACES,
+    parse_number,
+    parse_numbers,
+    parse_whole,
+)
+from ..files.text_fields import BLOCK, MAX_FLOAT32, MAX_TEXT
 from ..verdict.finding import FileError, system_reason
-from ..verdict.number_text import SPACES, parse_number, parse_numbers, parse_whole
-from .findings import DAMAGE_INDEX, FILE_TOO_LARGE, FILE_UNREADABLE, LINE_MISREAD, THREEMF_EXTENSION
-from .text_fields import BLOCK, MAX_FLOAT32, MAX_TEXT
+from .findings import THREEMF_EXTENSION
 
 MODEL = "model"  # the type of objects that are parts; supports and helpers have other types
 MAX_INSTANCES = 100_000  # meshes that the build places

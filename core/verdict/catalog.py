@@ -22,6 +22,7 @@ PACKAGES = (
     "core.bodies",
     "core.cad",
     "core.density",
+    "core.files",
     "core.flat",
     "core.fourier",
     "core.inertia",

@@ -26,8 +26,7 @@ class Elements(Protocol):
 
 
 class Severity(StrEnum):
-    """The weight of a finding: a note does not question the numbers, a warning does, an error means
-    there are none.
+    """The weight of a finding: notes do not question numbers, warnings do, errors leave none.
 
     Examples
     --------
@@ -168,7 +167,7 @@ def finding(
     slight: True if the effect on mass, size and inertia is negligible
     (`core/verdict/tolerances.py`): a warning is then a note.
     """
-    return Finding(code, {**values, "slight": True} if slight else values, elements)
+    return Finding(code, values | {"slight": True} if slight else values, elements)
 
 
 def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:
@@ -200,8 +199,7 @@ def truncate_findings(findings: Sequence[Any], limit: int) -> list[Any]:
 
 
 class MeasureError(Exception):
-    """A refusal of a request that cannot be met, with the reason and the remedy as a finding of
-    severity error.
+    """A refusal of a request, with the reason and the remedy as a finding of severity error.
 
     Raised if the user's objects, settings, files or queries make a result impossible. Wrong
     arguments of a programmer are ValueError and TypeError; any other exception is a fault of the

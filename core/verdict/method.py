@@ -51,8 +51,8 @@ class Method:
     --------
     >>> from body_moments.core.verdict import Method
     >>> from body_moments.core.verdict.method import Procedure, Source
-    >>> str(Method(Procedure.EXACT, Source.NURBS)), Method.parse("NURBS exact").source is Source.NURBS
-    ('NURBS exact', True)
+    >>> str(Method(Procedure.EXACT, Source.NURBS)), str(Method.parse("NURBS exact").source)
+    ('NURBS exact', 'NURBS')
     """
 
     procedure: Procedure

@@ -27,8 +27,7 @@ NODES_PER_BLOCK = 1 << 14
 
 
 def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -> Moments:
-    """Return the volume moments of a wall to any order, about the middle of the surface's bounding
-    box.
+    """Return a wall's volume moments to any order, about the middle of the surface's box.
 
     Parameters
     ----------

@@ -166,7 +166,7 @@ class RobotExport(selection.InObjectMode, ExportHelper):
 
 
 class GeometryExport(RobotExport):
-    """Base of exporters that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
+    """Base of exporters that leave the geometry of objects to Blender's own exporter."""
 
     def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
         is_own = self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only
@@ -207,7 +207,7 @@ class GeometryExport(RobotExport):
 
 
 class UsdExport(GeometryExport):
-    """Base of the USD exporter: a layer with the masses refers to the layer that Blender's exporter has written."""
+    """Base of the USD exporter: a layer with masses refers to that of Blender's exporter."""
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
         robot = made.robot
@@ -236,7 +236,7 @@ class UsdExport(GeometryExport):
 
 
 class GltfExport(GeometryExport):
-    """Base of the glTF exporter: rigid bodies are added to the file that Blender's exporter has written."""
+    """Base of the glTF exporter: rigid bodies are added to the file of Blender's exporter."""
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
         findings = made.findings

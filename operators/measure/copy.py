@@ -143,7 +143,9 @@ def _moments(context: Context) -> Copied | str:
     settings = scene.body_moments
     about = scene.body_moments.moments_about
     reference = stored.moments.reference_of(obj, computed, scene) if about == "REFERENCE" else None
-    text = stored.moments.as_csv(computed, settings.moments_of, about, settings.frame, reference)
+    text = stored.computed_moments.as_csv(
+        computed, settings.moments_of, about, settings.frame, reference
+    )
     return text, reports.phrase("Copied {count} moments", count=text.count("\n") - 2)
 
 
@@ -227,7 +229,7 @@ SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
 
 
 class OBJECT_OT_body_moments_save_numbers(Operator):
-    """Save the stored mass properties of the selected objects and their total, in SI units, as .csv, .json or .jsonl"""
+    """Save the selected objects' results and their total, in SI units, as .csv, .json or .jsonl"""
 
     bl_idname = "object.body_moments_save_numbers"
     bl_label = "Save CSV or JSON"

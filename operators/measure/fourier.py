@@ -35,7 +35,7 @@ SUFFIX = ".npz"
 
 
 class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
-    """Ask for a file and a grid of frequencies, then write the Fourier transform of the active object."""
+    """Ask for a file and a grid, then write the Fourier transform of the active object."""
 
     bl_idname = "object.body_moments_fourier"
     bl_label = "Fourier Transform"

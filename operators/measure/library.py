@@ -50,7 +50,7 @@ _kept: list[tuple[str, str, str]] = []
 
 
 class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
-    """Measure all files of a folder or an asset library in separate processes, and write results and a report there"""
+    """Measure all files of a folder or an asset library, and write results and a report there"""
 
     bl_idname = "object.body_moments_measure_library"
     bl_label = "Measure Library"

@@ -33,7 +33,7 @@ AS_SET = "AS_SET"
 
 
 class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator):
-    """Compute the exact mass properties of the selected objects and store them as custom properties"""
+    """Compute exact mass properties of the selected objects and store them as custom properties"""
 
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
@@ -122,7 +122,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
         failed = session.store_measured(context, self._results)
         for armature in filter(armatures.stands_for_meshes, context.selected_objects):
             live.character.store_rest(context, armature)
-        refusals = {**self._refusals, **failed}
+        refusals = self._refusals | failed
         self._failures = [
             reports.failure(obj.name_full, refusals[obj])
             for obj in self._objects
@@ -179,13 +179,13 @@ class OBJECT_OT_body_moments_live(Operator):
         objects = _subjects(context)
         if any(live.following.is_live(obj) for obj in objects):
             for obj in objects:
-                live.live.stop(obj)
+                live.measuring.stop(obj)
             selection.redraw(context)
             return {"FINISHED"}
         depsgraph = context.evaluated_depsgraph_get()
         refusals = []
         for obj in objects:
-            result = live.live.start(obj, depsgraph)
+            result = live.measuring.start(obj, depsgraph)
             if result.refusal is not None:
                 refusals.append(reports.failure(obj.name, result.refusal))
         if refusals:

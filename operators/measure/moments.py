@@ -191,7 +191,7 @@ def reference_text(name: str, choice: ReferenceChoice, result: ReferredInertia) 
 
 
 class OBJECT_OT_body_moments_axis_from_selection(Operator):
-    """Take the axis from two selected vertices in Edit Mode, or from the origins of two selected objects"""
+    """Take the axis from two selected vertices in Edit Mode or from two objects' origins"""
 
     bl_idname = "object.body_moments_axis_from_selection"
     bl_label = "Axis from Selection"

@@ -47,7 +47,7 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
 
 
 class _OnSubject:
-    """Base of operators that change the active object's settings; refused if the object cannot hold settings."""
+    """Base of operators that change the settings of the object that the panel shows."""
 
     bl_options = {"REGISTER", "UNDO"}
 

@@ -33,7 +33,7 @@ SHOWN = 12  # bodies in the redo panel
 
 
 class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Operator):
-    """Make the selected objects rigid bodies with their exact mass, center of mass and principal axes."""
+    """Make the selected objects rigid bodies with their exact mass, center and principal axes."""
 
     bl_idname = "object.body_moments_rigid_bodies"
     bl_label = "Make Rigid Bodies"

@@ -21,7 +21,7 @@ NOTHING = "There are no copies."
 
 
 class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
-    """Let equal meshes, moved, turned, mirrored or scaled, become one mesh that objects share; nothing moves"""
+    """Let equal meshes, moved, turned, mirrored or scaled, share one mesh; nothing moves"""
 
     bl_idname = "object.body_moments_link_copies"
     bl_label = "Link Copies"

@@ -26,7 +26,7 @@ from mathutils import Vector
 from numpy.typing import NDArray
 
 from ...blender.scale import meters_per_unit
-from ...blender.session.tracking import handlers
+from ...blender.session import memory
 from ...blender.settings.scene import BodyMomentsOverlaySettings
 from . import appearance as look
 from . import discs, lines
@@ -42,10 +42,10 @@ Batch = gpu.types.GPUBatch
 
 @dataclass(eq=False)
 class _Drawn:
-    """The batches of a region; `key`: everything that they depend on besides the view, first the generation.
+    """The batches of a region; `key`: all that they depend on besides the view.
 
-    `segments`: (n, k, 2, 3) lines of the bodies, `entries` as arrays. While these are the same, their rows stay.
-    `active`: the row with labels, or -1.
+    The key begins with the generation. `segments`: (n, k, 2, 3) lines of the bodies, `entries` as
+    arrays. While these are the same, their rows stay. `active`: the row with labels, or -1.
     """
 
     key: tuple
@@ -168,7 +168,7 @@ def _key(context: Context) -> tuple:
     """Return everything that the drawing depends on, besides the view."""
     settings = context.scene.body_moments.overlay
     return (
-        handlers.generation(),
+        memory.state.generation,
         context.scene.session_uid,
         context.view_layer.name,
         context.space_data.local_view is not None,

@@ -30,8 +30,9 @@ Colored = tuple[NDArray[np.float64], NDArray[np.float32]]
 
 @dataclass(frozen=True, eq=False)
 class Detail:
-    """Drawn shapes. segments: (k, 2, 3) points and (k, 4) colors. triangles: (l, 3, 3) points and (l, 4) colors.
+    """Drawn shapes.
 
+    segments: (k, 2, 3) points and (k, 4) colors. triangles: (l, 3, 3) points and (l, 4) colors.
     texts: a (3,) place, a text and its color each.
     """
 
@@ -147,7 +148,9 @@ def support_detail(support: Support) -> Detail:
     """Return the support polygon, filled if the body stands, and an arrow from the foot to the
     tipping edge.
     """
-    color = look.TIPS if not support.stands else look.EDGE if support.is_near_edge else look.SUPPORT
+    color = look.EDGE if support.is_near_edge else look.SUPPORT
+    if not support.stands:
+        color = look.TIPS
     corners, foot = support.polygon, support.foot
     outline = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     fan = np.stack(

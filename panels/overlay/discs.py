@@ -17,7 +17,10 @@ MARGIN = 40.0  # pixels around the view in which discs are still made
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A projection of the world to the screen: (4, 4) world to view, (4, 4) view to clip space, (2,) size in pixels."""
+    """A projection of the world to the screen.
+
+    view: (4, 4) world to view. projection: (4, 4) view to clip space. size: (2,) pixels.
+    """
 
     view: NDArray[np.float64]
     projection: NDArray[np.float64]

@@ -211,7 +211,10 @@ class Task {
   addDependency(task) { this.needs.push(task.name); }
 }
 const sandbox = {
-  author: { Task: (name, kind) => new Task(name, kind), Command: (name, values) => ({name, ...values}) },
+  author: {
+    Task: (name, kind) => new Task(name, kind),
+    Command: (name, values) => ({name, ...values}),
+  },
   path: { join: paths.posix.join }, shellSplit: text => text.split(/ +/).filter(Boolean),
 };
 vm.createContext(sandbox);

@@ -16,7 +16,7 @@ pytest.importorskip("bpy")
 import numpy as np
 from body_moments.command.files import finite
 from body_moments.command.files.importers import import_mesh
-from body_moments.core.streams.text_fields import NUMBER
+from body_moments.core.files.text_fields import NUMBER
 from body_moments.core.verdict.finding import FileError, finding
 
 from tests.blender import batch_files as files

@@ -360,9 +360,11 @@ const names=()=>rows().map(row=>row.cells[2].textContent);
 const told=[document.title,rows().length];
 document.querySelectorAll("th button")[5].click();told.push(names());
 document.querySelectorAll("th button")[5].click();told.push(names());
-const text=document.getElementById("text");text.value="sphere";text.dispatchEvent(new Event("input"));
+const text=document.getElementById("text");
+text.value="sphere";text.dispatchEvent(new Event("input"));
 told.push(names());text.value="";text.dispatchEvent(new Event("input"));
-const status=document.getElementById("status");status.value="timeout";status.dispatchEvent(new Event("change"));
+const status=document.getElementById("status");
+status.value="timeout";status.dispatchEvent(new Event("change"));
 told.push(rows().length);told.push([...document.images].every(image=>image.naturalWidth>0));
 document.body.innerHTML="<pre></pre>
 ";document.querySelector("pre").textContent=JSON.stringify(told);

@@ -61,7 +61,8 @@ for line in sys.stdin:
     os.ftruncate(2, 0)
     status = "error" if kind == "bad" else "ok"
     empty = {"blender": "9.8.7", "frame": "world", "objects": [], "left_out": [], "errors": []}
-    document = json.dumps({"schema": "body-moments/1", "file": path, "status": status, **empty}).encode() + b"\n"
+    head = {"schema": "body-moments/1", "file": path, "status": status}
+    document = json.dumps({**head, **empty}).encode() + b"\n"
     if kind == "once" and not os.path.exists(path):
         open(path, "w").close()
         os.abort()
@@ -95,7 +96,9 @@ for line in sys.stdin:
         answer({"note": "half of it"})
     say("body_moments: {}: read\nchatter\n".format(path))
     head = {"faults": int(kind == "fault"), "state": {"size": 5, "mtime_ns": 7}}
-    answer(dict(head, reads={path + ".samples": {"size": 1, "mtime_ns": 2}}) if kind == "refers" else head, document)
+    if kind == "refers":
+        head = dict(head, reads={path + ".samples": {"size": 1, "mtime_ns": 2}})
+    answer(head, document)
 """
 
 
@@ -357,9 +360,8 @@ def test_a_line_behind_a_torn_one_is_whole(tmp_path):
 
 def test_run_ends_with_the_window_that_started_it():
     """A window that is killed, and no window."""
-    code = "import runpy; runpy.run_path({!r})['end_with_window'](); print(end='.', flush=True); {{}}".format(
-        lifeline.__file__
-    )
+    code = "import runpy; runpy.run_path({!r})['end_with_window'](); ".format(lifeline.__file__)
+    code += "print(end='.', flush=True); {}"
     run = [sys.executable, "-c", code.format("import time; time.sleep(600)")]
     window = "import subprocess, time; subprocess.Popen({!r}); time.sleep(600)".format(run)
     environment = {**os.environ, lifeline.WINDOW: "1"}

@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("bpy")
 
-from body_moments.core.scans.scan_files import Limits
+from body_moments.core.files.limits import Limits
 from body_moments.core.streams import threemf
 from body_moments.core.verdict.finding import FileError
 
@@ -155,9 +155,8 @@ def test_a_wrong_file_is_an_error_with_a_reason(tmp_path, name):
     [("vertex", 'x="1"'), ("triangle", 'v2="1"'), ("item", MOVED), ("component", MOVED)],
 )
 def test_word_for_a_number_is_named_with_its_element(tmp_path, element, field, word):
-    parts = '<object id="2"><components><component objectid="1" transform="{}"/></components></object>'.format(
-        MOVED
-    )
+    parts = '<object id="2"><components><component objectid="1" '
+    parts += 'transform="{}"/></components></object>'.format(MOVED)
     text = model(ONE + "\n" + parts, '\n<item objectid="2" transform="{}"/>'.format(MOVED))
     at = text.index(field, text.index("<" + element + " ") if element != "vertex" else 0)
     wrong = (

@@ -17,7 +17,8 @@ WINGS = ("core", "blender", "command", "operators", "panels")
 ORDER = {
     "core": (
         ("lazy",),
-        ("numerics", "verdict", "whole_file"),
+        ("numerics", "verdict"),
+        ("files",),
         ("moments",),
         ("mesh", "inertia", "papers"),
         ("polyhedron", "shape", "scans"),

@@ -14,7 +14,8 @@ import sys
 sys.path.insert(0, sys.argv[1])
 import project
 options = project.parse(sys.argv[2:])
-print(options.function.__name__, options.arguments, getattr(options, "subject", None), getattr(options, "k", None))
+values = (getattr(options, name, None) for name in ("subject", "k"))
+print(options.function.__name__, options.arguments, *values)
 """
 
 

@@ -40,7 +40,9 @@ for path in sys.argv[4:]:
     bpy.ops.wm.open_mainfile(filepath=path)
     layer = bpy.context.view_layer
     collections = [layer.layer_collection, *layer.layer_collection.children]
-    for layer.objects.active, layer.active_layer_collection in itertools.product(layer.objects, collections):
+    for active, collection in itertools.product(layer.objects, collections):
+        layer.objects.active = active
+        layer.active_layer_collection = collection
         drawn.update(every_panel())
         for obj in layer.objects:
             obj.select_set(obj == layer.objects.active)

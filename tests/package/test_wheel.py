@@ -40,10 +40,12 @@ import body_moments
 assert not {"numpy", "bpy"} & set(sys.modules)
 import numpy as np
 points = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
-quads = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+quads = np.array(quads)
 triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 assert 'Moments' in dir(body_moments)
-assert abs(body_moments.mass_properties(points, triangles, density=2.0).mass_properties.mass - 2.0) < 1e-14
+body = body_moments.mass_properties(points, triangles, density=2.0)
+assert abs(body.mass_properties.mass - 2.0) < 1e-14
 """
 
 POINTS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], np.float32)

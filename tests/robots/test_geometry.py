@@ -276,8 +276,14 @@ def check_joint(document, places, by_name, joint):
     (here, turn), (there, other) = places[by_name[joint.name]], places[own["connectedNode"]]
     assert np.abs(here - there).max() < 1e-12 and np.abs(turn - other).max() < 1e-12
     limits = document["extensions"][gltf.KHR]["physicsJoints"][own["joint"]]["limits"]
-    held = {(kind, axis) for limit in limits for kind in limit if kind[-4:] == "Axes" for axis in limit[kind]
-            if limit["min"] == limit["max"] == 0.0}  # fmt: skip
+    held = {
+        (kind, axis)
+        for limit in limits
+        if limit["min"] == limit["max"] == 0.0
+        for kind in limit
+        if kind[-4:] == "Axes"
+        for axis in limit[kind]
+    }
     assert len(held) == 6 - len(joint.free)
     position, child = places[by_name[joint.child]]
     assert np.abs(there - (position + child @ (Y_UP @ joint.pose.position))).max() < 1e-12

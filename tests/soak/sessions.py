@@ -19,7 +19,8 @@ import bpy
 import numpy as np
 from body_moments.blender.read.mesh import MAX_DIGESTED_FACES
 from body_moments.blender.session import displayed
-from body_moments.blender.session.live import following, live
+from body_moments.blender.session.live import following
+from body_moments.blender.session.live import measuring as live
 from body_moments.blender.session.tracking import handlers, staleness
 from body_moments.blender.write import properties
 from body_moments.core.verdict.finding import MeasureError

@@ -36,7 +36,8 @@ view = area.spaces.active.region_3d
 # start open.
 OPEN = """
 import bpy
-for cls in [cls for cls in bpy.types.Panel.__subclasses__() if cls.__name__.startswith("VIEW3D_PT_body_moments_")]:
+panels = bpy.types.Panel.__subclasses__()
+for cls in [cls for cls in panels if cls.__name__.startswith("VIEW3D_PT_body_moments_")]:
     if "DEFAULT_CLOSED" in getattr(cls, "bl_options", set()):
         bpy.utils.unregister_class(cls)
         cls.bl_options = cls.bl_options - {"DEFAULT_CLOSED"}

@@ -299,7 +299,8 @@ CLICKED = {
     "object.body_moments_align_to_world": (
         {},
         f"{PART}.rotation_euler = (0.3, 0.2, 0.1)",
-        f"max(abs(round(e) - e) for row in {PART}.matrix_world.to_3x3().normalized() for e in row) < 1e-4",
+        f"max(abs(round(e) - e) for row in {PART}.matrix_world.to_3x3().normalized()"
+        " for e in row) < 1e-4",
     ),
     "view3d.body_moments_cursor_to_center": (
         {},
@@ -315,7 +316,8 @@ CLICKED = {
     "object.body_moments_compute_moments": (
         {},
         "",
-        f"__import__('sys').modules['{PACKAGE}.blender.session.stored.moments'].computed_moments({PART}) is not None",
+        f"__import__('sys').modules['{PACKAGE}.blender.session.stored.moments']"
+        f".computed_moments({PART}) is not None",
     ),
     "object.body_moments_find_symmetry": ({}, "", f"{PART}.body_moments_symmetry.group == 'D2h'"),
     "object.body_moments_find_similar": (
@@ -336,12 +338,14 @@ CLICKED = {
         {},
         "bpy.ops.object.duplicate()\ntwin = bpy.context.object\ntwin.name = "
         "'Twin'\ntwin.location.x += 9.0\n"
-        f"twin.data.transform(__import__('mathutils').Matrix.Translation((0.3, 0, 0)))\n{PART}.select_set(True)",
+        "twin.data.transform(__import__('mathutils').Matrix.Translation((0.3, 0, 0)))\n"
+        f"{PART}.select_set(True)",
         f"bpy.data.objects['Twin'].data == {PART}.data",
     ),
     "object.body_moments_copy_settings": (
         {},
-        f"bpy.ops.object.duplicate()\nbpy.context.object.name = 'Twin'\n{PART}.body_moments.density = 5.0\n"
+        "bpy.ops.object.duplicate()\nbpy.context.object.name = 'Twin'\n"
+        f"{PART}.body_moments.density = 5.0\n"
         f"{PART}.select_set(True)\nbpy.context.view_layer.objects.active = {PART}",
         "bpy.data.objects['Twin'].body_moments.density == 5.0",
     ),

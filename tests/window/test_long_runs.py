@@ -81,7 +81,9 @@ for obj in list(bpy.data.objects):
 for number in range({PART_COUNT}):
     mesh = bpy.data.meshes.new("Part")
     a, b, c = (random.uniform(0.5, 1.5) for _ in range(3))
-    corners = [(x * a, y * b, z * c + 0.1 * x * y) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    corners = [
+        (x * a, y * b, z * c + 0.1 * x * y) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)
+    ]
     sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     mesh.from_pydata(corners, [], sides)
     obj = bpy.data.objects.new("Part", mesh)

@@ -13,7 +13,8 @@ from tests.window.conftest import FIGURE, open_window
 JUMP = """
 root, hips, scene = rig.pose.bones["root"], rig.pose.bones["hips"], bpy.context.scene
 scene.frame_start, scene.frame_end = 1, 32
-for frame, place in ((1, (0, 0, 0)), (8, (0, 0, 0)), (16, (0, -0.9, 0.9)), (24, (0, -1.8, 0)), (32, (0, -1.8, 0))):
+places = {1: (0, 0, 0), 8: (0, 0, 0), 16: (0, -0.9, 0.9), 24: (0, -1.8, 0), 32: (0, -1.8, 0)}
+for frame, place in places.items():
     root.location = place
     root.keyframe_insert("location", frame=frame)
 lows, swings = (0, -0.25, 0, 0, 0, -0.25, 0), (-1.2, -1.0, -0.6, 0.7, -0.6, -1.0, -1.2)

@@ -85,7 +85,8 @@ def test_a_scan_is_imported_and_measured(window, tmp_path):
     np.save(tmp_path / "scan.npy", samples)
     window.ask(
         "bpy.data.objects.remove(bpy.context.object)\n"
-        f"bpy.ops.object.body_moments_import_scan('EXEC_DEFAULT', True, filepath={str(tmp_path / 'scan.npy')!r})\n"
+        "bpy.ops.object.body_moments_import_scan("
+        f"'EXEC_DEFAULT', True, filepath={str(tmp_path / 'scan.npy')!r})\n"
         "bpy.ops.view3d.view_selected()"
     )
     window.press("object.body_moments_measure")

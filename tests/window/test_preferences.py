@@ -34,7 +34,8 @@ ELSEWHERE = """\
 import bpy, json
 chosen = bpy.context.preferences.addons["bl_ext.user_default.body_moments"].preferences
 chosen.default_material = "Copper"
-assert chosen.frame == "WORLD" and chosen.digits == 4 and chosen.show_overlay  # not those of the first run
+# not those of the first run
+assert chosen.frame == "WORLD" and chosen.digits == 4 and chosen.show_overlay
 bpy.ops.object.body_moments_measure()
 settings, cube = bpy.context.scene.body_moments, bpy.data.objects["Cube"]
 names = "frame density_unit digits digit_grouping default_material default_density".split()

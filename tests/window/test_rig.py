@@ -25,7 +25,8 @@ for number in range(4):
     above = bone
 bpy.ops.object.mode_set(mode="OBJECT")
 mesh, made = bpy.data.meshes.new("Skin"), bmesh.new()
-bmesh.ops.create_cube(made, size=1.0, matrix=Matrix.Diagonal((1, 1, 4, 1)) @ Matrix.Translation((0, 0, 0.5)))
+tall = Matrix.Diagonal((1, 1, 4, 1)) @ Matrix.Translation((0, 0, 0.5))
+bmesh.ops.create_cube(made, size=1.0, matrix=tall)
 for level in (1, 2, 3):
     everything = [*made.verts, *made.edges, *made.faces]
     bmesh.ops.bisect_plane(made, geom=everything, plane_co=(0, 0, level), plane_no=(0, 0, 1))
@@ -65,7 +66,8 @@ def rig(window):
 
 def first_in_properties(tab):
     return (
-        f"next(one for one in window.screen.areas if one.type == 'PROPERTIES').spaces.active.context = {tab!r}\n"
+        "next(one for one in window.screen.areas"
+        f" if one.type == 'PROPERTIES').spaces.active.context = {tab!r}\n"
         f"cls = bpy.types.{tab}_PT_body_moments\n"
         "bpy.utils.unregister_class(cls)\n"
         "cls.bl_options, cls.bl_order = set(), -1\n"

@@ -34,7 +34,8 @@ for name in ("inertia", "density", "apply", "stability", "assembly", "advanced")
     cls = getattr(bpy.types, "VIEW3D_PT_body_moments_" + name, None)
     if cls is not None:
         panels = bpy.types.Panel.__subclasses__()
-        for child in [panel for panel in panels if getattr(panel, "bl_parent_id", "") == cls.__name__]:
+        name = cls.__name__
+        for child in [panel for panel in panels if getattr(panel, "bl_parent_id", "") == name]:
             bpy.utils.unregister_class(child)
         bpy.utils.unregister_class(cls)
 """
@@ -45,7 +46,8 @@ THREE = (
     + """
 for cls in bpy.types.Panel.__subclasses__():
     if cls.__name__ == "VIEW3D_PT_body_moments":
-        cls.draw = lambda self, context: None  # the rows above the list, which differ from object to object
+        # the rows above the list, which differ from object to object
+        cls.draw = lambda self, context: None
 """
 )
 FIRST_LINE, LINE_STEP = (

@@ -66,7 +66,8 @@ def test_button_lays_body_on_the_ground_and_undo_restores_it(window):
 
 def test_a_balance_group_is_followed_after_its_dialog(window):
     window.ask(
-        f"cube = {CUBE}\ncube.body_moments.density = 1000.0  # no note: the dialog's fields are not below the mouse\n"
+        # no note: the dialog's fields are not below the mouse
+        f"cube = {CUBE}\ncube.body_moments.density = 1000.0\n"
         "for frame in range(1, 31):\n    cube.location.x = 0.1 * frame\n"
         "    cube.keyframe_insert('location', frame=frame)\n"
         "bpy.context.scene.frame_end = "

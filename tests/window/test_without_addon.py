@@ -31,7 +31,9 @@ scene.collection.objects.link(part)
 part.body_moments.density = {DENSITY}
 part.scale = (1.0, 1.0, -2.0)
 array = part.modifiers.new("Array", "ARRAY")
-array.use_relative_offset, array.use_constant_offset, array.constant_offset_displace = False, True, (4.0, 0.0, 0.0)
+array.use_relative_offset = False
+array.use_constant_offset = True
+array.constant_offset_displace = (4.0, 0.0, 0.0)
 part.shape_key_add(name="Basis")
 taller = part.shape_key_add(name="Taller", from_mix=False)
 for point in taller.data:

@@ -32,10 +32,9 @@ from ...scale import meters_per_unit
 from ...scene.rigid_world import down
 from ...write import properties
 from ...write.reports import Refused
-from .. import stored
+from .. import memory, stored
 from ..tracking import handlers
 from ..tracking.armatures import deformed_meshes
-from ..tracking.cache import SessionCache, current_value
 from ..tracking.staleness import stale_reason
 from .motion import Motion
 
@@ -305,12 +304,6 @@ class Character:
         return known[rows]
 
 
-_characters: SessionCache[tuple[str, Character | None]] = (
-    SessionCache()
-)  # with the stamp of the results
-_weights: SessionCache[tuple[tuple, Weight | None]] = SessionCache()
-
-
 def measure(context: Context, armature: Object) -> Rig:
     """Measure the bones; raise MeasureError if there are no parts, or no vertex of the meshes has a
     weight.
@@ -336,7 +329,7 @@ def character(armature: Object, unit: float) -> Character | None:
         )
 
     bones = armature.pose.bones
-    return current_value(_characters, armature, properties.fingerprint(armature), read)
+    return memory.current_value(memory.characters, armature, properties.fingerprint(armature), read)
 
 
 def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
@@ -368,8 +361,8 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
         )
         return Weight(parts, contacts, support, foot, body)
 
-    return current_value(
-        _weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand
+    return memory.current_value(
+        memory.weights, armature, (memory.state.generation, depsgraph.scene.session_uid), stand
     )
 
 
@@ -423,7 +416,7 @@ def keep(armature: Object, known: Character, ground: float, rig: Rig | None) -> 
     try:
         stored.results.store_rig(rig)
     except EditRefusedError:
-        _characters[armature] = properties.fingerprint(armature), known
+        memory.characters[armature] = properties.fingerprint(armature), known
         handlers.count_change(armature)
 
 

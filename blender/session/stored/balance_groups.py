@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from ....core.statics.support import Support
 from ...scene import fcurves
 from ...write.properties import BALANCE_GROUP, BALANCE_SPANS
+from .. import memory
 from ..tracking import handlers
-from ..tracking.cache import SessionCache
 
 INSIDE = "body_balance_inside"
 CONTACT = "body_balance_contact"
@@ -53,9 +53,6 @@ class Path:
     inside: NDArray[np.bool_] | None
     contact: NDArray[np.bool_] | None = None
     unexplained: NDArray[np.bool_] | None = None
-
-
-_supports: SessionCache[Mapping[int, Support]] = SessionCache()
 
 
 def groups(scene: bpy.types.Scene) -> Iterator[Object]:
@@ -106,14 +103,14 @@ def store(
                 del empty[name]
             continue
         is_truth = values.dtype == bool
-        empty[name] = 0 if is_truth else 0.0 if values.ndim == 1 else [0.0] * 3
+        empty[name] = np.zeros_like(values[0], int if is_truth else float).tolist()
         ui = empty.id_properties_ui(name)
         ui.update(description=description, **({"min": 0, "max": 1} if is_truth else {}))
         for axis, column in enumerate(values.reshape(len(frames), -1).T):
             known = ~np.isnan(column)
             kind = fcurves.CONSTANT if is_truth else fcurves.LINEAR
             fcurves.write_keys(curves, (path, axis), frames[known], column[known], kind)
-    _supports[empty] = {
+    memory.supports[empty] = {
         round(float(frame)): support
         for frame, support in zip(frames, supports)
         if support is not None
@@ -140,7 +137,7 @@ def path(empty: Object) -> Path | None:
 
 def support(empty: Object, frame: int) -> Support | None:
     """Return the support polygon of a group at a frame, or None if none is cached."""
-    return (_supports.get(empty) or {}).get(frame)
+    return (memory.supports.get(empty) or {}).get(frame)
 
 
 def _keys(

@@ -30,13 +30,10 @@ from ...scale import meters_per_unit
 from ...settings import hooks
 from ...settings.density import grid_key
 from ...write import properties
+from .. import memory
 from ..tracking import staleness, stamps
-from ..tracking.cache import SessionCache
 from . import density
 
-# objects: a grid may have gigabytes
-MAX_WALLS = 64
-MAX_GRIDS = 2
 DELAY = 0.3  # s after the last change of a threshold
 COARSE = "coarse"  # equals no key of settings, so that results with it are out of date
 
@@ -59,9 +56,8 @@ class _Kept(Generic[Source]):
     unit: float
 
 
-_walls: SessionCache[_Kept[Walls]] = SessionCache(MAX_WALLS)
-_grids: SessionCache[_Kept[ThresholdGrid]] = SessionCache(MAX_GRIDS)
-_pending: list[tuple[Object, Scene]] = []  # objects whose exact numbers are due
+SliderWalls = _Kept[Walls]
+SliderGrid = _Kept[ThresholdGrid]
 
 
 def remember(obj: Object, measured: Measured, scene: Scene) -> None:
@@ -71,11 +67,11 @@ def remember(obj: Object, measured: Measured, scene: Scene) -> None:
     body = measured.body
     of_stamp = {stamp.geometry}, stamp.transform, meters_per_unit(scene)
     if isinstance(body, WallBody) and body.walls is not None:
-        _walls[obj] = _Kept(replace(reading, parts=[]), body.walls.drop_arrays(), *of_stamp)
+        memory.walls[obj] = _Kept(replace(reading, parts=[]), body.walls.drop_arrays(), *of_stamp)
         if on_wall_setting not in hooks.on_wall_change:
             hooks.on_wall_change.append(on_wall_setting)
     elif isinstance(body, ThresholdGridBody):
-        _grids[obj] = _Kept(reading, body.grid, *of_stamp)
+        memory.grids[obj] = _Kept(reading, body.grid, *of_stamp)
         if on_threshold not in hooks.on_threshold_change:
             hooks.on_threshold_change.append(on_threshold)
 
@@ -84,7 +80,7 @@ def max_thickness(obj: Object) -> float | None:
     """Return the thickness in m from which the object's wall folds over, or None if it is unknown
     or unlimited.
     """
-    kept = _current(_walls, obj)
+    kept = _current(memory.walls, obj)
     if kept is None or obj.body_moments.wall == "THIN":
         return None
     limit = _walls_on_side(kept, obj).max_thickness
@@ -94,7 +90,7 @@ def max_thickness(obj: Object) -> float | None:
 def is_too_thick(obj: Object) -> bool:
     """Return whether the current thickness is known to be too large."""
     limit = max_thickness(obj)
-    kept = _walls.get(obj)
+    kept = memory.walls.get(obj)
     if limit is None or kept is None:
         return False
     return not shortest_decimal(obj.body_moments.thickness) * kept.unit < limit
@@ -103,7 +99,7 @@ def is_too_thick(obj: Object) -> bool:
 def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
     """Store the numbers of a changed wall or thickness."""
     obj, scene = settings.id_data, context.scene
-    kept = _current(_walls, obj, scene)
+    kept = _current(memory.walls, obj, scene)
     is_walled = settings.kind == "SHELL" and settings.wall != "THIN"
     varies = settings.mass_from == "DENSITY" and settings.density_from != "VALUE"
     if kept is None or not is_walled or varies:
@@ -125,8 +121,8 @@ def on_threshold(settings: PropertyGroup, context: Context) -> None:
     coarse = kept.source.coarse()
     if _store_threshold(obj, scene, kept, coarse, preview=True) and coarse is kept.source:
         staleness.mark_object(obj)
-    if (obj, scene) not in _pending:
-        _pending.append((obj, scene))
+    if (obj, scene) not in memory.due_numbers:
+        memory.due_numbers.append((obj, scene))
     if bpy.app.background:
         _finish()
         return
@@ -136,7 +132,7 @@ def on_threshold(settings: PropertyGroup, context: Context) -> None:
 
 
 def _current(
-    cache: SessionCache[_Kept[Source]], obj: Object, scene: Scene | None = None
+    cache: memory.SessionCache[_Kept[Source]], obj: Object, scene: Scene | None = None
 ) -> _Kept[Source] | None:
     """Return an object's kept walls or grid, if its stored numbers belong to the same geometry and
     transform.
@@ -157,7 +153,7 @@ def _current(
 
 
 def _current_grid(obj: Object, scene: Scene | None) -> _Kept[ThresholdGrid] | None:
-    kept = None if scene is None else _current(_grids, obj, scene)
+    kept = None if scene is None else _current(memory.grids, obj, scene)
     return kept if kept is not None and obj.body_moments.grid_as == "THRESHOLD" else None
 
 
@@ -197,8 +193,8 @@ def _finish() -> None:
 
     Return None, so that Blender's timer calls this only once.
     """
-    while _pending:
-        obj, scene = _pending.pop()
+    while memory.due_numbers:
+        obj, scene = memory.due_numbers.pop()
         try:
             kept = _current_grid(obj, scene)
         except ReferenceError:  # removed meanwhile

@@ -37,9 +37,9 @@ from ...scene.findings import OPEN_OBJECT
 from ...scene.rigid_world import down
 from ...scene.transforms import world
 from ...write import properties, reports
+from .. import memory
 from ..displayed import drawn
-from ..tracking import handlers, staleness, stamps, updates
-from ..tracking.cache import SessionCache
+from ..tracking import handlers, staleness, stamps
 from ..tracking.stamps import Kind, Stamp
 from . import results
 
@@ -49,7 +49,7 @@ SAME_SHAPE_RTOL = (
 
 
 @dataclass(eq=False)
-class _Remembered:
+class KnownHull:
     """An object's hull, with its support and poses.
 
     hull: in the object's coordinates. digest: of the shape that it is of, if it can be compared.
@@ -60,7 +60,7 @@ class _Remembered:
 
     hull: ConvexHull
     digest: bytes | None = None
-    earlier: tuple[_Remembered, ...] = ()
+    earlier: tuple[KnownHull, ...] = ()
     sought_at: int = -1
     shape: NDArray | None = None
     poses: RestingPoses | Finding | None = None
@@ -69,33 +69,32 @@ class _Remembered:
 
 
 MAX_EARLIER = 8  # hulls of earlier shapes that are kept
-_remembered: SessionCache[_Remembered] = SessionCache()
 
 
 def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     """Compute and cache the hull of an evaluated object, or raise MeasureError if it has none."""
     hull = object_hull(obj, depsgraph)
-    last = _remembered.get(obj)
+    last = memory.hulls.get(obj)
     earlier = () if last is None else (*last.earlier, last)[-MAX_EARLIER:]
-    _remember(obj, _Remembered(hull, shape_digest(obj, depsgraph), earlier), depsgraph)
+    _remember(obj, KnownHull(hull, shape_digest(obj, depsgraph), earlier), depsgraph)
     return hull
 
 
-def _remember(obj: Object, remembered: _Remembered, depsgraph: Depsgraph) -> None:
-    _remembered[obj] = remembered
-    staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, updates.count()), depsgraph)
+def _remember(obj: Object, remembered: KnownHull, depsgraph: Depsgraph) -> None:
+    memory.hulls[obj] = remembered
+    staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, memory.state.updates), depsgraph)
     handlers.count_change(obj)
 
 
-def _up_to_date(obj: Object, scene: Scene) -> _Remembered | None:
+def _up_to_date(obj: Object, scene: Scene) -> KnownHull | None:
     """Return what is cached for the object's present shape, also if undo brought the shape back."""
-    last = _remembered.get(obj)
+    last = memory.hulls.get(obj)
     if last is None or not staleness.stale_reason(obj, scene, stamp_of):
         return last
     depsgraph = bpy.context.view_layer.depsgraph
-    if not last.earlier or last.sought_at == handlers.generation() or depsgraph is None:
+    if not last.earlier or last.sought_at == memory.state.generation or depsgraph is None:
         return None
-    last.sought_at = handlers.generation()
+    last.sought_at = memory.state.generation
     digest = shape_digest(obj, depsgraph)
     known = [one for one in last.earlier if digest is not None and one.digest == digest]
     if not known:
@@ -108,7 +107,7 @@ def _up_to_date(obj: Object, scene: Scene) -> _Remembered | None:
 
 def is_known(obj: Object) -> bool:
     """Return whether a hull of the object is cached, because its stability was checked."""
-    return obj in _remembered
+    return obj in memory.hulls
 
 
 def stamp_of(obj: Object) -> Stamp | None:
@@ -124,7 +123,7 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
     remembered = _up_to_date(obj, scene)
     if remembered is None:
         return None
-    key = (handlers.generation(), scene.session_uid)
+    key = (memory.state.generation, scene.session_uid)
     if remembered.support_key != key:
         remembered.support_key = key
         remembered.support = None

@@ -17,14 +17,8 @@ from ... import read
 from ...read.tracking import tracking_paused
 from ...settings.given import COLLIDER
 from ...write import properties
+from .. import memory
 from . import handlers, staleness
-from .cache import SessionCache, current_value
-
-# by armature: the generation, and its meshes then
-_meshes: SessionCache[tuple[int, tuple[Object, ...]]] = SessionCache()
-_watched: dict[
-    int, Object
-] = {}  # by the session uids of skinned meshes, the armatures that deform them
 
 
 def stands_for_meshes(obj: Object) -> bool:
@@ -39,10 +33,10 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
     layer's order.
     """
     objects = bpy.context.view_layer.objects
-    return current_value(
-        _meshes,
+    return memory.current_value(
+        memory.deformed_meshes,
         armature,
-        handlers.generation(),
+        memory.state.generation,
         lambda: tuple(
             obj for obj in objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)
         ),
@@ -75,12 +69,12 @@ def watch(armature: Object, objects: Iterable[Object]) -> None:
     the armature.
     """
     for obj in read.rig.skinned_objects(armature, objects):
-        _watched[obj.session_uid] = armature
+        memory.watched[obj.session_uid] = armature
 
 
 def watch_all() -> None:
     """Watch the meshes of all measured characters of a file."""
-    _watched.clear()
+    memory.watched.clear()
     for obj in bpy.data.objects:
         if obj.type == "ARMATURE" and "body_mass" in obj:
             watch(obj, bpy.data.objects)
@@ -90,10 +84,10 @@ def note_updates(updates: handlers.Updates) -> None:
     """Note an edit on an armature if one of its watched meshes has a new shape and the armature has
     no update.
     """
-    if tracking_paused.depth or not _watched:
+    if tracking_paused.depth or not memory.watched:
         return
     touched = {*updates.reshaped, *updates.moved, *updates.others}
-    for uid in _watched.keys() & updates.reshaped:
-        armature = _watched[uid]
+    for uid in memory.watched.keys() & updates.reshaped:
+        armature = memory.watched[uid]
         if armature.session_uid not in touched:
             staleness.set_edited(armature, properties.fingerprint(armature), True)

@@ -39,21 +39,11 @@ from ...read.tracking import tracking_paused
 from ...scale import meters_per_unit
 from ...settings.given import COLLIDERS
 from ...write import properties
+from .. import memory
 from . import handlers, stamps, updates
-from .cache import SessionCache, current_value
 from .stamps import EDITED, Kind, Stale, Stamp
 
 NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
-_edited: SessionCache[frozenset[str]] = (
-    SessionCache()
-)  # the stamps that an object carried when its geometry changed
-_shapes: dict[
-    str, bytes
-] = {}  # stamp → digest of the surface when it was stored: copies of an object share both
-_resolved: dict[int, int] = {}  # session uid → number of the last update whose effects are noted
-# By assembly or armature: the generation, and the present digests of its parts. Panels ask at every
-# redraw.
-_parts: SessionCache[tuple[int, tuple[str, str] | None]] = SessionCache()
 
 
 # ---------------------------------------------------------------- Comparison
@@ -124,7 +114,9 @@ def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str
     """Return present digests of structure and members' results ("" if one is stale); None if
     nothing is evaluated.
     """
-    return current_value(_parts, root, handlers.generation(), lambda: _digest_parts(root, scene))
+    return memory.current_value(
+        memory.part_digests, root, memory.state.generation, lambda: _digest_parts(root, scene)
+    )
 
 
 def was_current(root: Object | Collection, scene: Scene) -> bool:
@@ -253,7 +245,7 @@ def mark_stamp(obj: Object, stamp: Stamp, depsgraph: Depsgraph) -> None:
 
 def mark_object(obj: Object) -> None:
     """Mark the stored results as up to date with an original object's current geometry."""
-    _resolved[obj.session_uid] = updates.count()
+    memory.resolved[obj.session_uid] = memory.state.updates
     set_edited(obj, properties.fingerprint(obj), False)
     handlers.count_change(obj)
 
@@ -264,8 +256,8 @@ def replace_stamp(obj: Object, before: str) -> None:
     """
     text = properties.fingerprint(obj)
     set_edited(obj, text, before in _edited_stamps(obj))
-    if before in _shapes:
-        _shapes[text] = _shapes[before]
+    if before in memory.shapes:
+        memory.shapes[text] = memory.shapes[before]
 
 
 def pin(obj: Object) -> None:
@@ -289,7 +281,7 @@ def mark_axes_changed(objects: Iterable[Object]) -> None:
 
 
 def _edited_stamps(obj: Object) -> frozenset[str]:
-    return _edited.get(obj) or frozenset()
+    return memory.edited.get(obj) or frozenset()
 
 
 def set_edited(obj: Object, text: str, is_edited: bool) -> None:
@@ -297,7 +289,7 @@ def set_edited(obj: Object, text: str, is_edited: bool) -> None:
     noted = _edited_stamps(obj)
     if is_edited != (text in noted):
         handlers.count_change(obj)
-        _edited[obj] = noted | {text} if is_edited else noted - {text}
+        memory.edited[obj] = noted | {text} if is_edited else noted - {text}
 
 
 def note_edits(obj: Object, shape: bytes | None = None) -> None:
@@ -307,25 +299,25 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
     since. shape: the `surface_digest` of an object that was read just now.
     """
     uid = obj.session_uid
-    newest = updates.count()
-    seen = _resolved.get(uid, 0)
+    newest = memory.state.updates
+    seen = memory.resolved.get(uid, 0)
     if seen >= newest:
         return
-    _resolved[uid] = newest
+    memory.resolved[uid] = newest
     edit, last = updates.last_since(obj, seen)
     if last.number <= seen:
         return
     carried = stamps.with_geometry(obj)
     if (
         shape is None
-        and any([text in _shapes for text in carried])
+        and any([text in memory.shapes for text in carried])
         and (depsgraph := updates.depsgraph_of(last))
     ):
         shape = read.mesh.shape_digest(obj, depsgraph)
     for text, kind in carried.items():
-        if shape is not None and text in _shapes:
-            set_edited(obj, text, shape != _shapes[text])
-        elif edit.number or text in _shapes or kind in (Kind.MOMENTS, Kind.HULL):
+        if shape is not None and text in memory.shapes:
+            set_edited(obj, text, shape != memory.shapes[text])
+        elif edit.number or text in memory.shapes or kind in (Kind.MOMENTS, Kind.HULL):
             # Redo brings back an edit whose note may have been taken back; undo brings back no data
             # in memory.
             set_edited(obj, text, True)
@@ -342,27 +334,21 @@ def _remember_shape(
         return
     shape = shape or read.mesh.shape_digest(obj, depsgraph)
     if shape is not None:  # else the digest of an equal object with the same stamp still holds
-        _shapes[stamp.text] = shape
+        memory.shapes[stamp.text] = shape
 
 
 def note_all_edits() -> None:
     """Note the effects of all updates on all objects."""
     for obj in (
-        bpy.data.objects if updates.count() else ()
+        bpy.data.objects if memory.state.updates else ()
     ):  # while Blender enables the add-on, it gives no data
         note_edits(obj)
-
-
-def forget_file() -> None:
-    """Drop the digests of surfaces and the numbers of noted updates."""
-    _resolved.clear()
-    _shapes.clear()
 
 
 def write_notes() -> None:
     """Write the noted edits into the stamps stored on the objects."""
     note_all_edits()
-    for obj in bpy.data.objects if len(_edited) else ():
-        edited = _edited.get(obj)
+    for obj in bpy.data.objects if len(memory.edited) else ():
+        edited = memory.edited.get(obj)
         if edited and obj.is_editable:
             stamps.write_edited(obj, edited)

@@ -21,7 +21,7 @@ from ....core import measurement
 from ....core.verdict.method import Procedure
 from ...settings.given import COLLIDERS
 from ...write import properties, section
-from .cache import SessionCache
+from .. import memory
 
 EDITED = "edited"
 
@@ -80,13 +80,10 @@ class Stamp(NamedTuple):
         return ":".join(self[1:5])
 
 
-# The stamps of objects' data in memory, by kind.
-_carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
-
-
 def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
-    """Attach a stamp to an original object's data in memory, and return it. number: `updates.count`
-    at their making.
+    """Attach a stamp to an original object's data in memory, and return it.
+
+    number: of the last update at their making.
     """
     stamp = Stamp(
         kind,
@@ -95,13 +92,13 @@ def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: s
         transform,
         settings,
     )
-    _carried[obj] = {**(_carried.get(obj) or {}), kind: stamp}
+    memory.carried[obj] = {**(memory.carried.get(obj) or {}), kind: stamp}
     return stamp
 
 
 def carried(obj: Object, kind: Kind) -> Stamp | None:
     """Return the stamp of an object's data in memory, if any."""
-    return (_carried.get(obj) or {}).get(kind)
+    return (memory.carried.get(obj) or {}).get(kind)
 
 
 def of_results(owner: Object | Collection) -> Stamp | None:
@@ -145,7 +142,7 @@ def with_geometry(obj: Object) -> dict[str, Kind]:
     """Return the texts and kinds of an original object's stamps, except those of assemblies and
     bones.
     """
-    found = [*_stored(obj), *(_carried.get(obj) or {}).values()]
+    found = [*_stored(obj), *(memory.carried.get(obj) or {}).values()]
     return {
         stamp.text: stamp.kind
         for stamp in found

@@ -22,8 +22,13 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from ...scans.findings import FILE_MISSING, FILE_NOT_REGULAR
-from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...files.findings import (
+    FILE_MISSING,
+    FILE_NOT_REGULAR,
+    FILE_TOO_LARGE,
+    FILE_UNREADABLE,
+    FILE_WITHOUT_OBJECTS,
+)
 from ...verdict.finding import FileError, system_reason
 from ..findings import (
     DESCRIPTION_INVALID,

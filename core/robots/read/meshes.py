@@ -20,13 +20,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...cad.obj import read_obj_faces
+from ...files.findings import FILE_TOO_LARGE, FILE_TYPE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...files.number_text import (
+    parse_number,
+    parse_numbers,
+    parse_whole,
+    parse_wholes,
+)
 from ...mesh.surface import Surface
 from ...numerics.rotations import rotation_matrix
-from ...scans.findings import FILE_TYPE
-from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...streams.stl import StlFile
 from ...verdict.finding import FileError, finding, system_reason
-from ...verdict.number_text import parse_number, parse_numbers, parse_whole, parse_wholes
 from ..findings import MESH_UNREADABLE
 from ..stated import MOST, rotation_about
 from ..write.gltf import BINARY, JSON, chunks

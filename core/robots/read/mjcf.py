@@ -17,11 +17,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...files.number_text import parse_numbers
 from ...mesh.hulls import convex_hull
 from ...mesh.surface import Surface
 from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding, MeasureError
-from ...verdict.number_text import parse_numbers
 from ..model import Pose, Shape
 from ..stated import (
     LEAST,

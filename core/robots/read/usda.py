@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...files.number_text import parse_number
 from ...mesh.surface import Surface
 from ...numerics.rotations import polar_rotation, rotation_matrix
 from ...verdict.finding import FileError, Finding, finding
-from ...verdict.number_text import parse_number
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
 from ..stated import (

@@ -17,9 +17,9 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
-from ...streams.findings import FILE_TOO_LARGE
+from ...files.findings import FILE_TOO_LARGE
+from ...files.number_text import parse_numbers
 from ...verdict.finding import FileError, Finding, finding
-from ...verdict.number_text import parse_numbers
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER, XML_ENTITIES
 from ..model import Shape
 from ..stated import Place, StatedLink, StatedShape

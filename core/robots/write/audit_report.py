@@ -31,10 +31,10 @@ RESTS_ON = (
     "its mass."
 )
 _STYLE = (
-    "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;color:#222;background:#fff}"
-    "table{border-collapse:collapse;width:100%}th,td{text-align:left;vertical-align:top;padding:.35rem .6rem;"
-    "border-bottom:1px solid "
-    "#ddd}.error{color:#a40000;font-weight:600}.warning{color:#8a5a00;font-weight:600}"
+    "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;"
+    "color:#222;background:#fff}table{border-collapse:collapse;width:100%}"
+    "th,td{text-align:left;vertical-align:top;padding:.35rem .6rem;border-bottom:1px solid #ddd}"
+    ".error{color:#a40000;font-weight:600}.warning{color:#8a5a00;font-weight:600}"
     ".note{color:#555}td.number{text-align:right;font-variant-numeric:tabular-nums}"
 )
 
@@ -67,7 +67,7 @@ def with_status(document: dict[str, Any]) -> dict[str, Any]:
     or known.
     """
     counts = count_findings(document)
-    return {**document, "status": "findings" if counts["warnings"] + counts["errors"] else "ok"}
+    return document | {"status": "findings" if counts["warnings"] + counts["errors"] else "ok"}
 
 
 def count_findings(document: dict[str, Any]) -> dict[str, int]:
@@ -100,7 +100,7 @@ def failed_document(file: str, reason: Finding) -> dict[str, Any]:
         "line": reason.values.get("line", 1),
         "column": reason.values.get("column", 1),
     }
-    return plain({**head, "links": [], "errors": [{**_finding(reason), **place}]})
+    return plain(head | {"links": [], "errors": [(_finding(reason) | place)]})
 
 
 def _finding(one: Finding) -> dict[str, Any]:
@@ -161,9 +161,11 @@ def _table_rows(documents: Iterable[dict[str, Any]]) -> Iterable[list[Any]]:
             ]
             for found in link["findings"] or [{"severity": "", "code": "ok", "message": ""}]:
                 yield [
-                    one["file"], link["name"], *(found[key] for key in ("severity", "code", "message")),
+                    one["file"],
+                    link["name"],
+                    *(found[key] for key in ("severity", "code", "message")),
                     *("" if value is None else value for value in shared),
-                ]  # fmt: skip
+                ]
 
 
 def to_csv(documents: Sequence[dict[str, Any]]) -> str:

@@ -16,7 +16,8 @@ AUDIT_TEXT = "Body Moments: audit"  # of one as text or a table
 AUDIT_COMMANDS = "::debug::Body Moments: audit"  # of one as commands for GitHub
 SARIF_SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json"
 _SARIF = re.compile(
-    rb'\s*\{\s*"\$schema": "[^"]*sarif[^"]*",[^{]*\{\s*"tool": \{\s*"driver": \{\s*"name": "Body Moments"'
+    rb'\s*\{\s*"\$schema": "[^"]*sarif[^"]*",[^{]*\{\s*"tool": \{\s*"driver": \{\s*'
+    rb'"name": "Body Moments"'
 )
 MARKER = "Body Moments: {}"  # In the first lines of our robot files, which may be overwritten.
 _HEAD = re.compile(

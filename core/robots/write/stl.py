@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ...files.whole_file import whole_file
 from ...mesh.surface import Surface
-from ...whole_file import whole_file
 from ..model import Robot
 from .text import unique_names
 

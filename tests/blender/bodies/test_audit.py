@@ -599,7 +599,8 @@ LINKS = {
     'izz="9"/></inertial><visual>'
     "<geometry><sphere "
     'radius="1"/></geometry></visual><collision><geometry>{}</geometry></collision></link>',
-    "r.sdf": '<link name="a"><inertial><mass>1</mass></inertial><visual><geometry><sphere/></geometry></visual>'
+    "r.sdf": '<link name="a"><inertial><mass>1</mass></inertial>'
+    "<visual><geometry><sphere/></geometry></visual>"
     "<collision>{}</collision></link>",
     "r.xml": '<body name="a"><inertial mass="1" diaginertia="9 9 9"/><geom size="1" '
     'contype="0"/><geom {}/></body>',

@@ -10,7 +10,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_body, measure_object
-from body_moments.blender.session.live import following, live
+from body_moments.blender.session import memory
+from body_moments.blender.session.live import measuring as live
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.measurement.record import record
 from body_moments.core.moments.exponents import monomials
@@ -335,7 +336,7 @@ def test_live_numbers_follow_hooks_keys_transforms_and_frames():
     bpy.ops.object.body_moments_live()
     for frame in (1, 6, 11):
         bpy.context.scene.frame_set(frame)
-        assert following.followed[obj].is_pending
+        assert memory.followed[obj].is_pending
         found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
         assert found.volume == pytest.approx(BALL * STORED * hook.scale.z, rel=1e-8)
     obj.scale = (1.0, 2.0, -1.0)

@@ -334,7 +334,8 @@ def test_collada_sources_without_numbers_have_no_points(tmp_path):
     geometry = (
         '<COLLADA><library_geometries><geometry><mesh><source id="a"/><vertices id="v"><input '
     )
-    geometry += 'semantic="POSITION" source="#a"/></vertices><triangles><input semantic="VERTEX" source="#v"/>'
+    geometry += 'semantic="POSITION" source="#a"/></vertices><triangles>'
+    geometry += '<input semantic="VERTEX" source="#v"/>'
     geometry += "<p>{}</p></triangles></mesh></geometry></library_geometries></COLLADA>"
     assert refusal(tmp_path / "a.dae", geometry.format("0 1 2").encode()) == "mesh_unreadable"
     assert refusal(tmp_path / "a.dae", geometry.format("").encode()) == "mesh_unreadable"

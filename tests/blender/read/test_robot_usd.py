@@ -94,9 +94,8 @@ def test_usd(tmp_path, seed):
         name: "({})".format(", ".join(map(repr, value.tolist()))) for name, value in values.items()
     }
     points = ", ".join("({})".format(", ".join(map(repr, point))) for point in corners.tolist())
-    mesh = "point3f[] points = [{}]\nint[] faceVertexCounts = {}\nint[] faceVertexIndices = {}\n".format(
-        points, sizes, indices.tolist()
-    )
+    mesh = "point3f[] points = [{}]\nint[] faceVertexCounts = {}\n".format(points, sizes)
+    mesh += "int[] faceVertexIndices = {}\n".format(indices.tolist())
     prims = []
     for kind, statements in (
         ("Cube", "double size = {!r}".format(radius)),
@@ -132,7 +131,9 @@ def test_usd(tmp_path, seed):
 def Xform "world" ( doc = "a }} b" )
 {{
     {above}
-    variantSet "looks" = {{ "a" {{ def Xform "no" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{}} }} }}
+    variantSet "looks" = {{
+        "a" {{ def Xform "no" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{}} }}
+    }}
     rel material:binding = </m> ( a = 1 )
     custom asset file = @a.png@
     float alone

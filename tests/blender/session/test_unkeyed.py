@@ -9,7 +9,9 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.blender.session.live import following, live
+from body_moments.blender.session import memory
+from body_moments.blender.session.live import following
+from body_moments.blender.session.live import measuring as live
 from body_moments.blender.session.tracking import staleness
 
 from tests.blender.grids import linked, mesh_to_volume
@@ -182,7 +184,7 @@ def test_live_keeps_unkeyed_values_and_stops(monkeypatch):
     bpy.ops.object.body_moments_measure()
     live._tick()
     bpy.context.view_layer.update()
-    assert obj.scale.x == 2.0 and not following.followed[obj].is_pending
+    assert obj.scale.x == 2.0 and not memory.followed[obj].is_pending
     assert following.current_numbers(obj).measurement.volume == pytest.approx(
         obj["body_volume"], rel=1e-9
     )

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from body_moments.core.cad.surface_file import read_meshes
+from body_moments.core.files.text_fields import parse_decimals
 from body_moments.core.streams.file_mesh import merge_equal
-from body_moments.core.streams.text_fields import parse_decimals
 
 from tests.core.bodies import rotation, torus
 from tests.core.findings import refused

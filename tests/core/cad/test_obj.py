@@ -205,9 +205,8 @@ def test_damaged_files_are_refused_or_read_and_nothing_else(tmp_path):
 
 @pytest.mark.parametrize("kind", ["bezier", "bspline"])
 def test_a_degree_beyond_all_memory_is_refused(tmp_path, kind):
-    text = "v 0 0 0\ncstype {}\ndeg 1000000000000 1\nsurf 0 1 0 1 1\nparm u 0 1\nparm v 0 1\nend\n".format(
-        kind
-    )
+    text = "v 0 0 0\ncstype {}\ndeg 1000000000000 1\nsurf 0 1 0 1 1\n".format(kind)
+    text += "parm u 0 1\nparm v 0 1\nend\n"
     assert cause(tmp_path, text) == "surface_order"
 
 
@@ -221,9 +220,8 @@ def test_a_statement_of_many_lines_is_read_in_time(tmp_path):
 
 @pytest.mark.parametrize("place", [2.9e38, -2.9e38, 3.1e38, -3.1e38])
 def test_coordinates_up_to_the_float32_limit_are_kept(tmp_path, place):
-    text = "v 0 0 0\nv {!r} 0 0\nv 0 1 0\nv 1 1 0\ncstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\n".format(
-        place
-    )
+    text = "v 0 0 0\nv {!r} 0 0\nv 0 1 0\nv 1 1 0\n".format(place)
+    text += "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\n"
     text += "parm u 0 1\nparm v 0 1\nend\n"
     if abs(place) < 3e38:
         assert read(tmp_path, text).bodies[0].patches[0].points[1, 0, 0] == place

@@ -4,8 +4,8 @@
 
 import pytest
 from body_moments.core.cad.obj_text import check_obj_text
-from body_moments.core.streams.text_fields import COUNT, NUMBER, VERTEX
-from body_moments.core.streams.text_fields import WHOLE as WHOLE_NUMBER
+from body_moments.core.files.text_fields import COUNT, NUMBER, VERTEX
+from body_moments.core.files.text_fields import WHOLE as WHOLE_NUMBER
 
 from tests.core.streams.test_misread import NO_NUMBERS, NO_WHOLES, NUMBERS, misread
 

@@ -14,9 +14,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from body_moments.core.files.limits import Limits
 from body_moments.core.scans.formats import read_scan
 from body_moments.core.scans.numpy_files import read_raw
-from body_moments.core.scans.scan_files import Limits
 from body_moments.core.verdict.finding import FileError, MeasureError
 from body_moments.tests.core.scan_files import nifti, nrrd, written
 

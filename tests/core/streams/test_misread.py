@@ -7,12 +7,17 @@ on.
 import time
 
 import pytest
+from body_moments.core.files.number_text import parse_number, parse_numbers, parse_whole
+from body_moments.core.files.text_fields import (
+    COUNT,
+    NUMBER,
+    VERTEX,
+    WHOLE,
+)
 from body_moments.core.streams.measure import open_mesh_file
 from body_moments.core.streams.ply import check_ply_text
 from body_moments.core.streams.ply_rows import parse_header
 from body_moments.core.streams.stl import check_stl_text
-from body_moments.core.streams.text_fields import COUNT, NUMBER, VERTEX, WHOLE
-from body_moments.core.verdict.number_text import parse_number, parse_numbers, parse_whole
 
 from tests.core.findings import refused
 

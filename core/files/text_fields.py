@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError
-from ..verdict.number_text import parse_number, parse_whole
 from .findings import LINE_MISREAD
+from .number_text import parse_number, parse_whole
 
 MAX_FLOAT32 = 3.4028235677973366e38  # larger numbers are infinite in float32
 MAX_TEXT = 60  # letters of a line that are shown
