@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Body Moments: exact mass properties of objects, and snapping to them.
 
-This file registers the add-on, and offers the public names of `core` (`body_moments.mass_properties`), which are
-imported when they are first used. Blender is imported inside `register`, so that the core works without Blender.
+This file registers the add-on, and offers the public names of `core`
+(`body_moments.mass_properties`), which are imported when they are first used. Blender is imported
+inside `register`, so that the core works without Blender.
 """
 
 from contextlib import ExitStack

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Registration of the modules of a subpackage, such as `operators`.
 
-A module has tables: CLASSES in the order of registration; POINTERS, groups of settings by Blender's type and the name
-of their property; MENUS, Blender's menus with functions that draw in them. The rest is done by functions `register`,
-which follows the tables, and `unregister`, which precedes them.
+A module has tables: CLASSES in the order of registration; POINTERS, groups of settings by Blender's
+type and the name of their property; MENUS, Blender's menus with functions that draw in them. The
+rest is done by functions `register`, which follows the tables, and `unregister`, which precedes
+them.
 """
 
 from collections.abc import Iterable
@@ -17,7 +18,9 @@ from bpy.props import PointerProperty
 
 
 def register_modules(package: str, names: Iterable[str]) -> None:
-    """Register the modules in order; if one fails, unregister the modules before it and raise its error."""
+    """Register the modules in order; if one fails, unregister the modules before it and raise its
+    error.
+    """
     with ExitStack() as undo:
         for name in names:
             module = import_module("." + name, package)

@@ -12,16 +12,16 @@ from pathlib import Path
 from typing import Any
 
 from ..blender.write.findings import FILE_NOT_WRITTEN
+from ..core.files.findings import FILE_WITHOUT_OBJECTS
+from ..core.files.whole_file import whole_file
 from ..core.measurement.plain_text import counted, print_message
 from ..core.robots.audit import Audit, Auditor, repaired_copy
 from ..core.robots.findings import DESCRIPTION_UNKNOWN, XML_ENTITIES
 from ..core.robots.formats import AUDITED_SUFFIXES
 from ..core.robots.read.descriptions import Roots, read_description
 from ..core.robots.write import audit_report
-from ..core.streams.findings import FILE_WITHOUT_OBJECTS
 from ..core.verdict import internal_error
 from ..core.verdict.finding import FileError, MeasureError, system_reason
-from ..core.whole_file import whole_file
 from . import audit_gate
 from .files import output
 from .options import option_types
@@ -30,13 +30,14 @@ from .supervisor.progress import Progress
 
 OTHER_FILES = {DESCRIPTION_UNKNOWN, FILE_WITHOUT_OBJECTS, XML_ENTITIES}
 _EPILOG = """\
-FILE is URDF, SDF, MJCF, USD or xacro; of a folder, all such files but xacro and .usdc are audited. USD that is binary
-or refers to other files needs the Python module usd-core, and xacro the module xacro. A link that is off is listed with
-the one change that makes it agree with its geometry. Meshes (.stl .obj .glb .dae) and included files are read from the
-nearest folder above FILE that holds a package.xml, else from the folder above that of FILE, from a named folder, and
-from each --package-path and ROS_PACKAGE_PATH; nothing is loaded from a network.
-exit code: 0 nothing that --fail-on names, 1 findings, or a file that cannot be read, 2 wrong usage, 3 interrupted,
-70 a fault of the program"""
+FILE is URDF, SDF, MJCF, USD or xacro; of a folder, all such files but xacro and .usdc are audited.
+USD that is binary or refers to other files needs the Python module usd-core, and xacro the module
+xacro. A link that is off is listed with the one change that makes it agree with its geometry.
+Meshes (.stl .obj .glb .dae) and included files are read from the nearest folder above FILE that
+holds a package.xml, else from the folder above that of FILE, from a named folder, and from each
+--package-path and ROS_PACKAGE_PATH; nothing is loaded from a network.
+exit code: 0 nothing that --fail-on names, 1 findings, or a file that cannot be read,
+2 wrong usage, 3 interrupted, 70 a fault of the program"""
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
@@ -166,7 +167,9 @@ def _find_files(paths: list[Path]) -> Iterator[tuple[Path, Path]]:
 
 
 def answer(options: argparse.Namespace) -> tuple[list[str], int]:
-    """Return the report, and the exit code: 1 after findings or unread files, 70 after an internal error."""
+    """Return the report, and the exit code: 1 after findings or unread files, 70 after an internal
+    error.
+    """
     documents = []
     internal = False
     listed = {path for path in options.files if not path.is_dir()}
@@ -196,8 +199,8 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
         except OSError as error:
             file = str(options.write_baseline)
             raise FileError(FILE_NOT_WRITTEN, file=file, error=system_reason(error)) from error
-    fails = audit_gate.fails(documents, options.fail_on)
-    return [audit_report.FORMATS[options.format](documents)], 70 if internal else 1 if fails else 0
+    code = 70 if internal else int(audit_gate.fails(documents, options.fail_on))
+    return [audit_report.FORMATS[options.format](documents)], code
 
 
 def _documents(options: argparse.Namespace) -> Iterator[dict[str, Any]]:

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The findings of `audit` that count: without ignored codes, light links and those that a baseline knows."""
+"""The findings of `audit` that count: without ignored codes, light links and those that a baseline
+knows.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +13,10 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from ..core.files.whole_file import whole_file
 from ..core.robots.write import audit_report
 from ..core.verdict.catalog import declared
 from ..core.verdict.finding import Severity
-from ..core.whole_file import whole_file
 
 SCHEMA = "body-moments-baseline/1"
 FAILING = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}
@@ -44,16 +46,18 @@ def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
             if found["code"] in options.ignore:
                 continue
             if is_light:
-                found = {**found, "severity": str(Severity.NOTE)}
+                found = found | {"severity": str(Severity.NOTE)}
             if options.known is not None and _key(found, link, options.baseline) in options.known:
-                found = {**found, "known": True}
+                found = found | {"known": True}
             findings.append(found)
-        links.append({**link, "findings": findings})
-    return audit_report.with_status({**document, "links": links})
+        links.append(link | {"findings": findings})
+    return audit_report.with_status(document | {"links": links})
 
 
 def fails(documents: Iterable[dict[str, Any]], level: str) -> bool:
-    """Return whether a file could not be read, or has a finding of this level or above that is not known."""
+    """Return whether a file could not be read, or has a finding of this level or above that is not
+    known.
+    """
     counted = [str(severity) + "s" for severity in FAILING[level]]
     return any(
         one["errors"] or any(audit_report.count_findings(one)[name] for name in counted)
@@ -73,7 +77,10 @@ def read_baseline(path: Path) -> set[Key]:
 
 
 def write_baseline(path: Path, documents: Sequence[dict[str, Any]]) -> None:
-    """Write all findings but notes, with files relative to the baseline's folder. Raises OSError."""
+    """Write all findings but notes, with files relative to the baseline's folder.
+
+    Raises OSError.
+    """
     links = [link for one in documents for link in one["links"]]
     told = [
         (found, link)

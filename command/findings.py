@@ -6,7 +6,8 @@ from ..core.verdict.finding import error, note, warning
 
 SOLID_OPERAND_MEASURED = warning(
     "solid_operand_measured",
-    "Measured as a part, but cuts or joins “{object}” by a Boolean modifier. Display it as wire or bounds, or turn "
+    "Measured as a part, but cuts or joins “{object}” by a Boolean modifier. Display it as wire or "
+    "bounds, or turn "
     "off its rendering, if it is no part.",
 )
 SIGNATURE_OF_DISPLAY_MESH = warning(
@@ -25,14 +26,11 @@ NOTHING_RENDERED = error(
     "Nothing was measured: {count} object was left out. Use --all, or turn on its rendering.",
     "Nothing was measured: {count} objects were left out. Use --all, or turn on their rendering.",
 )
-MISSING_REFERENCES = error(
-    "missing_references",
-    "The file refers to what cannot be found: {names}. Restore these files, or make linked data local.",
-)
 FILE_HIDES = note("file_hides", "The file does not show it: {cause:word}. Use --all to measure it.")
 USD_CAGE = warning(
     "usd_cage",
-    "By the file, the mesh is the cage of a subdivision surface ({scheme}), and the cage was measured. Export it "
+    "By the file, the mesh is the cage of a subdivision surface ({scheme}), and the cage was "
+    "measured. Export it "
     "subdivided, or with the subdivisionScheme “none”.",
 )
 USD_UNREAD = error(
@@ -41,7 +39,8 @@ USD_UNREAD = error(
 )
 DRIVER_BLOCKED = warning(
     "driver_blocked",
-    "Drivers did not run, as the scripts of files are disabled: {drivers}. Bake what they drive, or save the file "
+    "Drivers did not run, as the scripts of files are disabled: {drivers}. Bake what they drive, "
+    "or save the file "
     "with simple expressions.",
 )
 SCRIPT_BLOCKED = note(
@@ -50,17 +49,20 @@ SCRIPT_BLOCKED = note(
 )
 SCRIPTS_ALLOWED = warning(
     "scripts_allowed",
-    "Blender was allowed to run the scripts of the file, which may have changed it: {names}. Start Blender with "
+    "Blender was allowed to run the scripts of the file, which may have changed it: {names}. Start "
+    "Blender with "
     "-Y, or name the file after “measure”.",
 )
 FILE_CHANGED_MEANWHILE = error(
     "file_changed_meanwhile",
-    "The file cannot be saved: another program has saved it since it was opened; nothing was overwritten. Measure "
+    "The file cannot be saved: another program has saved it since it was opened; nothing was "
+    "overwritten. Measure "
     "it again.",
 )
 ASSETS_NOT_MEASURED = warning(
     "assets_not_measured",
-    "Assets without numbers in their metadata, because they are not rendered, or not in the scene as an object or "
+    "Assets without numbers in their metadata, because they are not rendered, or not in the scene "
+    "as an object or "
     "collection: {names}. --all measures what is not rendered.",
 )
 PART_UNAVAILABLE = error("part_unavailable", "No {part}: {cause}")
@@ -81,27 +83,33 @@ RESULTS_NEED_BLEND = error(
 )
 FILE_CRASHED = error(
     "file_crashed",
-    "Blender crashed on the file ({how}), {count} times. Save it again with the program that made it, or leave it out.",
+    "Blender crashed on the file ({how}), {count} times. Save it again with the program that made "
+    "it, or leave it out.",
 )
 FILE_TIMED_OUT = error(
     "file_timed_out",
-    "The file took longer than {seconds:g} s. Use a longer --timeout, or open it in Blender to see why.",
+    "The file took longer than {seconds:g} s. Use a longer --timeout, or open it in Blender to see "
+    "why.",
 )
 FILE_TOOK_MEMORY = error(
     "file_took_memory",
-    "The file took more than {megabytes:.0f} MB of memory. Use a larger --memory-mb, fewer --jobs, or reduce it.",
+    "The file took more than {megabytes:.0f} MB of memory. Use a larger --memory-mb, fewer --jobs, "
+    "or reduce it.",
 )
 FILE_VERSION_UNSUPPORTED = error(
     "file_version_unsupported",
-    "This Blender ({blender}) cannot read the file, which was saved by Blender {version}. Use a Blender that can.",
+    "This Blender ({blender}) cannot read the file, which was saved by Blender {version}. Use a "
+    "Blender that can.",
 )
 FILE_NEWER_VERSION = warning(
     "file_newer_version",
-    "The file was saved by a newer Blender ({version}) than this one ({blender}), which may have lost some of it. "
+    "The file was saved by a newer Blender ({version}) than this one ({blender}), which may have "
+    "lost some of it. "
     "Use that Blender.",
 )
 SIMPLEX_OPEN = warning(
     "simplex_open",
-    "The facets do not close, so the moments depend on the reference point. Add the missing ones, or turn those "
+    "The facets do not close, so the moments depend on the reference point. Add the missing ones, "
+    "or turn those "
     "that face the other way by “signs”.",
 )

@@ -19,10 +19,11 @@ _requested = False
 
 @contextmanager
 def interruptible() -> Iterator[None]:
-    """Raise KeyboardInterrupt within the block on every signal that asks a process to end, also in `blender -b`.
+    """Raise KeyboardInterrupt within the block on every signal that asks a process to end, also in
+    `blender -b`.
 
-    Only the first signal counts: nothing disturbs the cleanup after it. An ignored signal, as in the background of a
-    shell, stays ignored.
+    Only the first signal counts: nothing disturbs the cleanup after it. An ignored signal, as in
+    the background of a shell, stays ignored.
     """
     global _requested
     _requested = False
@@ -47,13 +48,17 @@ def interruptible() -> Iterator[None]:
 
 
 def check_interruption() -> None:
-    """Raise KeyboardInterrupt if a signal has come: an importer may have turned the first one into its own error."""
+    """Raise KeyboardInterrupt if a signal has come: an importer may have turned the first one into
+    its own error.
+    """
     if _requested:
         raise KeyboardInterrupt
 
 
 class Progress:
-    """A counter of the "samples" or "faces" read from a file, reported with the file's name every `PERIOD` seconds."""
+    """A counter of the "samples" or "faces" read from a file, reported with the file's name every
+    `PERIOD` seconds.
+    """
 
     def __init__(
         self, file: str, what: str, report: Callable[[str, str], None] = print_message

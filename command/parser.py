@@ -16,11 +16,15 @@ COMMANDS = {
     "similar": "The bodies of a library that are most like one of them.",
     "simplex": "Raw moments ∫ x^α in n dimensions, with bounds of their rounding, as JSON.",
     "manifest": "Lists the files in folders that can be measured, for `measure --manifest LIST`.",
-    "merge": "Joins results of one run, of parts of a list for example: one document a file, as JSON lines.",
+    "merge": "Joins results of one run, of parts of a list for example: one document a file, as "
+    "JSON lines.",
     "to-csv": "Results as a table.",
-    "summary": "Counts by status, method and finding, the failed files, the slowest, the widest bounds.",
-    "compare": "Every number of two results, which may differ as far as their bounds or the tolerance allow.",
-    "report": "Results as one HTML file that opens without a network: a table to sort and filter, and pictures.",
+    "summary": "Counts by status, method and finding, the failed files, the slowest, the widest "
+    "bounds.",
+    "compare": "Every number of two results, which may differ as far as their bounds or the "
+    "tolerance allow.",
+    "report": "Results as one HTML file that opens without a network: a table to sort and filter, "
+    "and pictures.",
 }
 
 
@@ -48,7 +52,9 @@ class HelpRequested(Exception):
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that escapes control characters in its messages, and raises HelpRequested instead of printing help."""
+    """A parser that escapes control characters in its messages, and raises HelpRequested instead of
+    printing help.
+    """
 
     def flag(self, name: str, text: str) -> None:
         """Add an option without a value, and its help."""

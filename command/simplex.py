@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`simplex`: moments in n dimensions of a body that is given by simplices, which fill it or form its boundary."""
+"""`simplex`: moments in n dimensions of a body that is given by simplices, which fill it or form
+its boundary.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +15,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.files.limits import file_limits
 from ..core.measurement.plain_text import print_message
 from ..core.measurement.record import described
 from ..core.polyhedron import enclosed_moments, facet_moments, facets_of
 from ..core.polyhedron.n_dimensions import SimplexMoments, closes, multi_indices, outer_facets
 from ..core.scans.numpy_files import read_arrays
-from ..core.scans.scan_files import scan_limits
 from ..core.verdict.finding import MeasureError, finding, system_reason
 from .findings import SIMPLEX_OPEN
 from .options import option_types as types
@@ -29,12 +31,13 @@ MAX_DIMENSION = 12
 MAX_MOMENTS = 1 << 20
 
 _EPILOG = """\
-FILE.npz has `points`, m rows of n coordinates, and `simplices`, rows of numbers of points from 0 on: n + 1 of them are
-a full simplex (a triangle in the plane, a tetrahedron in space), n a facet of the boundary, outward where the
-determinant of its corners is positive for a body around the origin: edges counter-clockwise in the plane, triangles
-counter-clockwise from outside in space. Optional are `signs`, 1 or -1 for each row: with -1 it is turned, or its full
-simplex taken away.
-exit code: 0 measured, 1 the file cannot be measured, 2 wrong usage, 3 interrupted, 70 a fault of the program"""
+FILE.npz has `points`, m rows of n coordinates, and `simplices`, rows of numbers of points from 0
+on: n + 1 of them are a full simplex (a triangle in the plane, a tetrahedron in space), n a facet of
+the boundary, outward where the determinant of its corners is positive for a body around the origin:
+edges counter-clockwise in the plane, triangles counter-clockwise from outside in space. Optional
+are `signs`, 1 or -1 for each row: with -1 it is turned, or its full simplex taken away.
+exit code: 0 measured, 1 the file cannot be measured, 2 wrong usage, 3 interrupted,
+70 a fault of the program"""
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
@@ -56,7 +59,9 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 
 def answer(options: argparse.Namespace) -> tuple[list[str], int]:
-    """Return the text of the record, and the exit code; the reason for a failure is on the standard error."""
+    """Return the text of the record, and the exit code; the reason for a failure is on the standard
+    error.
+    """
     try:
         return [json.dumps(_measure(options), indent=1, allow_nan=False) + "\n"], 0
     except (UsageError, MeasureError) as error:
@@ -121,7 +126,7 @@ def _as_record(moments: SimplexMoments) -> dict[str, dict[str, float]]:
 
 
 def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray | None]:
-    arrays = read_arrays(path, ("points", "simplices", "signs"), scan_limits())
+    arrays = read_arrays(path, ("points", "simplices", "signs"), file_limits())
     if not {"points", "simplices"} <= arrays.keys():
         raise UsageError("The file is no .npz archive with the arrays “points” and “simplices”")
     points = arrays["points"]

@@ -12,7 +12,9 @@ from typing import Any
 def lazy_names(
     package: str, **modules: str
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """Return `__getattr__`, `__dir__` and `__all__` of a package. modules: the module of each public name."""
+    """Return `__getattr__`, `__dir__` and `__all__` of a package. modules: the module of each
+    public name.
+    """
     names = sorted(modules)
 
     def load(name: str) -> Any:
@@ -33,5 +35,7 @@ def lazy_names(
 
 
 def loaded_module(package: ModuleType, name: str) -> Any:
-    """Return a package's module if it has been imported, else None: then it holds no state of this session."""
+    """Return a package's module if it has been imported, else None: then it holds no state of this
+    session.
+    """
     return sys.modules.get("{}.{}".format(package.__name__, name))

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings of Sphinx for the manual: Markdown by MyST, the look by Furo, the API from the docstrings of `core/`.
+"""Settings of Sphinx for the manual: Markdown by MyST, the look by Furo, the API from the
+docstrings of `core/`.
 
-`python -m sphinx docs FOLDER` builds it; the pages need no network and no server, and neither does their search.
+`python -m sphinx docs FOLDER` builds it; the pages need no network and no server, and neither does
+their search.
 """
 
 import importlib.util

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The bpy operators, one folder or module per subject, and `batch.py`, the published entry of the command line."""
+"""The bpy operators, one folder or module per subject, and `batch.py`, the published entry of the
+command line.
+"""
 
 # The modules that are registered, in this order.
 MODULES = (
@@ -16,5 +18,6 @@ MODULES = (
     "rig",
     *("shape." + name for name in ("match_pose", "find_similar", "find_symmetry", "link_copies")),
     "batch",
-    ".blender.session.subscriptions",  # is removed first: its last notes need the properties of all others
+    # is removed first: its last notes need the properties of all others
+    ".blender.session.subscriptions",
 )

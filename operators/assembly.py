@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Assemblies: a collection, or an empty with its children, as one body, with its place in the scene and its bill."""
+"""Assemblies: a collection, or an empty with its children, as one body, with its place in the scene
+and its bill.
+"""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -12,12 +14,12 @@ from bpy.types import Context, Event, Operator
 from mathutils import Matrix
 
 from ..blender import bodies, read, scene, session
+from ..blender.scale import meters_per_unit
 from ..blender.scene.changes import require_editable
 from ..blender.scene.findings import OPEN_OBJECT
 from ..blender.session import stored
 from ..blender.settings.assembly import Root, active_assembly, is_assembly
 from ..blender.write import properties, reports
-from ..core.numerics.float32 import shortest_decimal
 from ..core.verdict.finding import EditRefusedError, MeasureError, Severity
 from ..core.verdict.method import Procedure
 from ..core.verdict.sentences import of_severity
@@ -62,7 +64,7 @@ def measured_assembly(context: Context, target: str) -> "Assembly":
 
 
 class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
-    """Measure all members of a collection, or all children of an empty, and store the total on it"""
+    """Measure all members of a collection or all children of an empty, and store the total"""
 
     bl_idname = "object.body_moments_measure_assembly"
     bl_label = "Measure Assembly"
@@ -100,7 +102,7 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
 
 
 class OBJECT_OT_body_moments_clear_assembly(Operator):
-    """Remove the stored results of the assembly. Its settings and the results of its members are kept"""
+    """Remove the stored results of the assembly. Settings and results of members are kept"""
 
     bl_idname = "object.body_moments_clear_assembly"
     bl_label = "Clear Assembly Results"
@@ -125,7 +127,8 @@ def report_cleared(operator: Operator, context: Context, is_cleared: bool) -> se
     return {"FINISHED"} if is_cleared else {"CANCELLED"}
 
 
-FRAME_OF = "principal_frame_of_assembly"  # ID property of an empty: the collection or empty whose frame it shows
+# ID property of an empty: the collection or empty whose frame it shows
+FRAME_OF = "principal_frame_of_assembly"
 
 
 class _SnapToAssembly:
@@ -141,7 +144,7 @@ class _SnapToAssembly:
         for part in assembly.root.walk():
             if part.measurement is not None and part.measurement.method.procedure == Procedure.OPEN:
                 raise EditRefusedError(OPEN_OBJECT, subject=part.member.name)
-        unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = meters_per_unit(context.scene)
         center = (assembly.measurement.mass_properties.center / unit).tolist()
         return selection.report(self, self._place(context, assembly, center))
 
@@ -169,7 +172,7 @@ class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
 
 
 class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
-    """Add an empty at the center of mass of the assembly, along its principal axes. One added before is moved"""
+    """Add or move an empty at the assembly's center of mass, along its principal axes"""
 
     bl_idname = "object.body_moments_assembly_empty"
     bl_label = "Add Empty at Assembly"
@@ -189,7 +192,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
             empty[FRAME_OF] = owner
             context.scene.collection.objects.link(empty)
         require_editable(empty)
-        unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = meters_per_unit(context.scene)
         empty.empty_display_size = max(float(body.radii_of_gyration.max()) / unit, 1e-3)
         frame = Matrix(body.principal.axes.tolist()).to_4x4()
         frame.translation = center
@@ -205,7 +208,8 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
     bl_idname = "object.body_moments_assembly_origin"
     bl_label = "Origin to Center of Assembly"
     bl_description = (
-        "Put the origin of the assembly at its center of mass: the offset of a collection's instances, or the empty, "
+        "Put the origin of the assembly at its center of mass: the offset of a collection's "
+        "instances, or the empty, "
         "whose children stay where they are"
     )
 
@@ -226,7 +230,7 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
 
 
 class OBJECT_OT_body_moments_export_bill(Operator):
-    """Write the masses, centers and inertia of all members of an assembly as a table (.csv), in SI units"""
+    """Write masses, centers and inertia of an assembly's members as a table (.csv), in SI units"""
 
     bl_idname = "object.body_moments_export_bill"
     bl_label = "Export Bill of Masses"

@@ -41,8 +41,9 @@ _command = None
 def main(argv: list[str], *, channel: int | None = None, file_needed: bool = False) -> int:
     """Run the command line and return its exit code.
 
-    argv: the words from `measure` on. channel: a descriptor for the result, by default the standard output, which
-    nothing else in this process reaches from then on. file_needed: whether files must be named, as none can be open.
+    argv: the words from `measure` on. channel: a descriptor for the result, by default the standard
+    output, which nothing else in this process reaches from then on. file_needed: whether files must
+    be named, as none can be open.
     """
     from ..command import interruption
     from ..command.files import output
@@ -140,7 +141,9 @@ def _serve(channel: int) -> int:
 
 
 def _print(word: str, argv: list[str], channel: int) -> int:
-    """Run a command that neither opens files in Blender nor starts processes; return the exit code."""
+    """Run a command that neither opens files in Blender nor starts processes; return the exit
+    code.
+    """
     from .. import command
     from ..command.files import output
 
@@ -152,7 +155,8 @@ def _print(word: str, argv: list[str], channel: int) -> int:
     return code if is_written or code == INTERNAL_ERROR else SOME_FAILED
 
 
-# The modules of `command`, each with `parse` and `answer`, which returns the text in pieces and the exit code.
+# The modules of `command`, each with `parse` and `answer`, which returns the text in pieces and the
+# exit code.
 _PRINTING = {word: word for word in ("similar", "audit", "simplex")}
 _PRINTING |= dict.fromkeys(
     ("manifest", "merge", "to-csv", "summary", "compare", "report"), "gather"
@@ -160,7 +164,9 @@ _PRINTING |= dict.fromkeys(
 
 
 def _load_settings() -> None:
-    """Register the settings of objects, collections and bones, where there is Blender and no registered add-on."""
+    """Register the settings of objects, collections and bones, where there is Blender and no
+    registered add-on.
+    """
     if importlib.util.find_spec("bpy") is None:
         return
     import bpy
@@ -192,7 +198,8 @@ def unregister() -> None:
 def run_process() -> None:
     """Run the command line of this process, in Blender or in Python, and end the process.
 
-    The command `body-moments` of the installed package calls this function; as a script, this file does.
+    The command `body-moments` of the installed package calls this function; as a script, this file
+    does.
     """
     try:
         code = _run()

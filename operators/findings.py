@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings of the operators: refusals and warnings that stay in the panel. Other texts stand beside their reports."""
+"""Findings of the operators: refusals and warnings that stay in the panel.
+
+Other texts stand beside their reports.
+"""
 
 from ..core.verdict.finding import error, warning
 
@@ -27,11 +30,13 @@ FLAT_AND_BODY = error(
 )
 POSE_NOT_A_COPY = warning(
     "pose_not_a_copy",
-    "{object}: surfaces at most {maximum:length} apart, {mean:length} on average; not a copy, or cut off",
+    "{object}: surfaces at most {maximum:length} apart, {mean:length} on average; not a copy, or "
+    "cut off",
 )
 NOT_A_RIGID_BODY = error("not_a_rigid_body", "Not a rigid body. Turn on Add Rigid Bodies.")
 RIGID_BODY_CENTER_ELSEWHERE = warning(
     "rigid_body_center_elsewhere",
-    "Physics uses the origin as center of mass, which differs for {objects}. Use Axes to Principal Axes.",
+    "Physics uses the origin as center of mass, which differs for {objects}. Use Axes to Principal "
+    "Axes.",
 )
 OBJECTS_TIP = warning("objects_tip", "{names} tips over", "{names} tip over")

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Imports: a scan becomes a Volume object; B-spline surfaces of IGES and .obj files become surface objects."""
+"""Imports: a scan becomes a Volume object; B-spline surfaces of IGES and .obj files become surface
+objects.
+"""
 
 from dataclasses import replace
 from pathlib import Path
@@ -22,9 +24,9 @@ from bpy_extras.io_utils import ImportHelper
 
 from .. import core
 from ..blender import read, scene
+from ..blender.scale import meters_per_unit
 from ..blender.write import reports
 from ..blender.write.findings import FILE_NOT_WRITTEN
-from ..core.numerics.float32 import shortest_decimal
 from ..core.scans.scan_files import SAMPLE_TYPES, SUFFIXES
 from ..core.verdict.finding import FileError, Finding, MeasureError
 from . import selection
@@ -35,7 +37,8 @@ def _positions(name: str) -> Any:
     """Declare the file with the positions of samples along an axis."""
     return StringProperty(
         name=name,
-        description="A .npy file with the position of each sample along the axis, ascending. Empty if they are even",
+        description="A .npy file with the position of each sample along the axis, ascending. Empty "
+        "if they are even",
         subtype="FILE_PATH",
     )
 
@@ -74,11 +77,13 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
     )
     allow_outside: BoolProperty(
         name="Allow Outside",
-        description="Read a file of samples that the header names outside of its own folder. Only for trusted headers",
+        description="Read a file of samples that the header names outside of its own folder. Only "
+        "for trusted headers",
     )
     raw_shape: IntVectorProperty(
         name="Raw Size",
-        description="Number of samples of a .raw file along x, y and z, x fastest. 0 if the file name states it",
+        description="Number of samples of a .raw file along x, y and z, x fastest. 0 if the file "
+        "name states it",
         default=(0, 0, 0),
         min=0,
     )
@@ -108,7 +113,7 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
 
     def _import(self, context: Context, module: ModuleType, path: Path) -> list[Finding | str]:
         """Make the object, and return findings and texts about the steps and decisions."""
-        limits = replace(core.scans.scan_files.scan_limits(), allow_outside=self.allow_outside)
+        limits = replace(core.files.limits.file_limits(), allow_outside=self.allow_outside)
         raw = (self.raw_shape, self.raw_type, self.raw_big_endian) if all(self.raw_shape) else None
         files = {"x": self.x_positions, "y": self.y_positions, "z": self.z_positions}
         files = {axis: bpy.path.abspath(file) for axis, file in files.items() if file}
@@ -117,7 +122,7 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         target = placed.target
         if target.exists() and not self.overwrite:
             raise FileError(FILE_EXISTS, file=target.name)
-        unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = meters_per_unit(context.scene)
         try:
             low = scene.write_volume(module, placed, unit)
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
@@ -135,7 +140,8 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         ]
         if files:
             text = (
-                "Blender draws samples evenly. They are measured where they stand; the ends along {axes} are in their "
+                "Blender draws samples evenly. They are measured where they stand; the ends along "
+                "{axes} are in their "
                 "places."
             )
             texts.append(reports.phrase(text, axes=sorted(files)))
@@ -205,7 +211,7 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
 
     def _import(self, context: Context, path: Path) -> tuple[list[Object], list[Finding | str]]:
         """Return the objects of a file, and findings about the steps and decisions."""
-        found = scene.import_surfaces(path, core.scans.scan_files.scan_limits(), self.unit, context)
+        found = scene.import_surfaces(path, core.files.limits.file_limits(), self.unit, context)
         texts = (
             "Imported {count} patch of order {order} from {file}.",
             "Imported {count} patches of order {order} at most from {file}.",

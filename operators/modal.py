@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Long work in steps: between two of them Blender handles events and shows the progress, and Esc cancels."""
+"""Long work in steps: between two of them Blender handles events and shows the progress, and Esc
+cancels.
+"""
 
 from __future__ import annotations
 
@@ -13,20 +15,21 @@ from ..blender.settings.preferences import copy_defaults
 from ..blender.write import reports
 from .selection import reporting
 
-# Seconds of work between two of the window's events: the time that the window itself takes, within these limits,
-# to spend half of the time on work if a scene is slow to draw.
+# Seconds of work between two of the window's events: the time that the window itself takes, within
+# these limits, to spend half of the time on work if a scene is slow to draw.
 STEP_SECONDS, MAX_STEP_SECONDS = 0.1, 1.0
 
 
 class ModalSteps:
     """Base of operators that work in steps.
 
-    `_begin` chooses the work, sets the generator `_steps` and returns its last value; `_steps` does the work and yields
-    the completed amount; only `_finish` changes anything. Each may raise MeasureError or Refused, which are
-    reported.
+    `_begin` chooses the work, sets the generator `_steps` and returns its last value; `_steps` does
+    the work and yields the completed amount; only `_finish` changes anything. Each may raise
+    MeasureError or Refused, which are reported.
 
-    PROGRESS: text in the status bar, filled with `share`, the completed share. CANCELED: the report after Esc.
-    MAX_AT_ONCE: largest count of steps that are run at once, without redrawing the window.
+    PROGRESS: text in the status bar, filled with `share`, the completed share. CANCELED: the report
+    after Esc. MAX_AT_ONCE: largest count of steps that are run at once, without redrawing the
+    window.
     """
 
     bl_options = {"REGISTER", "UNDO"}

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators on characters: the parts of their bones, rigid bodies for them, their center of mass and balance."""
+"""Operators on characters: the parts of their bones, rigid bodies for them, their center of mass
+and balance.
+"""
 
 from bpy.props import EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Operator
@@ -45,7 +47,7 @@ class InPoseMode:
 
 
 class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
-    """Measure the part of each bone of the active armature in rest pose, and store it on the pose bone"""
+    """Measure each bone's part of the active armature in rest pose; store it on the pose bone"""
 
     bl_idname = "object.body_moments_measure_bones"
     bl_label = "Measure Bones"
@@ -83,8 +85,10 @@ class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
     bl_idname = "object.body_moments_physics_rig"
     bl_label = "Create Physics Rig"
     bl_description = (
-        "Create a rigid body for the part of each bone, in rest pose, with its exact mass, its origin at its center of "
-        "mass and its axes along its principal axes, and a joint at each bone. One created before is replaced"
+        "Create a rigid body for the part of each bone, in rest pose, with its exact mass, its "
+        "origin at its center of "
+        "mass and its axes along its principal axes, and a joint at each bone. One created before "
+        "is replaced"
     )
 
     @selection.report_refusals
@@ -107,7 +111,8 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
     bl_idname = "object.body_moments_rig_center"
     bl_label = "Add Center of Mass"
     bl_description = (
-        "Add an empty that stays at the center of mass of the character in every pose, by constraints to the centers "
+        "Add an empty that stays at the center of mass of the character in every pose, by "
+        "constraints to the centers "
         "of the bones' parts. One added before is replaced"
     )
 
@@ -121,7 +126,7 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
 
 
 class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
-    """Show the center of mass and the support of the selected characters while they are posed, or hide them again"""
+    """Show or hide center of mass and support of the selected characters while they are posed"""
 
     bl_idname = "pose.body_moments_show_weight"
     bl_label = "Show Weight"
@@ -147,14 +152,15 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
 
 
 class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
-    """Move a bone by the least length or angle that brings the center of mass over the support; held feet stay"""
+    """Move a bone as little as brings the center of mass over the support; held feet stay"""
 
     bl_idname = "pose.body_moments_balance_pose"
     bl_label = "Balance Pose"
 
     bone: StringProperty(
         name="Bone",
-        description="Bone to move. If empty, the active one or the first one that leaves the contacts in place",
+        description="Bone to move. If empty, the active one or the first one that leaves the "
+        "contacts in place",
     )
     target: EnumProperty(
         name="Target",
@@ -177,7 +183,10 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
     def execute(self, context: Context) -> set[str]:
         margin = self.margin if self.target == "INSIDE" else None
         values = session.balance_pose(context, context.object, self.bone, margin)
-        text = "Moved “{bone}”: the center is {gap:length} from its target, {margin:length} inside the support"
+        text = (
+            "Moved “{bone}”: the center is {gap:length} from its target, {margin:length} inside "
+            "the support"
+        )
         selection.report(self, reports.phrase(text if values else BALANCED, **values))
         return {"FINISHED" if values else "CANCELLED"}
 

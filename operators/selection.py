@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Common parts of all operators: choice of objects, polls with reasons, refusals, progress, one report a run."""
+"""Common parts of all operators: choice of objects, polls with reasons, refusals, progress, one
+report a run.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,8 @@ MAX_OBJECTS_WITHOUT_REDRAW = (
 
 
 def selected_measurable(context: Context) -> list[Object]:
-    """Return the measurable selected objects, parents before children; the meshes of posed armatures in their place.
+    """Return the measurable selected objects, parents before children; the meshes of posed
+    armatures in their place.
 
     Works in background too. A scene that is used for the first time gets its defaults.
     """
@@ -42,7 +45,9 @@ def selected_measurable(context: Context) -> list[Object]:
 
 
 def poll_object_mode(cls: type[Operator], context: Context) -> bool:
-    """Return whether Blender is in Object Mode; if not, set the reason that the disabled button shows."""
+    """Return whether Blender is in Object Mode; if not, set the reason that the disabled button
+    shows.
+    """
     return context.mode == "OBJECT" or reports.unavailable(cls, "Switch to Object Mode")
 
 
@@ -100,7 +105,9 @@ def report(operator: Operator, *parts: Finding | str, level: Severity = Severity
 
 
 def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: Any) -> set[str]:
-    """Report why an operator does nothing, and return what its `execute` has to return. values: of an English text."""
+    """Report why an operator does nothing, and return what its `execute` has to return. values: of
+    an English text.
+    """
     if isinstance(reason, str):
         report(operator, reports.phrase(reason, **values), level=Severity.ERROR)
     else:
@@ -121,7 +128,9 @@ def report_refusals(
 
 
 def reporting(operator: Operator, run: Callable[..., set[str]], *arguments: object) -> set[str]:
-    """Return the result of a part of an operator; a refusal is reported, and cancels the operator."""
+    """Return the result of a part of an operator; a refusal is reported, and cancels the
+    operator.
+    """
     try:
         return run(*arguments)
     except MeasureError as error:
@@ -144,9 +153,9 @@ def summarize(
 
     All failures and warnings stay in the panel until the next action.
 
-    done: the action on `changed` of `total` objects. failures: the reasons for objects left unchanged. findings: other
-    observations. idle: the reason if nothing had to be done. `done` and `idle` are translated already. nothing: the
-    English text if there are no objects.
+    done: the action on `changed` of `total` objects. failures: the reasons for objects left
+    unchanged. findings: other observations. idle: the reason if nothing had to be done. `done` and
+    `idle` are translated already. nothing: the English text if there are no objects.
     """
     if not total:
         done = reports.phrase(nothing)
@@ -168,7 +177,9 @@ def finish(
     level: Severity = Severity.NOTE,
     is_changed: bool = True,
 ) -> set[str]:
-    """Report texts, and the first of the failures and findings, redraw, and return the result of `execute`."""
+    """Report texts, and the first of the failures and findings, redraw, and return the result of
+    `execute`.
+    """
     outcome.remember(
         operator.bl_label, [part for part in (*failures, *findings) if isinstance(part, Finding)]
     )
@@ -186,8 +197,9 @@ def iterate_objects(
 ) -> Generator[float, None, None]:
     """Run `action` on one object after the other, and yield the number of completed objects.
 
-    `action` does the work, or returns an iterator that does it in steps and yields its completed share. Refusals and
-    failures are added to `failures`: none of them ends the work on the other objects.
+    `action` does the work, or returns an iterator that does it in steps and yields its completed
+    share. Refusals and failures are added to `failures`: none of them ends the work on the other
+    objects.
     """
     for done, obj in enumerate(objects, 1):
         try:
@@ -205,7 +217,8 @@ def apply_to_all(
 ) -> tuple[list[Object], list[Finding]]:
     """Run `action` on each object.
 
-    Return the objects for which it returned True or None, and the reasons for refusals and failures.
+    Return the objects for which it returned True or None, and the reasons for refusals and
+    failures.
     """
     changed: list[Object] = []
     failures: list[Finding] = []
@@ -224,7 +237,7 @@ def apply_to_all(
 def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
     """Write a file, whole or not at all. FileError if it cannot be written."""
     try:
-        with core.whole_file.whole_file(path) as file:
+        with core.files.whole_file.whole_file(path) as file:
             file.writelines(
                 piece if isinstance(piece, bytes) else piece.encode() for piece in pieces
             )
@@ -233,7 +246,9 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
 
 
 def ask_for_table(operator: Operator, context: Context) -> set[str]:
-    """Open the file browser, by default for a .csv file beside the .blend file and with its name."""
+    """Open the file browser, by default for a .csv file beside the .blend file and with its
+    name.
+    """
     if not operator.filepath:
         operator.filepath = bpy.path.ensure_ext(
             bpy.data.filepath.removesuffix(".blend") or "masses", ".csv"

@@ -23,12 +23,13 @@ EMPTY_FLIGHT = "Landing must be at least two frames after Take-off. Change one o
 
 
 class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
-    """Compute whether the selected objects stand on the ground below them, and in which poses they rest."""
+    """Compute whether the selected objects stand on the ground, and in which poses they rest."""
 
     bl_idname = "object.body_moments_stability"
     bl_label = "Check Stability"
     bl_description = (
-        "Compute whether the selected objects stand on the ground below them, how far the ground can be tilted, and in "
+        "Compute whether the selected objects stand on the ground below them, how far the ground "
+        "can be tilted, and in "
         "which poses they rest. Objects are measured where their results are out of date"
     )
 
@@ -62,13 +63,15 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
     bl_idname = "object.body_moments_rest_on_ground"
     bl_label = "Rest on Ground"
     bl_description = (
-        "Lay the selected objects on the ground in a stable pose, the likeliest or another one. They turn by the "
+        "Lay the selected objects on the ground in a stable pose, the likeliest or another one. "
+        "They turn by the "
         "smallest angle about the center of mass, which stays above the same point"
     )
 
     pose: IntProperty(
         name="Pose",
-        description="Stable pose, the likeliest first. 0 for the one that is reached by the smallest turn",
+        description="Stable pose, the likeliest first. 0 for the one that is reached by the "
+        "smallest turn",
         default=1,
         min=0,
         soft_max=12,
@@ -121,7 +124,8 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
     bl_idname = "object.body_moments_balance_group"
     bl_label = "Balance Group"
     bl_description = (
-        "Follow the common center of mass of the selected objects, of a collection, or of the meshes that the selected "
+        "Follow the common center of mass of the selected objects, of a collection, or of the "
+        "meshes that the selected "
         "armatures deform, over the frame range. Adds an empty with keys, and draws the path"
     )
 
@@ -132,7 +136,8 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
     contacts: StringProperty(
         name="Contact Objects",
         description=(
-            "Collection whose objects can touch the ground, such as feet. What of them is near the ground spans the "
+            "Collection whose objects can touch the ground, such as feet. What of them is near the "
+            "ground spans the "
             "support polygon. If empty, there is none"
         ),
     )
@@ -143,7 +148,8 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
     )
     reach: FloatProperty(
         name="Contact Distance",
-        description="Points that are no higher above the ground touch it. 0 for 1% of the size of the contact objects",
+        description="Points that are no higher above the ground touch it. 0 for 1% of the size of "
+        "the contact objects",
         default=0.0,
         min=0.0,
         unit="LENGTH",
@@ -231,7 +237,8 @@ class KeyedFlight(ModalDialog, OnArmature):
     use_contacts: BoolProperty(
         name="Find by Contacts",
         description=(
-            "Find take-off and landing by the contacts with the ground: of the flight at the current frame, or the "
+            "Find take-off and landing by the contacts with the ground: of the flight at the "
+            "current frame, or the "
             "longest one"
         ),
         default=True,
@@ -240,12 +247,14 @@ class KeyedFlight(ModalDialog, OnArmature):
     landing: IntProperty(name="Landing", description="First frame on the ground again", default=24)
     bone: StringProperty(
         name="Bone",
-        description="Bone that carries the whole character. If empty, its root, or the armature object",
+        description="Bone that carries the whole character. If empty, its root, or the armature "
+        "object",
         search=lambda _self, context, _text: [bone.name for bone in context.object.pose.bones],
     )
     use_layer: BoolProperty(
         name="As Layer",
-        description="Put the keys into a strip of the NLA that is combined with the action, which becomes a strip, too",
+        description="Put the keys into a strip of the NLA that is combined with the action, which "
+        "becomes a strip, too",
     )
 
     def _begin(self, context: Context) -> int:
@@ -289,7 +298,7 @@ class KeyedFlight(ModalDialog, OnArmature):
 
 
 class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
-    """Key the root so that the center of mass falls freely from take-off to landing. Poses stay as they are"""
+    """Key the root for a free fall of the center of mass from take-off to landing; poses stay"""
 
     bl_idname = "pose.body_moments_parabola"
     bl_label = "Put on Parabola"
@@ -311,7 +320,7 @@ class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
 
 
 class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
-    """Turn the root so that the angular momentum stays that of take-off: a tucked body spins faster"""
+    """Turn the root so that angular momentum stays that of take-off: a tucked body spins faster"""
 
     bl_idname = "pose.body_moments_keep_spin"
     bl_label = "Keep Spin"
@@ -321,7 +330,8 @@ class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
     lead: IntProperty(
         name="Lead",
         description=(
-            "Frames before take-off over which the character turns already, so that less is left after the landing. "
+            "Frames before take-off over which the character turns already, so that less is left "
+            "after the landing. "
             "If 0, the turn begins at take-off"
         ),
         default=8,
@@ -349,14 +359,17 @@ class KeyedPath(ModalSteps, OnArmature):
     def _finish(self, context: Context) -> set[str]:
         followed = self._followed
         empty, spans = followed.bake(context, self.CURVES)
-        text = "Keys of the center of mass on “{empty}”: {count}. Spans with momentum from nothing: {spans}"
+        text = (
+            "Keys of the center of mass on “{empty}”: {count}. Spans with momentum from nothing: "
+            "{spans}"
+        )
         return selection.report(
             self, reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans)
         )
 
 
 class POSE_OT_body_moments_bake_curves(KeyedPath, Operator):
-    """Key momentum and balance of the character on an empty, and list frames with momentum from nothing"""
+    """Key the character's momentum and balance on an empty, and list momentum from nothing"""
 
     bl_idname = "pose.body_moments_bake_curves"
     bl_label = "Bake Curves"

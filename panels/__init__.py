@@ -5,7 +5,8 @@
 They draw stored or cached values and compute nothing.
 """
 
-# The modules that are registered, in this order. A sub-panel comes after its panel; `places.ORDER` sorts them.
+# The modules that are registered, in this order. A sub-panel comes after its panel; `places.ORDER`
+# sorts them.
 MODULES = (
     *(
         "menus",

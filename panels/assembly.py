@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Assemblies: a collection, or an empty with its children, as one body, with the tree of its members.
+"""Assemblies: a collection, or an empty with its children, as one body, with the tree of its
+members.
 
-The sub-panel shows the active empty if it has children, else the active object's collection; the active collection has
-a panel among the collection's properties too.
+The sub-panel shows the active empty if it has children, else the active object's collection; the
+active collection has a panel among the collection's properties too.
 """
 
 from __future__ import annotations

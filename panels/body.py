@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The main panel: the answer (a verdict, mass, volume and center of mass), the buttons, and then the findings.
+"""The main panel: the answer (a verdict, mass, volume and center of mass), the buttons, and then
+the findings.
 
-Nothing that comes and goes stands above a button: refusals of the last action are below all sub-panels. The rest is in
-sub-panels, in the order of CAD's mass property dialogs (`places.ORDER`).
+Nothing that comes and goes stands above a button: refusals of the last action are below all
+sub-panels. The rest is in sub-panels, in the order of CAD's mass property dialogs (`places.ORDER`).
 """
 
 from __future__ import annotations
@@ -44,7 +45,8 @@ SOURCES = {
 LIVE = {
     Lag.NONE: "Live ({milliseconds:.0f} ms). Press Measure to store",
     Lag.FIRST_ORDER: (
-        "Live: mass, volume and center of this frame; inertia follows when it stops ({milliseconds:.0f} ms)"
+        "Live: mass, volume and center of this frame; inertia follows when it stops "
+        "({milliseconds:.0f} ms)"
     ),
     Lag.BEHIND: "Live lags: measuring takes {milliseconds:.0f} ms, and waits until the edit stops",
 }
@@ -151,7 +153,8 @@ def _answer(
     length: float | None = None,
     volume: float | None = None,
 ) -> None:
-    """Draw mass, volume and center, in as many rows before they are known. length: of a wire, in place of the volume.
+    """Draw mass, volume and center, in as many rows before they are known. length: of a wire, in
+    place of the volume.
 
     volume: of several objects, which is known if they have no mass.
     """
@@ -189,7 +192,9 @@ def _buttons(layout: UILayout, context: Context) -> None:
 
 
 def _details(layout: UILayout, context: Context, shown: Displayed, numbers: PlainBody) -> None:
-    """Draw area, density and method; an unknown method, of another version of the add-on, by its stored text."""
+    """Draw area, density and method; an unknown method, of another version of the add-on, by its
+    stored text.
+    """
     obj = context.object
     column = layout.column(align=True)
     if numbers.area:  # neither a wire nor a grid of densities has a surface

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of colliders: the button that makes them, and what they do to the object's physics."""
+"""The sub-panel of colliders: the button that makes them, and what they do to the object's
+physics.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +11,7 @@ from math import degrees, dist
 from bpy.types import Context, Object
 
 from ..blender.read.visibility import measurable
+from ..blender.scale import meters_per_unit
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_colliders
 from ..blender.settings.given import COLLIDER, COLLIDERS
@@ -31,12 +34,13 @@ SLIGHT = 0.01  # parts by which an engine may be off without a warning
 REMEDIES = {  # by the kind of correction that did not suffice
     "none": "An engine would simulate another body. Choose Masses or Vertices for Correct.",
     "masses": "An engine would simulate another body. Choose Convex Pieces, and more of them.",
-    "vertices": "An engine would simulate another body. Increase Outward and Inward, or choose Convex Pieces.",
+    "vertices": "An engine would simulate another body. Increase Outward and Inward, or choose "
+    "Convex Pieces.",
 }
 
 
 class CollidersPanel:
-    """Colliders, and how an engine that takes mass, center and inertia from them differs from the object"""
+    """Colliders, and how an engine that takes mass, center and inertia from them differs"""
 
     bl_label = "Colliders"
 
@@ -65,7 +69,7 @@ class CollidersPanel:
         rows.filled(
             column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"]
         )
-        size = max(body.dimensions) * context.scene.unit_settings.scale_length
+        size = max(body.dimensions) * meters_per_unit(context.scene)
         shift = dist(stored["center_shift"], (0.0, 0.0, 0.0))
         changes = (
             abs(stored.get("mass_ratio", 1.0) - 1.0),

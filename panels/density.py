@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sub-panels of the density and of a given mass, and the density's row in the main panel.
 
-The density is a given mass, one value, materials, a polynomial, an attribute or a Volume object; a grid of voxels has
-settings of its own. An empty may stand for a point mass.
+The density is a given mass, one value, materials, a polynomial, an attribute or a Volume object; a
+grid of voxels has settings of its own. An empty may stand for a point mass.
 """
 
 from __future__ import annotations
@@ -36,7 +36,9 @@ def _has_density(obj: Object) -> bool:
 
 
 def material_row(layout: UILayout, context: Context, obj: Object) -> None:
-    """Draw the density's most used setting in one row: the material, or the setting in its place."""
+    """Draw the density's most used setting in one row: the material, or the setting in its
+    place.
+    """
     if not _has_density(obj):
         return
     settings = obj.body_moments
@@ -55,7 +57,9 @@ def material_row(layout: UILayout, context: Context, obj: Object) -> None:
 
 
 def _density_source(column: UILayout, settings: PropertyGroup) -> None:
-    """Draw the source of the density, without polynomials unless one is in use or the preferences show them."""
+    """Draw the source of the density, without polynomials unless one is in use or the preferences
+    show them.
+    """
     if shows_advanced() or settings.density_from == "POLYNOMIAL":
         rows.setting(column, settings, "density_from")
         return
@@ -179,7 +183,9 @@ def _material(column: UILayout, context: Context, settings, heading: str) -> Non
 
 
 def _grid_settings(layout: UILayout, obj: Object) -> bool:
-    """Draw the settings of an object's grid, and return whether the mass comes from the grid, not from a material."""
+    """Draw the settings of an object's grid, and return whether the mass comes from the grid, not
+    from a material.
+    """
     settings = obj.body_moments
     column = layout.column()
     rows.setting(column, settings, "grid")

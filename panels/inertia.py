@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panels of the inertia: principal moments and axes, radii of gyration, tensor; and about any reference."""
+"""The sub-panels of the inertia: principal moments and axes, radii of gyration, tensor; and about
+any reference.
+"""
 
 from __future__ import annotations
 

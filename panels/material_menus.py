@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Menus of materials by category, the user's own presets, and the densities of Blender's materials.
 
-In a layout with the context pointer `body_moments_material` the menus set that material's density, else the density of
-the selected objects.
+In a layout with the context pointer `body_moments_material` the menus set that material's density,
+else the density of the selected objects.
 """
 
 import bpy
@@ -47,7 +47,9 @@ def _menu_name(category: str) -> str:
 
 
 def _set_density(layout: UILayout, context: Context, **options: str):
-    """Draw the button that sets the density of a material, or of the selected objects, and return it."""
+    """Draw the button that sets the density of a material, or of the selected objects, and return
+    it.
+    """
     target = getattr(context, "body_moments_material", None)
     if target is None:
         return layout.operator(OBJECT_OT_body_moments_set_material.bl_idname, **options)

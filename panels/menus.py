@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The menus of the add-on, its entries in Blender's own menus where users expect them, and in its *Help*.
+"""The menus of the add-on, its entries in Blender's own menus where users expect them, and in its
+*Help*.
 
-Blender's search finds entries of menus. The manual that the extension brings opens from *Help*, and from *Online
-Manual* of buttons and settings.
+Blender's search finds entries of menus. The manual that the extension brings opens from *Help*, and
+from *Online Manual* of buttons and settings.
 """
 
 from __future__ import annotations
@@ -39,7 +40,8 @@ _OBJECT = "bpy.types.bodymomentsobjectsettings."
 _SCENE = "bpy.types.bodymomentsscenesettings."
 _OPERATOR = "bpy.ops.object.body_moments_"
 
-# Lower-case patterns of buttons and settings, and their pages of the manual; the first pattern that fits counts.
+# Lower-case patterns of buttons and settings, and their pages of the manual; the first pattern that
+# fits counts.
 PAGES = (
     *((_OBJECT + name + "*", "walls.html") for name in ("wall", "thickness")),
     *(

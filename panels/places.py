@@ -4,8 +4,9 @@
 
 The object's properties stay open beside other settings.
 
-To add a sub-panel: a class with `bl_label`, `draw` and, if needed, `poll`, made into panels by `in_both_places`, in a
-module that `panels/__init__.py` names. Sub-panels of the main panel follow `ORDER`.
+To add a sub-panel: a class with `bl_label`, `draw` and, if needed, `poll`, made into panels by
+`in_both_places`, in a module that `panels/__init__.py` names. Sub-panels of the main panel follow
+`ORDER`.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ PLACES = {  # by the beginning of the panels' identifiers
 
 
 class AmongProperties:
-    """Base of panels among the properties of something else than the object, named by `bl_context`."""
+    """Base of panels among the properties of another thing than the object."""
 
     bl_label = "Body Moments"
     bl_space_type, bl_region_type = "PROPERTIES", "WINDOW"
@@ -58,10 +59,11 @@ def in_both_places(
 ) -> tuple[type[Panel], ...]:
     """Make a panel of the sidebar and one of the object's properties that show these contents.
 
-    `contents` has `bl_label`, `draw(self, context)` and, if needed, `poll` and `draw_header_preset`.
-    `name` is part of the identifiers, `VIEW3D_PT_body_moments_NAME` and `OBJECT_PT_body_moments_NAME`; "" for the main
-    panel. `parent` names the parent panel, by default the main one. `options`: of a sub-panel. `shown_for`, in place of
-    `poll`: whether to show the panel of an active object.
+    `contents` has `bl_label`, `draw(self, context)` and, if needed, `poll` and
+    `draw_header_preset`. `name` is part of the identifiers, `VIEW3D_PT_body_moments_NAME` and
+    `OBJECT_PT_body_moments_NAME`; "" for the main panel. `parent` names the parent panel, by
+    default the main one. `options`: of a sub-panel. `shown_for`, in place of `poll`: whether to
+    show the panel of an active object.
     """
 
     def draw(panel: Panel, context: Context) -> None:
@@ -88,7 +90,7 @@ def in_both_places(
             own["bl_parent_id"] = _idname(prefix, parent)
         elif prefix == "VIEW3D_PT_":
             own["bl_options"] = set()
-        panels.append(type(idname, (contents, Panel), {**shared, **own}))
+        panels.append(type(idname, (contents, Panel), (shared | own)))
     return tuple(panels)
 
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings as lines, each with the button of its remedy; the refusals of the last action; the question of units."""
+"""Findings as lines, each with the button of its remedy; the refusals of the last action; the
+question of units.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ QUESTION_DIGITS = 3
 def lines(
     layout: UILayout, context: Context, groups: Sequence[Group], can_accept: bool = True
 ) -> None:
-    """Draw a line for each group of errors and warnings, with its first remedy; its sentence opens on click."""
+    """Draw a line for each group of errors and warnings, with its first remedy; its sentence opens
+    on click.
+    """
     acceptable = 0
     for group in groups:
         shown = group.finding
@@ -74,7 +78,9 @@ def notes(layout: UILayout, idname: str, findings: Sequence[Finding]) -> None:
 
 
 def _headline(context: Context, group: Group) -> str:
-    """Return the first clause of a group's sentence; of several objects, their number and the words before a number."""
+    """Return the first clause of a group's sentence; of several objects, their number and the words
+    before a number.
+    """
     shown = replace(group.finding, elements=())
     clause = re.split(r"\.$|[.;,] | \(", localized_sentence(shown, context.scene.unit_settings))[0]
     if not group.objects:
@@ -92,7 +98,9 @@ def _headline(context: Context, group: Group) -> str:
 
 
 def _remedies(context: Context, group: Group) -> tuple[str, ...]:
-    """Return the remedies of a group that has one object, the active one; otherwise its objects can be selected."""
+    """Return the remedies of a group that has one object, the active one; otherwise its objects can
+    be selected.
+    """
     if group.objects and group.objects != (context.object.name_full,):
         return (SELECT,)
     # A collection may be shown without an object.
@@ -140,7 +148,9 @@ def last_action(layout: UILayout, context: Context) -> None:
 
 
 def unit_question(layout: UILayout, context: Context, shown: PlainBody) -> None:
-    """Ask, until it is answered for the scene, whether a unit is a millimeter, if the body is large and heavy."""
+    """Ask, until it is answered for the scene, whether a unit is a millimeter, if the body is large
+    and heavy.
+    """
     scene = context.scene
     length = max(context.object.dimensions)
     if (

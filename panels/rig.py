@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bones: the part of the active bone among the bone's properties, and the sub-panels of a whole character."""
+"""Bones: the part of the active bone among the bone's properties, and the sub-panels of a whole
+character.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +10,13 @@ from typing import TYPE_CHECKING
 
 from bpy.types import Context, Panel, PoseBone, UILayout
 
+from ..blender.scale import meters_per_unit
 from ..blender.session import live
 from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..core.lazy import loaded_module
-from ..core.numerics.float32 import shortest_decimal
 from . import rows
 from .places import AmongProperties, in_both_places
 
@@ -78,7 +80,7 @@ class WeightPanel:
         layout, armature = self.layout, context.object
         layout.use_property_decorate = False
         settings = armature.body_moments_weight
-        unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = meters_per_unit(context.scene)
         row = layout.row()
         row.scale_y = 1.4
         row.operator("pose.body_moments_show_weight", icon="CON_FLOOR", depress=settings.show)
@@ -153,7 +155,9 @@ def _standing(layout: UILayout, weight: Weight, unit: float) -> None:
 
 
 def _motion(layout: UILayout, context: Context) -> None:
-    """Draw the buttons for motion over frames, and the spans of frames whose momentum comes from nothing."""
+    """Draw the buttons for motion over frames, and the spans of frames whose momentum comes from
+    nothing.
+    """
     column = layout.column(align=True)
     rows.button(column, "pose.body_moments_parabola", "FORCE_FORCE")
     rows.button(column, "pose.body_moments_keep_spin", "FORCE_VORTEX")

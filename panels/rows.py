@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rows of a narrow panel: settings, values that can be copied, and sentences that wrap.
 
-Blender translates labels as it draws them: constant labels are passed as in the source, filled ones are translated
-before that (`filled`, `message`). Names, numbers and filled texts are drawn without translation.
+Blender translates labels as it draws them: constant labels are passed as in the source, filled ones
+are translated before that (`filled`, `message`). Names, numbers and filled texts are drawn without
+translation.
 """
 
 from __future__ import annotations
@@ -63,7 +64,8 @@ Cell = tuple[str, str, str, str]  # label, text, copied value, its unit
 def setting(
     layout: UILayout, data: PropertyGroup, name: str, text: str = "", expand: bool = False
 ) -> None:
-    """Draw a setting in a column, its label (by default its name) beside it, or above it in a narrow region.
+    """Draw a setting in a column, its label (by default its name) beside it, or above it in a
+    narrow region.
 
     `expand` puts choices side by side if there is room for their names.
     """
@@ -123,7 +125,9 @@ def values(
 
 
 def center(layout: UILayout, label: str, numbers: PlainBody) -> None:
-    """Draw the center of mass; a coordinate that is mere rounding, relative to the body's size, is shown as 0."""
+    """Draw the center of mass; a coordinate that is mere rounding, relative to the body's size, is
+    shown as 0.
+    """
     group(layout, label, AXIS_LABELS, "length", numbers.center, max(numbers.gyration))
 
 
@@ -143,7 +147,9 @@ def error_bounds(
     sources: Sequence[tuple[str, Any]],
     entries: Sequence[tuple[str, str, str, float]],
 ) -> None:
-    """Draw each source, a heading and bounds by name, with a row for each (label, quantity, name, value beside it)."""
+    """Draw each source, a heading and bounds by name, with a row for each (label, quantity, name,
+    value beside it).
+    """
     for source, errors in sources:
         column = layout.column(align=True)
         column.label(text=source)
@@ -192,8 +198,8 @@ def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
 def table(layout: UILayout, cells: Sequence[Cell]) -> None:
     """Draw rows of label, text to the right, copy button, all in one form.
 
-    Labels are above their texts if rows are too narrow for both, and units beside the labels if rows are too narrow for
-    the texts.
+    Labels are above their texts if rows are too narrow for both, and units beside the labels if
+    rows are too narrow for the texts.
     """
     if not cells:
         return
@@ -220,9 +226,13 @@ def table(layout: UILayout, cells: Sequence[Cell]) -> None:
 
 
 def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
-    """Return the share of a row that its label takes, 0 if it is above, and whether the text fits into a row."""
+    """Return the share of a row that its label takes, 0 if it is above, and whether the text fits
+    into a row.
+    """
     letters = max(map(len, labels))
-    share = INDEX_LABEL_SHARE if letters < 2 else SHORT_LABEL_SHARE if letters < 4 else LABEL_SHARE
+    share = LABEL_SHARE
+    if letters < 4:
+        share = INDEX_LABEL_SHARE if letters < 2 else SHORT_LABEL_SHARE
     room = _room()
     if room is None:
         return share, True
@@ -258,7 +268,9 @@ def _copy(row: UILayout, exact: str, unit: str) -> None:
 
 
 def fold(layout: UILayout, idname: str, label: str, closed: bool = True) -> UILayout | None:
-    """Draw a part that can be folded, and return its layout, or None while it is closed. closed: whether at first."""
+    """Draw a part that can be folded, and return its layout, or None while it is closed. closed:
+    whether at first.
+    """
     header, body = layout.panel(idname, default_closed=closed)
     header.label(text=label)
     return body
@@ -332,13 +344,17 @@ def stale_row(layout: UILayout, reason: str | None) -> None:
 
 
 def fits(share: float, *cells: str) -> bool:
-    """Return whether texts fit side by side in that share of a row, beside its button, of the region being drawn."""
+    """Return whether texts fit side by side in that share of a row, beside its button, of the
+    region being drawn.
+    """
     room = _room()
     return room is None or len(cells) * max(map(_length, cells)) <= share * room
 
 
 def _room() -> float | None:
-    """Return the width in pixels of a row without its button, or None if no region is being drawn."""
+    """Return the width in pixels of a row without its button, or None if no region is being
+    drawn.
+    """
     if bpy.context.region is None:
         return None
     return bpy.context.region.width - ROW_MARGIN * bpy.context.preferences.system.ui_scale

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of the selection: the measured objects as a list, and the selected ones as one body."""
+"""The sub-panel of the selection: the measured objects as a list, and the selected ones as one
+body.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of a body's shape, wherever it lies: its symmetry, its copies, and moving one onto another."""
+"""The sub-panel of a body's shape, wherever it lies: its symmetry, its copies, and moving one onto
+another.
+"""
 
 from __future__ import annotations
 

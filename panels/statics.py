@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of stability: the object's standing state, margin, tipping angle, and resting poses."""
+"""The sub-panel of stability: the object's standing state, margin, tipping angle, and resting
+poses.
+"""
 
 from __future__ import annotations
 
@@ -10,12 +12,12 @@ from typing import TYPE_CHECKING
 from bpy.types import Context, Object, UILayout
 
 from ..blender.read.visibility import measurable
+from ..blender.scale import meters_per_unit
 from ..blender.session import stored
 from ..blender.session.displayed import shown_objects
 from ..blender.session.tracking import armatures
 from ..blender.session.tracking.staleness import stale_reason
 from ..core.lazy import loaded_module
-from ..core.numerics.float32 import shortest_decimal
 from ..core.verdict.finding import Finding
 from . import rows
 from .places import in_both_places
@@ -55,7 +57,7 @@ class StabilityPanel:
 
 
 def _support(layout: UILayout, context: Context, support: Support) -> None:
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     column = layout.column(align=True)
     if support.stands:
         column.label(text="Stands", icon="CHECKMARK")

@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times and ratios against trimesh, libigl, Blender's BMesh and the floor of reading and gathering, from one run.
+"""Times and ratios against trimesh, libigl, Blender's BMesh and the floor of reading and gathering,
+from one run.
 
     python tests/benchmark.py [--quick] [--stream M]
 
-Every table interleaves its rows in one process, so that its ratios hold whatever else the machine does. It prints
-medians and least times and asserts nothing: a busy machine is no failure. Programs that are not installed are left out.
+Every table interleaves its rows in one process, so that its ratios hold whatever else the machine
+does. It prints medians and least times and asserts nothing: a busy machine is no failure. Programs
+that are not installed are left out.
 """
 
 from __future__ import annotations
@@ -57,8 +59,9 @@ polyhedron_moments = partial(
 
 
 def torus(n: int, m: int, noise: float, lopsided: bool = False) -> tuple[np.ndarray, np.ndarray]:
-    """A closed torus of n x m quads, index-local: points, and quads as corners. noise: of every coordinate, as a share
-    of the shorter edges. lopsided: bent so that it has no symmetry."""
+    """A closed torus of n x m quads, index-local: points, and quads as corners. noise: of every
+    coordinate, as a share of the shorter edges. lopsided: bent so that it has no symmetry.
+    """
     u, v = np.meshgrid(
         np.arange(n) * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij"
     )
@@ -78,7 +81,9 @@ def torus(n: int, m: int, noise: float, lopsided: bool = False) -> tuple[np.ndar
 
 
 def halves(quads: np.ndarray, paired: bool) -> np.ndarray:
-    """Quads as triangles, their halves one after the other (paired), or all first halves before all second ones."""
+    """Quads as triangles, their halves one after the other (paired), or all first halves before all
+    second ones.
+    """
     both = quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]
     return np.stack(both, axis=1).reshape(-1, 3) if paired else np.concatenate(both)
 
@@ -93,7 +98,9 @@ def measure_arrays(points: np.ndarray, triangles: np.ndarray, threads: int = 1) 
 
 
 def gather(points: np.ndarray, faces: np.ndarray) -> None:
-    """The floor: subtract a reference point and fetch every corner's coordinates in float64, in blocks."""
+    """The floor: subtract a reference point and fetch every corner's coordinates in float64, in
+    blocks.
+    """
     size = 16384
     flat = np.subtract(points, points[0], dtype=np.float64).reshape(-1)
     for start in range(0, len(faces), size):
@@ -103,7 +110,9 @@ def gather(points: np.ndarray, faces: np.ndarray) -> None:
 
 
 def gather_in_place(points: np.ndarray, faces: np.ndarray) -> None:
-    """Gather as fast as numpy can: without a copy of the points, into reused arrays that stay in cache."""
+    """Gather as fast as numpy can: without a copy of the points, into reused arrays that stay in
+    cache.
+    """
     size, corners = 32768, faces.shape[1]
     flat, origin = points.reshape(-1), points[0].astype(np.float64)[:, None, None]
     index, fetched = np.empty((corners, size), np.intp), np.empty((3, corners, size), points.dtype)
@@ -131,7 +140,9 @@ def interleaved(rows: dict[str, Callable[[], object]], rounds: int) -> dict[str,
 def table(
     title: str, times: dict[str, list[float]], against: list[str], per: int | None = None
 ) -> None:
-    """Print medians, least times and the ratios of the medians (and of the least times) to some of the rows."""
+    """Print medians, least times and the ratios of the medians (and of the least times) to some of
+    the rows.
+    """
     print("\n" + title)
     head = "".join("{:>22s}".format("/ " + name) for name in against)
     unit = "ns a triangle" if per else ""
@@ -171,7 +182,9 @@ class Tables(io.TextIOWrapper):
 
 
 def hide_reports() -> None:
-    """Print tables only, and let what Blender itself prints go nowhere: in a pipe or a file it would come out later."""
+    """Print tables only, and let what Blender itself prints go nowhere: in a pipe or a file it
+    would come out later.
+    """
     sys.stdout.flush()
     sys.stdout = Tables(
         os.fdopen(os.dup(1), "wb"), encoding=sys.stdout.encoding, line_buffering=True
@@ -231,7 +244,9 @@ def compare(title: str, points: np.ndarray, quads: np.ndarray, paired: bool, rou
 
 
 def verdicts(side: int, rounds: int) -> None:
-    """Closedness and verdict from bare arrays of triangles, beside the integral and the way of others."""
+    """Closedness and verdict from bare arrays of triangles, beside the integral and the way of
+    others.
+    """
     points, quads = torus(side, side, 0.02)
     triangles = halves(quads, True)
     surface, trimesh = Surface(points, triangles), optional("trimesh")
@@ -262,7 +277,9 @@ EXPLICIT = {4: 18, 6: 40}  # times as fast as the explicit formula that each ord
 
 
 def orders(quick: bool) -> None:
-    """Moments to high orders on the same mesh, as multiples of the kernel for low ones and of the explicit formula."""
+    """Moments to high orders on the same mesh, as multiples of the kernel for low ones and of the
+    explicit formula.
+    """
     points, quads = torus(400, 300, 0.05)
     for title, faces in (
         ("triangulated quads", halves(quads, paired=True)),
@@ -334,7 +351,9 @@ def compare_order(points: np.ndarray, faces: np.ndarray, order: int, quick: bool
 
 
 def stream(millions: float, order: int = 4) -> None:
-    """A torus of so many million triangles, made strip by strip while it is measured: time, memory, and the truth."""
+    """A torus of so many million triangles, made strip by strip while it is measured: time, memory,
+    and the truth.
+    """
     import resource
 
     m, strip = 1000, 25
@@ -367,12 +386,12 @@ def stream(millions: float, order: int = 4) -> None:
     grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
     polygons = np.prod([k / (2 * np.pi) * np.sin(2 * np.pi / k) for k in (n, m)])  # for circles
     print(
-        "\nstream of {:,} triangles to order {:d}, both weights: {:.1f} s, {:.0f} MB more than before".format(
-            2 * n * m, order, seconds, grown / 1024
-        )
+        "\nstream of {:,} triangles to order {:d}, both weights: {:.1f} s, {:.0f} MB more than "
+        "before".format(2 * n * m, order, seconds, grown / 1024)
     )
     print(
-        "    volume / that of the torus - 1 = {:.2e} (of its polygons {:.2e}), error bound {:.1e}".format(
+        "    volume / that of the torus - 1 = {:.2e} (of its polygons {:.2e}), error bound "
+        "{:.1e}".format(
             volume.total / (2 * np.pi**2 * 0.16) - 1.0, polygons - 1.0, volume.rounding_error[0]
         )
     )
@@ -516,8 +535,9 @@ def instances(count: int, rounds: int) -> None:
 
 
 def fourier(quick: bool) -> None:
-    """The Fourier transform on one thread: closed form on lists and grids, a large grid to a tolerance, and BornAgain's
-    form factor of a tetrahedron where that is installed."""
+    """The Fourier transform on one thread: closed form on lists and grids, a large grid to a
+    tolerance, and BornAgain's form factor of a tetrahedron where that is installed.
+    """
     points, quads = torus(32, 16, 0.0)
     surface, rng = Surface(points, halves(quads, paired=False)), np.random.default_rng(0)
     faces, count = len(surface.triangles), 12
@@ -549,9 +569,8 @@ def fourier(quick: bool) -> None:
     seconds, some = time.perf_counter() - start, rng.integers(0, 64**3, 100)
     error = np.abs(found.values[some] - solid_transform(surface, found.q[some]).values).max()
     print(
-        "    {:,} triangles, 64³ frequencies to 1e-7 of the volume: {:.1f} s, error {:.1e}, told {:.1e}".format(
-            len(surface.triangles), seconds, error / volume, found.error.max() / volume
-        )
+        "    {:,} triangles, 64³ frequencies to 1e-7 of the volume: {:.1f} s, error {:.1e}, told "
+        "{:.1e}".format(len(surface.triangles), seconds, error / volume, found.error.max() / volume)
     )
     if bornagain := optional("bornagain"):
         body, q = bornagain.PlatonicTetrahedron(1.0), rng.normal(size=(5000, 3)) * 10.0

@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cost of measuring 400 small .blend files: one Blender a file, one process for all, one child, two children.
+"""Cost of measuring 400 small .blend files: one Blender a file, one process for all, one child, two
+children.
 
     python tests/benchmark_batch.py [BLENDER]
 
-Any Python of Linux or macOS does; the Blender is the one named, or the one on the PATH. The ways take turns, so that
-what else the machine does weighs on all alike. Two clocks: processor time of a command with all that it starts, and
-wall time. A file's time without start-up is (all files - one file) / (their number - 1), for every way alike; the
-figures are medians over the rounds, of ratios within a round where two ways are compared.
+Any Python of Linux or macOS does; the Blender is the one named, or the one on the PATH. The ways
+take turns, so that what else the machine does weighs on all alike. Two clocks: processor time of a
+command with all that it starts, and wall time. A file's time without start-up is (all files - one
+file) / (their number - 1), for every way alike; the figures are medians over the rounds, of ratios
+within a round where two ways are compared.
 """
 
 import os
@@ -50,7 +52,9 @@ def timed(words: list) -> tuple[float, float]:
 def one_round(
     start: list, folder: Path, first: Path, out: Path
 ) -> dict[str, list[tuple[float, float]]]:
-    """Return the times of each way for all files and for one; of one Blender a file, for one only."""
+    """Return the times of each way for all files and for one; of one Blender a file, for one
+    only.
+    """
     found = {
         "one Blender a file": [
             timed([*start, first, "--no-supervisor", "--output", out / "one.json"])
@@ -114,9 +118,8 @@ def main() -> None:
         "start-up apart: the second child {:.2f} times faster by the wall clock;".format(second[1])
     )
     print(
-        "one child beside the plain loop {:+.0f} % of processor time, {:+.0f} % of wall time".format(
-            *cost
-        )
+        "one child beside the plain loop {:+.0f} % of processor time, {:+.0f} % of wall "
+        "time".format(*cost)
     )
 
 

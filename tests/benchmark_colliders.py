@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Convex pieces beside those of CoACD: the sum of hulls over the body's volume, at the same number of pieces.
+"""Convex pieces beside those of CoACD: the sum of hulls over the body's volume, at the same number
+of pieces.
 
     python tests/benchmark_colliders.py [NAME ...]
 
-Needs numpy and coacd. Times are the processor's. Prints a row for each concave body, then the median and the largest
-ratio. CoACD's results are kept in the folder of temporary files.
+Needs numpy and coacd. Times are the processor's. Prints a row for each concave body, then the
+median and the largest ratio. CoACD's results are kept in the folder of temporary files.
 """
 
 from __future__ import annotations
@@ -33,7 +34,8 @@ modifier = bpy.context.object.modifiers.new("", "REMESH")
 modifier.mode, modifier.voxel_size = "VOXEL", 0.08
 mesh = bpy.context.object.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
 mesh.calc_loop_triangles()
-np.savez({!r}, points=[v.co[:] for v in mesh.vertices], triangles=[t.vertices[:] for t in mesh.loop_triangles])
+triangles = [t.vertices[:] for t in mesh.loop_triangles]
+np.savez({!r}, points=[v.co[:] for v in mesh.vertices], triangles=triangles)
 """
 
 
@@ -71,7 +73,9 @@ def cells(*layers: str, lines=None) -> Part:
 
 
 def revolve(outline, sides: int = 32) -> Part:
-    """Return the body of a closed outline (r, z), counter-clockwise with r to the right, turned about z."""
+    """Return the body of a closed outline (r, z), counter-clockwise with r to the right, turned
+    about z.
+    """
     outline = np.array(outline, float)
     turn = np.arange(sides) * 2.0 * np.pi / sides
     count = len(outline)
@@ -261,7 +265,9 @@ def bodies() -> dict[str, Part]:
         "star": extrude(circle(10) * np.where(np.arange(10) % 2, 0.4, 1.0)[:, None], 0.4),
         "gear": extrude(circle(96) * wave[:, None], 0.3),
         "crescent": extrude(moon, 0.4),
-        "arrow": extrude([(0, -0.2), (2, -0.2), (2, -0.7), (3, 0), (2, 0.7), (2, 0.2), (0, 0.2)], 0.3),
+        "arrow": extrude(
+            [(0, -0.2), (2, -0.2), (2, -0.7), (3, 0), (2, 0.7), (2, 0.2), (0, 0.2)], 0.3
+        ),
         "hand": extrude(fingers, 0.8),
         "spiral": extrude(np.concatenate([outer, inner[::-1]]), 0.5),
         "helix": tube(np.stack([np.cos(helix), np.sin(helix), helix / 10], axis=1), 0.2),

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cost of many small parts beside the floor: reading their arrays, storing twelve numbers, and one update.
+"""Cost of many small parts beside the floor: reading their arrays, storing twelve numbers, and one
+update.
 
 Run by benchmark.py. Times are the processor's. All rows of a table are interleaved in one process.
 """

@@ -63,7 +63,8 @@ def _isolate_blender() -> None:
 def _drop_hidden_tolerances() -> None:
     """Let pytest.approx and np.allclose have an absolute tolerance only where it is written down.
 
-    Theirs is 1e-12 and 1e-8 for whoever says nothing: beside it a volume of 1e-18 m³ equals any other.
+    Theirs is 1e-12 and 1e-8 for whoever says nothing: beside it a volume of 1e-18 m³ equals any
+    other.
     """
     import numpy as np
 
@@ -239,7 +240,9 @@ def registered():
 
 @pytest.fixture
 def unregistered(registered):
-    """The add-on, which is not registered while the test runs; whatever ran before, and for whatever comes after."""
+    """The add-on, which is not registered while the test runs; whatever ran before, and for
+    whatever comes after.
+    """
     import bpy
 
     registered.unregister()
@@ -267,7 +270,9 @@ def bare_scene():
 
 @pytest.fixture
 def kept(request):
-    """Compare a text, its numbers rounded to six digits, with the page kept beside the tests; --rewrite keeps it."""
+    """Compare a text, its numbers rounded to six digits, with the page kept beside the tests;
+    --rewrite keeps it.
+    """
 
     def rounded(number):
         value = float(number[0])

@@ -11,7 +11,8 @@ with suppress(ImportError):
 
 
 class Reported(list):
-    """Findings that operators have reported, each followed by those among its values: the causes of refusals.
+    """Findings that operators have reported, each followed by those among its values: the causes of
+    refusals.
 
     texts: the other parts of their reports.
     """

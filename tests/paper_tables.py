@@ -4,12 +4,14 @@
 
     python tests/paper_tables.py        with numpy; or python3 tests/project.py tables
 
-What the paper leaves unsaid, and its Analytic columns fix: the unit is the patch's width W; samples stand at
-(i - N/2) h, h = W / N; a sample is 1 strictly inside of the body, else 0; splines are cubic with full supports. Its
-printed numbers are C++'s six digits, rounded again by hand. "Discrete" is the sum over the samples as points.
+What the paper leaves unsaid, and its Analytic columns fix: the unit is the patch's width W; samples
+stand at (i - N/2) h, h = W / N; a sample is 1 strictly inside of the body, else 0; splines are
+cubic with full supports. Its printed numbers are C++'s six digits, rounded again by hand.
+"Discrete" is the sum over the samples as points.
 
-The trivariate column differs from the discrete one by M k h² / 6 in each moment, the spread of the splines, and by
-nothing else: that it is nearer to the analytic column is this constant partly making up for the strict inequality.
+The trivariate column differs from the discrete one by M k h² / 6 in each moment, the spread of the
+splines, and by nothing else: that it is nearer to the analytic column is this constant partly
+making up for the strict inequality.
 """
 
 from __future__ import annotations
@@ -37,8 +39,10 @@ from body_moments.core.inertia.mass_properties import MassProperties
 
 @dataclass(frozen=True)
 class Row:
-    """One row of the paper. width: W; samples: N across W; radius and height in the same unit, height 0 for a sphere.
-    printed: the columns as printed, for each method mass, I_xx and, of a cylinder, I_zz."""
+    """One row of the paper. width: W; samples: N across W; radius and height in the same unit,
+    height 0 for a sphere. printed: the columns as printed, for each method mass, I_xx and, of a
+    cylinder, I_zz.
+    """
 
     name: str
     width: int
@@ -214,8 +218,9 @@ ROWS = (
 
 
 def as_printed(value: float, printed: str) -> str:
-    """The value written as the paper writes it: six digits as C++ prints them, then rounded to the digits of
-    `printed`."""
+    """The value written as the paper writes it: six digits as C++ prints them, then rounded to the
+    digits of `printed`.
+    """
     six = Decimal(value)
     six = six.quantize(Decimal((0, (1,), six.adjusted() - 5)), ROUND_HALF_EVEN)
     exponent = int(printed.partition("e")[2] or 0)

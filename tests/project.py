@@ -5,8 +5,10 @@
     python3 tests/project.py demo         measure a real body: a report, a record and a picture
     python3 tests/project.py test         pass the tests, on every Blender there is
     python3 tests/project.py test solid   pass those of one subject on one Blender, in seconds
-    python3 tests/project.py test core/solid   pass those of one folder of the core, with numpy alone
-    python3 tests/project.py build        build the extension's zip, and the wheel for Python, into dist/
+    python3 tests/project.py test core/solid   pass those of one folder of the core, with numpy
+                                               alone
+    python3 tests/project.py build        build the extension's zip, and the wheel for Python, into
+                                          dist/
     python3 tests/project.py benchmark    times and ratios against trimesh and libigl
     python3 tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
     python3 tests/project.py lint         check the rules, the format and the types
@@ -14,9 +16,9 @@
 
 Each sets up what it needs in .envs/: one environment for each Blender that exists as a Python
 module, with the Python which that module is made for. Environments are used again until their
-requirements change. Libraries that the module lacks are installed on Debian and Ubuntu, if the
-user may. A real Blender, for the demo and for the window tests, is the one named by the
-variable BLENDER, else (window tests only) `blender` on the PATH. The window tests pass on the one that
+requirements change. Libraries that the module lacks are installed on Debian and Ubuntu, if the user
+may. A real Blender, for the demo and for the window tests, is the one named by the variable
+BLENDER, else (window tests only) `blender` on the PATH. The window tests pass on the one that
 BLENDER_45 names, too.
 """
 
@@ -53,7 +55,8 @@ GROUPS = {
     **{"corpus": 2, "package": 2, "robots": 1, "window": 5},
 }
 SUBJECT_GROUPS = ("core", "blender", "command", "operators", "panels")  # where `test SUBJECT` looks
-SILENCE_LIMIT = 1800  # seconds without a line of output after which a run of pytest has hung: no file takes 2 minutes
+# seconds without a line of output after which a run of pytest has hung: no file takes 2 minutes
+SILENCE_LIMIT = 1800
 EXIT_LIMIT = 240  # seconds that an interpreter may take to end once its tests are over
 INTERRUPT_LIMIT = 10  # seconds that what was interrupted may take to clean up
 
@@ -68,7 +71,8 @@ On Debian and Ubuntu its libraries come by
 
     sudo {}
 
-elsewhere by the same names without numbers (Fedora: libX11, libXi, libglvnd-glx, ...); macOS and Windows have them."""
+elsewhere by the same names without numbers (Fedora: libX11, libXi, libglvnd-glx, ...); macOS and
+Windows have them."""
 PROBE = """\
 import ensurepip, platform, sys, venv
 assert sys.maxsize > 2**32 and platform.python_implementation() == "CPython"
@@ -91,7 +95,9 @@ def clean_environment(**more: str) -> dict[str, str]:
 
 
 class Children:
-    """The processes that run for this one, each with a process group of its own, so that none outlives it."""
+    """The processes that run for this one, each with a process group of its own, so that none
+    outlives it.
+    """
 
     def __init__(self) -> None:
         self.running: set[subprocess.Popen] = set()
@@ -253,7 +259,8 @@ def prepare(name: str, python: str, version: str, requirements: list[str]) -> Pa
 
 
 def prepare_blender(version: str, addition: str | None = None) -> Path | None:
-    """Return the Python that has this Blender as a module and what builds the packages, or None if no Python fits.
+    """Return the Python that has this Blender as a module and what builds the packages, or None if
+    no Python fits.
 
     The requirements of an addition are installed beside it, in an environment of their own.
     """
@@ -274,7 +281,9 @@ def prepare_blender(version: str, addition: str | None = None) -> Path | None:
 
 
 def find_load_problem(python: Path) -> str:
-    """Return the last line of the error that Blender's module gives when it is loaded, or nothing."""
+    """Return the last line of the error that Blender's module gives when it is loaded, or
+    nothing.
+    """
     command = [python, "-P", "-c", "import os, bpy; os._exit(0)"]  # bpy 4.5 can crash at the end
     done = subprocess.run(
         command, env=clean_environment(), capture_output=True, encoding="utf-8", errors="replace"
@@ -296,13 +305,17 @@ def install_packages(packages: list[str]) -> None:
 
 
 def prepare_consumers(version: str) -> Path:
-    """The Python that has what reads robots' files, and no Blender; of the version that this Blender is made for."""
+    """The Python that has what reads robots' files, and no Blender; of the version that this
+    Blender is made for.
+    """
     wanted = BLENDERS[version]
     return prepare("robots", find_python(wanted), wanted, ["requirements-robots.txt"])
 
 
 def prepare_core() -> Path:
-    """Return the Python of the environment for the tests of the core: numpy and no Blender, on the running version."""
+    """Return the Python of the environment for the tests of the core: numpy and no Blender, on the
+    running version.
+    """
     return prepare("core", sys.executable, RUNNING, ["requirements-core.txt"])
 
 
@@ -373,7 +386,8 @@ def run_tests(
     files: list[Path] | None = None,
     **variables: str,
 ) -> dict:
-    """Run a group of tests, or some files of it, on one Blender; `failed` is at least 1 when anything went wrong.
+    """Run a group of tests, or some files of it, on one Blender; `failed` is at least 1 when
+    anything went wrong.
 
     The exit code is pytest's own where the process ended by itself. bpy 4.5 can crash or hang while
     the interpreter shuts down; then the file that pytest's session wrote at its end counts, and
@@ -423,7 +437,9 @@ def in_lanes(function: Callable, lanes: Iterable) -> list[dict]:
 
 
 def finish(outcomes: list[dict], remarks: Iterable[str] = (), failed: int = 0) -> int:
-    """Print the tests that were left out, by reason, that failed, and the total; return the command's exit code."""
+    """Print the tests that were left out, by reason, that failed, and the total; return the
+    command's exit code.
+    """
     total = {
         word: sum(outcome[word] for outcome in outcomes) for word in ("passed", "failed", "skipped")
     }
@@ -447,7 +463,9 @@ def finish(outcomes: list[dict], remarks: Iterable[str] = (), failed: int = 0) -
 
 
 def subjects() -> dict[str, dict[str, list[Path]]]:
-    """The files of each subject by group: those in folders of its name, and those whose own name has the word."""
+    """The files of each subject by group: those in folders of its name, and those whose own name
+    has the word.
+    """
     result = {}
     for group in SUBJECT_GROUPS:
         for path in sorted((TESTS / group).rglob("test_*.py")):
@@ -458,7 +476,9 @@ def subjects() -> dict[str, dict[str, list[Path]]]:
 
 
 def test_folder(name: str, extra: list[str]) -> int:
-    """Pass the tests of one folder, given by its path: those of the core with numpy alone, others on one Blender."""
+    """Pass the tests of one folder, given by its path: those of the core with numpy alone, others
+    on one Blender.
+    """
     folder = TESTS / name.strip("/").removeprefix("tests/")
     group = folder.relative_to(TESTS).parts[0]
     if group not in SUBJECT_GROUPS or not folder.is_dir():
@@ -469,7 +489,9 @@ def test_folder(name: str, extra: list[str]) -> int:
 
 
 def test_subject(subject: str, extra: list[str]) -> int:
-    """Pass the tests of one subject on one Blender: those that need no Blender beside those that do."""
+    """Pass the tests of one subject on one Blender: those that need no Blender beside those that
+    do.
+    """
     if "/" in subject:
         return test_folder(subject, extra)
     known = subjects()
@@ -487,7 +509,7 @@ def test_subject(subject: str, extra: list[str]) -> int:
     version = any_blender()
     python = prepare_blender(version)
     print(
-        f"The tests of {subject}, on Blender {version} alone; at most half a minute on two idle cores."
+        f"The tests of {subject}, on Blender {version} alone; at most half a minute on two cores."
     )
     runner, groups = Runner(), known[subject]
     return finish(
@@ -501,7 +523,9 @@ def test_subject(subject: str, extra: list[str]) -> int:
 
 
 def test(options: argparse.Namespace) -> int:
-    """Pass the tests and what `lint` checks: both Blenders side by side, then the window's alone."""
+    """Pass the tests and what `lint` checks: both Blenders side by side, then the window's
+    alone.
+    """
     extra = [*options.arguments, *(["-k", options.k] if options.k else [])]
     if options.subject:
         return test_subject(options.subject, extra)
@@ -519,11 +543,13 @@ def test(options: argparse.Namespace) -> int:
     if "window" in groups and not (os.environ.get("BLENDER") or shutil.which("blender")):
         groups = [group for group in groups if group != "window"]
         remarks.append(
-            "Left out: the window tests, which need a real Blender: on the PATH, or named by BLENDER"
+            "Left out: the window tests, which need a real Blender: on the PATH, or named by "
+            "BLENDER"
         )
     minutes = sum(GROUPS[group] for group in groups)
     print(
-        f"Tests of {', '.join(groups)} on Blender {' and '.join(versions)}: about {minutes} minutes on two idle cores,"
+        f"Tests of {', '.join(groups)} on Blender {' and '.join(versions)}: about {minutes} minutes"
+        " on two idle cores,"
         " four times that on a slow machine. Environments that are not there yet come first.",
         flush=True,
     )

@@ -4,9 +4,9 @@
 
     python tests/published_robots.py
 
-It needs pip and the command `body-moments` (pip install . usd-core), downloads 0.5 GB into --folder, and takes an hour.
-Packages and reports that are there already are used again. Repaired files replace the originals in --folder, and are
-audited once more.
+It needs pip and the command `body-moments` (pip install . usd-core), downloads 0.5 GB into
+--folder, and takes an hour. Packages and reports that are there already are used again. Repaired
+files replace the originals in --folder, and are audited once more.
 """
 
 import argparse
@@ -56,12 +56,13 @@ WORDS = {
 }
 HEAD = """# Published Robots, Audited
 
-This page audits robot descriptions in packages of the Python index, with their real meshes. A row is one robot: if
-several files describe a robot of that name, it is the file with the most links. {robots} robots with {links} links:
-{error} errors, {warning} warnings. In all {files} files of these packages the audit repaired {repaired} links; of
-these, {left} have an error or a warning about their inertial when audited again. The geometry's numbers assume that
-the drawn shapes of a link hold all of its mass. [Audit](robots.md#audit) says what the findings mean. The page was
-made by `python tests/published_robots.py`.
+This page audits robot descriptions in packages of the Python index, with their real meshes. A row
+is one robot: if several files describe a robot of that name, it is the file with the most links.
+{robots} robots with {links} links: {error} errors, {warning} warnings. In all {files} files of
+these packages the audit repaired {repaired} links; of these, {left} have an error or a warning
+about their inertial when audited again. The geometry's numbers assume that the drawn shapes of a
+link hold all of its mass. [Audit](robots.md#audit) says what the findings mean. The page was made
+by `python tests/published_robots.py`.
 
 | package | robot | file | links | errors | warnings | what was found (links) |
 |---|---|---|---|---|---|---|
@@ -113,7 +114,9 @@ def reports_of(package: str, folder: Path) -> list[list[dict]]:
 
 
 def repairs_of(before: list[dict], after: list[dict]) -> Counter:
-    """Return the counts of files, repaired links, and those of them whose inertial has an error or a warning after."""
+    """Return the counts of files, repaired links, and those of them whose inertial has an error or
+    a warning after.
+    """
     counts = Counter(files=sum(bool(one["links"]) for one in before))
     for old, new in zip(before, after, strict=True):
         for link, again in zip(old["links"], new["links"], strict=True):

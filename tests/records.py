@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Documents as `docs/record.schema.json` has them: whatever tests read of the command line is held against it."""
+"""Documents as `docs/record.schema.json` has them: whatever tests read of the command line is held
+against it.
+"""
 
 import functools
 import json
@@ -17,7 +19,9 @@ def _check():
 
 
 def valid(document):
-    """The document or documents, which the schema must allow; raises with the place where it does not."""
+    """The document or documents, which the schema must allow; raises with the place where it does
+    not.
+    """
     try:
         _check()(document)
     except fastjsonschema.JsonSchemaException as error:

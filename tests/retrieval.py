@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Retrieval rate of real parts that were moved, cut into other faces and made noisy.
 
-    python -m pip download --no-deps gymnasium-robotics && python -m zipfile -e gymnasium_robotics-*.whl parts
-    python tests/retrieval.py parts
+    python -m pip download --no-deps gymnasium-robotics && python -m zipfile -e
+    gymnasium_robotics-*.whl parts python tests/retrieval.py parts
 
-The parts are the STL files under the folder, binary, and the closed shells of those that hold several. Of parts whose
-signatures are nearer than DISTINCT only one is kept: screws that differ by less are one screw. It prints, and asserts
-nothing. It takes some minutes.
+The parts are the STL files under the folder, binary, and the closed shells of those that hold
+several. Of parts whose signatures are nearer than DISTINCT only one is kept: screws that differ by
+less are one screw. It prints, and asserts nothing. It takes some minutes.
 """
 
 from __future__ import annotations
@@ -121,7 +121,9 @@ def library(folder: Path) -> list[tuple[str, Part, Signature]]:
 
 
 def altered(part: Part, seed: int, noise: float) -> Part:
-    """Moved, with each triangle cut in three at a random point, and its points noisy and rounded to float32."""
+    """Moved, with each triangle cut in three at a random point, and its points noisy and rounded to
+    float32.
+    """
     rng = np.random.default_rng(seed)
     size = np.ptp(part[0], axis=0).max()
     points, triangles = shapes.refined(part, seed)

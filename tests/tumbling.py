@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw an open crate that is thrown spinning: as MuJoCo moves its hull, its corrected hull, and as it really moves.
+"""Draw an open crate that is thrown spinning: as MuJoCo moves its hull, its corrected hull, and as
+it really moves.
 
     python tests/tumbling.py
 
-Needs numpy, mujoco and pillow. Writes the animation of docs/colliders.md, tests/window/pictures/tumbling.gif. The
-crate turns about its middle principal axis, which is no steady axis; that of its hull is another one.
+Needs numpy, mujoco and pillow. Writes the animation of docs/colliders.md,
+tests/window/pictures/tumbling.gif. The crate turns about its middle principal axis, which is no
+steady axis; that of its hull is another one.
 """
 
 from dataclasses import replace
@@ -50,7 +52,9 @@ def crate():
 
 
 def exact_motion(body, start):
-    """Return (frames, 3, 3) rotations of a free body, by Euler's equations and fourth-order steps."""
+    """Return (frames, 3, 3) rotations of a free body, by Euler's equations and fourth-order
+    steps.
+    """
     turn, momentum = np.eye(3), body.inertia @ start
     moments, axes = body.principal.moments, body.principal.axes
 
@@ -73,11 +77,15 @@ def exact_motion(body, start):
 
 
 def simulated_motion(shape, start):
-    """Return (frames, 3, 3) rotations of a collider in MuJoCo, which computes its inertia, and its (3,) center."""
+    """Return (frames, 3, 3) rotations of a collider in MuJoCo, which computes its inertia, and its
+    (3,) center.
+    """
     points = " ".join(map("{:.9g}".format, shape.surface.points.ravel()))
     model = mujoco.MjModel.from_xml_string(
-        "<mujoco><option gravity='0 0 0' integrator='RK4' timestep='{:.17g}'/><asset><mesh name='m' vertex='{}'/>"
-        "</asset><worldbody><body><freejoint/><geom type='mesh' mesh='m' mass='{:.17g}'/></body></worldbody>"
+        "<mujoco><option gravity='0 0 0' integrator='RK4' timestep='{:.17g}'/><asset><mesh "
+        "name='m' vertex='{}'/>"
+        "</asset><worldbody><body><freejoint/><geom type='mesh' mesh='m' "
+        "mass='{:.17g}'/></body></worldbody>"
         "</mujoco>".format(1.0 / RATE / STEPS, points, shape.mass)
     )
     data, frames = mujoco.MjData(model), []

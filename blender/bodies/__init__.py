@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies of objects: a reading becomes a body, then a measurement; one module for each kind of body."""
+"""Bodies of objects: a reading becomes a body, then a measurement; one module for each kind of
+body.
+"""
 
 from typing import TYPE_CHECKING
 

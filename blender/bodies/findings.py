@@ -10,7 +10,8 @@ UNION_BY_BOOLEAN = note(
 )
 UNION_FAILED = error(
     "union_failed",
-    "Blender's Boolean cannot unite the components. Close and clean up the mesh, or set Overlaps to Count Each Shell.",
+    "Blender's Boolean cannot unite the components. Close and clean up the mesh, or set Overlaps "
+    "to Count Each Shell.",
 )
 OPEN_COMPONENTS_UNITED = warning(
     "open_components_united",
@@ -18,31 +19,38 @@ OPEN_COMPONENTS_UNITED = warning(
 )
 DISPLAY_MESH_NEEDED = warning(
     "display_mesh_needed",
-    "The display mesh was measured, as {purpose:word} needs polygons. Raise Resolution Preview for accuracy.",
+    "The display mesh was measured, as {purpose:word} needs polygons. Raise Resolution Preview for "
+    "accuracy.",
 )
 ZERO_SCALE = error(
     "zero_scale",
-    "A zero scale flattens the object or its instances. Set their scale and their parents', or set Kind to Shell.",
+    "A zero scale flattens the object or its instances. Set their scale and their parents', or set "
+    "Kind to Shell.",
 )
 CURVE_FILL_MEASURED = warning(
     "curve_fill_measured", "Blender's fill of the curves was measured, overlapping or not: {cause}"
 )
 WALL_CREASES = warning(
     "wall_creases",
-    "At creases of up to {angle:.0f}° the wall overlaps or gapes, as it is not mitered. Use Object > Convert > Mesh.",
+    "At creases of up to {angle:.0f}° the wall overlaps or gapes, as it is not mitered. Use Object "
+    "> Convert > Mesh.",
 )
 DENSITY_ATTRIBUTE_OF_SOLID = error(
     "density_attribute_of_solid",
-    "A vertex attribute holds densities on the surface only. Set Kind to Shell, or change Density From.",
+    "A vertex attribute holds densities on the surface only. Set Kind to Shell, or change Density "
+    "From.",
 )
 ATTRIBUTE_VALUES = error(
     "attribute_values",
-    "The attribute “{attribute}” is negative or not finite at {count} vertex: {elements}. Set its density.",
-    "The attribute “{attribute}” is negative or not finite at {count} vertices: {elements}. Set their densities.",
+    "The attribute “{attribute}” is negative or not finite at {count} vertex: {elements}. Set its "
+    "density.",
+    "The attribute “{attribute}” is negative or not finite at {count} vertices: {elements}. Set "
+    "their densities.",
 )
 UNION_LACKS = error(
     "union_lacks",
-    "A union has no {data:word}. Set Overlaps to Count Each Shell, or change Density From or Coordinates.",
+    "A union has no {data:word}. Set Overlaps to Count Each Shell, or change Density From or "
+    "Coordinates.",
 )
 MATERIAL_WITHOUT_DENSITY = error(
     "material_without_density",
@@ -51,9 +59,11 @@ MATERIAL_WITHOUT_DENSITY = error(
 )
 MIXED_MATERIALS = warning(
     "mixed_materials",
-    "{count} of {total} components has several materials ({materials}) and takes their mean by area. Use Mesh > "
+    "{count} of {total} components has several materials ({materials}) and takes their mean by "
+    "area. Use Mesh > "
     "Separate > By Material.",
-    "{count} of {total} components have several materials ({materials}) and take their means by area. Use Mesh > "
+    "{count} of {total} components have several materials ({materials}) and take their means by "
+    "area. Use Mesh > "
     "Separate > By Material.",
 )
 OVERLAPPING_DENSITIES = warning(
@@ -66,7 +76,8 @@ CAVITY_MATERIAL_IGNORED = warning(
 )
 SHEARED_DENSITY_AXES = warning(
     "sheared_density_axes",
-    "The object is sheared; its density follows the nearest right-angled axes. Use Object > Apply > Scale.",
+    "The object is sheared; its density follows the nearest right-angled axes. Use Object > Apply "
+    "> Scale.",
 )
 DENSITY_POSSIBLY_NEGATIVE = warning(
     "density_possibly_negative",
@@ -74,7 +85,8 @@ DENSITY_POSSIBLY_NEGATIVE = warning(
 )
 DENSITY_NEGATIVE = error(
     "density_negative",
-    "The density is negative: {density:.4g} kg/m³ at {point:point} in {frame:word} coordinates. Change Polynomial "
+    "The density is negative: {density:.4g} kg/m³ at {point:point} in {frame:word} coordinates. "
+    "Change Polynomial "
     "or Coordinates.",
 )
 DENSITY_FROM_ATTRIBUTE = note("density_from_attribute", "vertex attribute “{attribute}”")
@@ -83,7 +95,8 @@ DENSITY_OF_MATERIAL = note("density_of_material", "{material} {density:.7g} kg/m
 DENSITY_OF_OTHERS = note("density_of_others", "others {density:.7g} kg/m³")
 LEVEL_SET_MEASURED = note(
     "level_set_measured",
-    "The level set “{grid}” was measured as a solid of {polygons} polygons, within a fraction of a voxel.",
+    "The level set “{grid}” was measured as a solid of {polygons} polygons, within a fraction of a "
+    "voxel.",
 )
 GRID_IS_NOT_LEVEL_SET = error(
     "grid_is_not_level_set", "The grid “{grid}” is not a level set. Set Measure As to Density."
@@ -103,7 +116,8 @@ OPEN_SURFACE_OF_GRID = error(
 FOURIER_NO_EXTENT = error("fourier_no_extent", "The object has no extent. Set Max Frequency.")
 FOURIER_APPROXIMATE = note(
     "fourier_approximate",
-    "The fast Fourier transform of this grid is accurate to {share:g} of its value at 0. Use --q for the closed form.",
+    "The fast Fourier transform of this grid is accurate to {share:g} of its value at 0. Use --q "
+    "for the closed form.",
 )
 FOURIER_OF_UNIFORM_DENSITY = warning(
     "fourier_of_uniform_density",
@@ -111,7 +125,8 @@ FOURIER_OF_UNIFORM_DENSITY = warning(
 )
 OUTLINES_CROSS = error(
     "outlines_cross",
-    "Outlines cross or overlap, or faces cross themselves. Move them apart, or cut and unite the faces of a mesh.",
+    "Outlines cross or overlap, or faces cross themselves. Move them apart, or cut and unite the "
+    "faces of a mesh.",
 )
 SECTION_FACES_REVERSED = warning(
     "section_faces_reversed",
@@ -135,8 +150,10 @@ SECTION_FILL_WRONG = warning(
 )
 RIG_WITHOUT_PARTS = error(
     "rig_without_parts",
-    "No deforming bone moves a mesh that can be measured, and nothing is parented to bones. Turn on Deform, add an "
-    "Armature modifier to the mesh, or assign weights with Object > Parent > With Automatic Weights.",
+    "No deforming bone moves a mesh that can be measured, and nothing is parented to bones. Turn "
+    "on Deform, add an "
+    "Armature modifier to the mesh, or assign weights with Object > Parent > With Automatic "
+    "Weights.",
 )
 BONE_MISSING = warning(
     "bone_missing",
@@ -153,9 +170,11 @@ BONE_PARTS_IMPOSSIBLE = warning(
 )
 UNWEIGHTED_VERTICES = warning(
     "unweighted_vertices",
-    "{count} of {total} vertices has no weight on a deforming bone; faces with such vertices alone go with the "
+    "{count} of {total} vertices has no weight on a deforming bone; faces with such vertices alone "
+    "go with the "
     "nearest bone. Assign weights.",
-    "{count} of {total} vertices have no weight on a deforming bone; faces with such vertices alone go with the "
+    "{count} of {total} vertices have no weight on a deforming bone; faces with such vertices "
+    "alone go with the "
     "nearest bone. Assign weights.",
 )
 RIG_WALL_THIN = note("rig_wall_thin", "The wall counts as a thin sheet: area times thickness.")
@@ -166,7 +185,8 @@ CENTER_GIVEN = note("center_given", "The center of mass is given.")
 INERTIA_GIVEN = note("inertia_given", "The inertia is given.")
 GIVEN_INERTIA_IMPOSSIBLE = error(
     "given_inertia_impossible",
-    "No body has the given inertia: its principal moments are {moments}, and none may be negative or exceed the "
+    "No body has the given inertia: its principal moments are {moments}, and none may be negative "
+    "or exceed the "
     "sum of the other two. Check signs and units.",
 )
 GIVEN_CENTER_OUTSIDE = warning(
@@ -185,8 +205,10 @@ ASSEMBLY_WITHOUT_MEMBERS = error(
 )
 MEMBERS_NOT_MEASURED = warning(
     "members_not_measured",
-    "{count} member cannot be measured and is not in the total: {names}. Measure it alone to see why.",
-    "{count} members cannot be measured and are not in the total: {names}. Measure them alone to see why.",
+    "{count} member cannot be measured and is not in the total: {names}. Measure it alone to see "
+    "why.",
+    "{count} members cannot be measured and are not in the total: {names}. Measure them alone to "
+    "see why.",
 )
 MEMBERS_COUNTED_BEFORE = note(
     "members_counted_before",
@@ -195,13 +217,17 @@ MEMBERS_COUNTED_BEFORE = note(
 )
 MEMBERS_LEFT_OUT = note(
     "members_left_out",
-    "{count} member is not rendered, or only an operand of Boolean modifiers, and is not in the total: {names}.",
-    "{count} members are not rendered, or only operands of Boolean modifiers, and are not in the total: {names}.",
+    "{count} member is not rendered, or only an operand of Boolean modifiers, and is not in the "
+    "total: {names}.",
+    "{count} members are not rendered, or only operands of Boolean modifiers, and are not in the "
+    "total: {names}.",
 )
 MEMBERS_EXCLUDED = warning(
     "members_excluded",
-    "{count} member is excluded or disabled and is not in the total: {names}. Enable it in the Outliner.",
-    "{count} members are excluded or disabled and are not in the total: {names}. Enable them in the Outliner.",
+    "{count} member is excluded or disabled and is not in the total: {names}. Enable it in the "
+    "Outliner.",
+    "{count} members are excluded or disabled and are not in the total: {names}. Enable them in "
+    "the Outliner.",
 )
 MEMBERS_HIDDEN = note(
     "members_hidden",
@@ -215,5 +241,6 @@ MEMBERS_DENSITY_UNSET = warning(
 )
 INSTANCE_STRETCHES_SHEETS = error(
     "instance_stretches_sheets",
-    "The instance stretches shells or wires unevenly, and their mass has no one factor. Give it a uniform scale.",
+    "The instance stretches shells or wires unevenly, and their mass has no one factor. Give it a "
+    "uniform scale.",
 )

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Fourier transform of an object, which is read and repaired as for a measurement, or of a flat one."""
+"""The Fourier transform of an object, which is read and repaired as for a measurement, or of a flat
+one.
+"""
 
 from __future__ import annotations
 
@@ -42,8 +44,9 @@ from .mesh import mesh_body
 class ObjectTransform:
     """An object's transform, in SI units: `steps` does the work, `result` gives the outcome.
 
-    findings: as in `Measurement`. factor: the thickness of a shell, else 1. arrays: of a flat object, stored beside the
-    spectrum: `axes` of its plane, x and y as rows, and the `origin` of x and y, in the world.
+    findings: as in `Measurement`. factor: the thickness of a shell, else 1. arrays: of a flat
+    object, stored beside the spectrum: `axes` of its plane, x and y as rows, and the `origin` of x
+    and y, in the world.
     """
 
     name: str
@@ -77,9 +80,10 @@ def object_transform(
 ) -> ObjectTransform:
     """Return the transform of one evaluated object.
 
-    q: rad/m, (M, 3) or a grid, along the axes of the frame, "world" or "object"; or a function that makes a grid from
-    the body's largest extent in m. area: ∫ exp(-i q·x) dA over its faces, in m²; else of its body, in m³: ∫ exp(-i q·x)
-    dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell. Raises MeasureError if there is no transform.
+    q: rad/m, (M, 3) or a grid, along the axes of the frame, "world" or "object"; or a function that
+    makes a grid from the body's largest extent in m. area: ∫ exp(-i q·x) dA over its faces, in m²;
+    else of its body, in m³: ∫ exp(-i q·x) dV of a solid, and thickness times ∫ exp(-i q·x) dA of a
+    shell. Raises MeasureError if there is no transform.
     """
     resolved = object_settings(obj, depsgraph.scene, options)
     unit = resolved.unit
@@ -129,11 +133,13 @@ def flat_transform(
     frame: str = "world",
     unit: float | None = None,
 ) -> ObjectTransform:
-    """Return the transform ∫ exp(-i q·x) dA, in m², of the polygons that Blender draws of a flat object.
+    """Return the transform ∫ exp(-i q·x) dA, in m², of the polygons that Blender draws of a flat
+    object.
 
-    `q` is (M, 2) or a grid, rad/m along the plane's x and y, or a function that makes a grid from the region's largest
-    extent, m. x and y are counted from the foot of the origin of `frame`, "world" or "object". `unit` is in meters per
-    Blender unit. Raise MeasureError if the object is not flat, has outlines that cross, or encloses nothing.
+    `q` is (M, 2) or a grid, rad/m along the plane's x and y, or a function that makes a grid from
+    the region's largest extent, m. x and y are counted from the foot of the origin of `frame`,
+    "world" or "object". `unit` is in meters per Blender unit. Raise MeasureError if the object is
+    not flat, has outlines that cross, or encloses nothing.
     """
     region = flat_region(obj, depsgraph, selected=False, exact=False, unit=unit)
     findings = (*region.findings, *area_findings(region, region.moments(1).total))
@@ -151,7 +157,9 @@ def flat_transform(
 
 
 def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
-    """Return the longest side, in m, of the box that holds the boxes of all parts, or raise ReadError if it is 0."""
+    """Return the longest side, in m, of the box that holds the boxes of all parts, or raise
+    ReadError if it is 0.
+    """
     low = np.full(3, np.inf)
     high = np.full(3, -np.inf)
     for surface, matrices in parts:

@@ -80,7 +80,10 @@ def body(reading: VolumeReading, request: Request) -> Body:
 
 
 def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings) -> Body:
-    """Return the body of one grid, with its mass moments to an order. Raises MeasureError if the grid has no body."""
+    """Return the body of one grid, with its mass moments to an order.
+
+    Raises MeasureError if the grid has no body.
+    """
     unit = settings.unit
     order = KNOWN_ORDER if settings.order is None else settings.order
     if options.threshold is not None:
@@ -113,7 +116,9 @@ def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings)
 
 
 def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
-    """Return the blocks of a grid, from the start of an axis if it has positions (outer samples need neighbors)."""
+    """Return the blocks of a grid, from the start of an axis if it has positions (outer samples
+    need neighbors).
+    """
     offset = [0 if row is None else int(low) for low, row in zip(reading.low, positions)]
 
     def blocks() -> Iterator[tuple[tuple[int, int, int], NDArray]]:
@@ -138,7 +143,9 @@ def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
 
 
 def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
-    """Return the values of a grid as one array, or raise ReadError if it is a level set or too large."""
+    """Return the values of a grid as one array, or raise ReadError if it is a level set or too
+    large.
+    """
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
     if np.prod(reading.shape, dtype=np.float64) > MAX_SAMPLES:

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measurements of single objects: the first kind of body that can read an object is measured.
 
-Each kind is a module with MEASURED_AS, the values of the setting Kind (solid, shell, wire) with which it is tried, and
-two functions: `read(request)` returns a reading, or None if the object is of another kind; `body(reading, request)`
-returns the body. Both raise MeasureError if nothing can be measured. `stacks.many` measures many objects together.
+Each kind is a module with MEASURED_AS, the values of the setting Kind (solid, shell, wire) with
+which it is tried, and two functions: `read(request)` returns a reading, or None if the object is of
+another kind; `body(reading, request)` returns the body. Both raise MeasureError if nothing can be
+measured. `stacks.many` measures many objects together.
 """
 
 from __future__ import annotations
@@ -61,7 +62,9 @@ def measure_object(
 def measure_body(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Measured:
-    """Return the measurement of one evaluated object with its reading and body, or raise MeasureError."""
+    """Return the measurement of one evaluated object with its reading and body, or raise
+    MeasureError.
+    """
     with name_subject(obj.name), ExitStack() as opened:
         request = Request.resolve(obj, depsgraph, options, opened=opened)
         point = read_point(request)

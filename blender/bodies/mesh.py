@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The body bounded by polygons, with all its instances: each surface is measured once and mapped to its places.
+"""The body bounded by polygons, with all its instances: each surface is measured once and mapped to
+its places.
 
-Blender's own exact Boolean unites overlapping shells. The convex hull's corners are the possible ground contacts.
+Blender's own exact Boolean unites overlapping shells. The convex hull's corners are the possible
+ground contacts.
 """
 
 from __future__ import annotations
@@ -52,7 +54,9 @@ MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
 
 
 def read(request: Request) -> Reading | None:
-    """Return the polygons that an object shows, or None if it has NURBS patches of one density (see `nurbs.py`)."""
+    """Return the polygons that an object shows, or None if it has NURBS patches of one density (see
+    `nurbs.py`).
+    """
     reading = request.surfaces
     density = request.density
     obj = request.obj
@@ -89,7 +93,9 @@ def body(reading: Reading, request: Request) -> Body:
 
 
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
-    """Return the body bounded by an object's surfaces, united first if `union`, or with `shell` their sheets."""
+    """Return the body bounded by an object's surfaces, united first if `union`, or with `shell`
+    their sheets.
+    """
     if shell:
         return sum_of_instances(reading, unit, True, threads)
     flat = reading.singular_instance_count
@@ -108,7 +114,9 @@ def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, thread
 
 
 def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
-    """Return the body of all parts in their places; parts with a volume are united by Blender's exact Boolean."""
+    """Return the body of all parts in their places; parts with a volume are united by Blender's
+    exact Boolean.
+    """
     before = sum_of_instances(reading, unit, False, threads)
     if not before.volume.total > 0.0:
         return before
@@ -140,7 +148,9 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
 
 
 def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
-    """Return the convex hull of an object with its instances, in its own coordinates, or raise MeasureError."""
+    """Return the convex hull of an object with its instances, in its own coordinates, or raise
+    MeasureError.
+    """
     reading = read_object(obj, depsgraph, edges=False)
     if reading.is_singular:
         raise EditRefusedError(SCALE_ZERO_AXIS)
@@ -162,7 +172,9 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
 
 
 def union_surface(surface: Surface) -> Surface:
-    """Return the surface around the union of all shells, computed in float32 about their middle and at unit size."""
+    """Return the surface around the union of all shells, computed in float32 about their middle and
+    at unit size.
+    """
     points = surface.points.astype(np.float64)
     faces = surface.all_triangles()[0]
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
@@ -190,6 +202,7 @@ def union_surface(surface: Surface) -> Surface:
         evaluated.to_mesh_clear()
     finally:
         bpy.data.batch_remove(made)
-    # Blender rounds the points to float32 before its boolean and after it, and the points themselves were rounded once.
+    # Blender rounds the points to float32 before its boolean and after it, and the points
+    # themselves were rounded once.
     united = united.transform(scale * np.eye(3), middle)
     return replace(united, displacement=2.0 * united.coordinate_error + surface.coordinate_error)

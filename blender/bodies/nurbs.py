@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The body that B-spline patches bound, measured from their control points instead of their display mesh.
+"""The body that B-spline patches bound, measured from their control points instead of their display
+mesh.
 
-Volumes map to all places of a surface; areas and sheets of real thickness are found anew for each uneven map.
+Volumes map to all places of a surface; areas and sheets of real thickness are found anew for each
+uneven map.
 """
 
 from __future__ import annotations
@@ -56,8 +58,8 @@ HEIGHTS = {
 class PatchBody(Body):
     """A body bounded by patches, and by polygons if some parts have no patches.
 
-    `reading`: the whole object; `surfaces` yields its display mesh.
-    `pieces`: the parts that are patches, each with the (k, 4, 4) maps to its places. `polygons`: the other parts.
+    `reading`: the whole object; `surfaces` yields its display mesh. `pieces`: the parts that are
+    patches, each with the (k, 4, 4) maps to its places. `polygons`: the other parts.
     """
 
     any_order: ClassVar[bool] = True
@@ -93,7 +95,9 @@ class PatchBody(Body):
 
 @dataclass(frozen=True, eq=False)
 class PatchSheetBody(Body):
-    """Thin sheets of patches, and of polygons if some parts have no patches; fields as in `PatchBody`."""
+    """Thin sheets of patches, and of polygons if some parts have no patches; fields as in
+    `PatchBody`.
+    """
 
     any_order: ClassVar[bool] = True
 
@@ -125,12 +129,16 @@ def _stored(part: Part) -> float:
 
 
 def read(request: Request) -> Reading:
-    """Return the surfaces, at least one of them a patch, of an object of one density, or raise MeasureError."""
+    """Return the surfaces, at least one of them a patch, of an object of one density, or raise
+    MeasureError.
+    """
     return request.surfaces
 
 
 def body(reading: Reading, request: Request) -> Body:
-    """Return the body that patches bound, or their sheets or walls, or raise MeasureError if there is none."""
+    """Return the body that patches bound, or their sheets or walls, or raise MeasureError if there
+    is none.
+    """
     settings = request.settings
     unit, threads = settings.unit, settings.threads
     if settings.kind == "shell":
@@ -231,7 +239,9 @@ def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Momen
 
 
 def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> Body:
-    """Return the body of thin sheets, or of walls inside, outside or on both sides of the surfaces."""
+    """Return the body of thin sheets, or of walls inside, outside or on both sides of the
+    surfaces.
+    """
     patch_parts, meshes = _split_parts(reading)
     if meshes.parts and wall != "thin":
         raise ReadError(WALL_UNSUPPORTED, quantity="A mixture of NURBS surfaces and meshes")
@@ -298,7 +308,9 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
 def _distinct_images(
     patches: Sequence[Face], matrices: NDArray
 ) -> Iterator[tuple[list[Face], NDArray]]:
-    """Yield the patches under each distinct linear map, facing as before, with (k, 4, 4) translations to the places."""
+    """Yield the patches under each distinct linear map, facing as before, with (k, 4, 4)
+    translations to the places.
+    """
     for linear, members in distinct_linear_parts(matrices):
         mapped = [patch.transform(affine_matrices(linear)) for patch in patches]
         if np.linalg.det(linear) < 0.0:

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The request for one measurement: its settings and density, and the reading that several kinds of bodies share."""
+"""The request for one measurement: its settings and density, and the reading that several kinds of
+bodies share.
+"""
 
 from __future__ import annotations
 
@@ -25,9 +27,9 @@ from ..settings.options import AS_SET, MeasureOptions, object_settings
 class Request:
     """A request to measure an object or the content of a file.
 
-    `settings`: the options `given`, completed by the object's own. `obj`, `depsgraph`: None for the content of a file.
-    `opened`: closes opened resources at the end of the measurement.
-    `findings`: reasons why a kind of body that fits the object did not read it.
+    `settings`: the options `given`, completed by the object's own. `obj`, `depsgraph`: None for the
+    content of a file. `opened`: closes opened resources at the end of the measurement. `findings`:
+    reasons why a kind of body that fits the object did not read it.
     """
 
     settings: Settings
@@ -47,7 +49,9 @@ class Request:
         unit: float | None = None,
         opened: ExitStack | None = None,
     ) -> Request:
-        """Return the request for an object; `unit` is in meters per Blender unit, by default the scene's."""
+        """Return the request for an object; `unit` is in meters per Blender unit, by default the
+        scene's.
+        """
         scene = bpy.context.scene if depsgraph is None else depsgraph.scene
         settings = object_settings(obj, scene, given, unit)
         return cls(settings, given, obj, depsgraph, opened or ExitStack())
@@ -69,7 +73,9 @@ class Request:
 
     @cached_property
     def surfaces(self) -> Reading:
-        """The object's surfaces, polygons and patches, with the attributes for its density; may raise MeasureError."""
+        """The object's surfaces, polygons and patches, with the attributes for its density; may
+        raise MeasureError.
+        """
         density = self.density
         reading = read_object(
             self.obj,
@@ -84,7 +90,9 @@ class Request:
 
 
 def measurement_of(reading: Reading, body: Body, request: Request) -> Measurement:
-    """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown moments."""
+    """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown
+    moments.
+    """
     transform = "" if request.obj is None else transform_key(request.obj)
     measurement = measure_reading(reading, body, request.settings, transform)
     accepted = frozenset() if request.obj is None else accepted_codes(request.obj)

@@ -59,8 +59,9 @@ DENSITIES_FROM = {
 class _Sum:
     """The moments and source objects of a bone's part.
 
-    carriers: mass moments at 1 kg/m³ of geometry skinned to the bone, each with its density. hanging: mass moments of
-    objects parented to the bone. extents, areas: (value, rounding, effect of float32), m³ and m².
+    carriers: mass moments at 1 kg/m³ of geometry skinned to the bone, each with its density.
+    hanging: mass moments of objects parented to the bone. extents, areas: (value, rounding, effect
+    of float32), m³ and m².
     """
 
     carriers: list[tuple[Moments, float]] = field(default_factory=list)
@@ -76,10 +77,10 @@ class _Sum:
 class BonePart:
     """The part of one bone at rest, in SI units along the world's axes.
 
-    `name`: of the bone. `mass`: kg, to third order. `sources`: names of the objects that the part is made of.
-    `measurement`: in place of an object's frame it has the bone's rest frame; None if `refusal` says that no body has
-    such moments.
-    `surfaces`: closed pieces of solids and sheets of shells, each with the (4, 4) map to the world, m.
+    `name`: of the bone. `mass`: kg, to third order. `sources`: names of the objects that the part
+    is made of. `measurement`: in place of an object's frame it has the bone's rest frame; None if
+    `refusal` says that no body has such moments. `surfaces`: closed pieces of solids and sheets of
+    shells, each with the (4, 4) map to the world, m.
     """
 
     name: str
@@ -92,7 +93,9 @@ class BonePart:
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """The parts of a character's bones, in the order of the armature, and their measurement as one body at rest."""
+    """The parts of a character's bones, in the order of the armature, and their measurement as one
+    body at rest.
+    """
 
     armature: Object
     parts: tuple[BonePart, ...]
@@ -224,7 +227,9 @@ class _Measuring:
             self.unset.append(obj.name)
 
     def _pieces(self, obj: Object, part: Part, shell: bool) -> Iterator[tuple]:
-        """Yield (bone, SI world volume or area moments, area, surface, map, procedure) of each piece of a surface."""
+        """Yield (bone, SI world volume or area moments, area, surface, map, procedure) of each
+        piece of a surface.
+        """
         surface = part.surface
         if not len(surface.triangles) and not len(surface.quads):
             return

@@ -47,7 +47,9 @@ class WireBody(Body):
 
 
 def read(request: Request) -> Reading:
-    """Return the curves of an object that is measured as a wire, or raise MeasureError if it has none."""
+    """Return the curves of an object that is measured as a wire, or raise MeasureError if it has
+    none.
+    """
     return read_lines(request.obj, request.depsgraph)
 
 
@@ -57,7 +59,8 @@ def body(reading: Reading, request: Request) -> Body:
     length = length_moments(curves)
     if not length.total > 0.0:
         raise ReadError(NO_CURVE)
-    # an estimate for smooth curves: a length changes with its ends, and as much again by its turning
+    # an estimate for smooth curves: a length changes with its ends, and as much again by its
+    # turning
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
     moved = stored * (2.0 * len(curves) + 8.0 * length.total / reach) * reach**DEGREE
     return WireBody(
@@ -75,7 +78,9 @@ def body(reading: Reading, request: Request) -> Body:
 def curves_in_world(
     curves: list[Curve], matrix: NDArray[np.float64], unit: float
 ) -> tuple[list[Curve], float]:
-    """Return curves mapped to the world in m by a (4, 4) matrix in Blender units, and the points' float32 error."""
+    """Return curves mapped to the world in m by a (4, 4) matrix in Blender units, and the points'
+    float32 error.
+    """
     largest = max(float(np.abs(curve.points).max()) for curve in curves)
     scaled = np.array(matrix, np.float64)
     scaled[:3] *= unit
@@ -84,6 +89,8 @@ def curves_in_world(
 
 
 def _is_closed(curve: Curve, reach: float) -> bool:
-    """Return whether a curve ends at its start, within the rounding by its size and distance from the origin."""
+    """Return whether a curve ends at its start, within the rounding by its size and distance from
+    the origin.
+    """
     first, last = curve.samples(1)[[0, -1]]
     return bool(np.abs(last - first).max() <= CLOSED_RTOL * reach + 32.0 * U * np.abs(first).max())

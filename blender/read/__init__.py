@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Readers of Blender's data: evaluated objects as arrays, with their places and a finding for each decision."""
+"""Readers of Blender's data: evaluated objects as arrays, with their places and a finding for each
+decision.
+"""
 
 from ...core.lazy import lazy_names
 

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The members of an assembly: a collection with its nested collections, or an empty with its children.
+"""The members of an assembly: a collection with its nested collections, or an empty with its
+children.
 
-An object counts once, in its first place. An instance of a collection is an assembly of its own, with the members' own
-densities, unless the instancer's own density or mass is set. Panels ask for changes of members, so numpy is not loaded.
-Objects in a total that are, or may be, no part of the body, such as cutters and helpers, are found here, too.
+An object counts once, in its first place. An instance of a collection is an assembly of its own,
+with the members' own densities, unless the instancer's own density or mass is set. Panels ask for
+changes of members, so numpy is not loaded. Objects in a total that are, or may be, no part of the
+body, such as cutters and helpers, are found here, too.
 """
 
 from __future__ import annotations
@@ -50,11 +52,10 @@ class MemberKind(StrEnum):
 class Member:
     """A member of an assembly, or the assembly itself.
 
-    `data`: an object or collection; the instancer of an instance.
-    `members`: of a collection or an instance, or the children of an object.
-    `matrix`: the rows, float64, of an instance's matrix, from its collection's members to their displayed places, in
-    Blender units.
-    `left_out`: the reason why the member is not counted.
+    `data`: an object or collection; the instancer of an instance. `members`: of a collection or an
+    instance, or the children of an object. `matrix`: the rows, float64, of an instance's matrix,
+    from its collection's members to their displayed places, in Blender units. `left_out`: the
+    reason why the member is not counted.
     """
 
     data: Root
@@ -80,14 +81,18 @@ class Member:
 
 
 def members_of(root: Root, depsgraph: Depsgraph) -> Member:
-    """Return an original collection, or an empty with children, as an assembly with all its members."""
+    """Return an original collection, or an empty with children, as an assembly with all its
+    members.
+    """
     if isinstance(root, bpy.types.Collection):
         return _Walk(root.all_objects, depsgraph).collection(root)
     return _Walk((), depsgraph).empty(root)
 
 
 def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
-    """Return a key of all measured members: their results' fingerprints, their transforms and the point masses."""
+    """Return a key of all measured members: their results' fingerprints, their transforms and the
+    point masses.
+    """
     keys = []
     for member in root.walk():
         if (
@@ -106,7 +111,9 @@ def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
 
 
 def structure_hash(root: Member) -> str:
-    """Return a digest of the members, the places of instances and the given masses of assemblies."""
+    """Return a digest of the members, the places of instances and the given masses of
+    assemblies.
+    """
     keys = []
     for member in root.walk():
         key = [member.kind.value, member.name, member.left_out.code if member.left_out else ""]
@@ -161,7 +168,9 @@ class _Walk:
         return Member(collection, MemberKind.COLLECTION, tuple(members))
 
     def empty(self, obj: Object, depth: int = 0) -> Member:
-        """Return an empty as a member, with its own point mass, if it is one, and the members of its children."""
+        """Return an empty as a member, with its own point mass, if it is one, and the members of
+        its children.
+        """
         own = self.object(obj, obj.name, depth) if is_point_mass(obj) else []
         return Member(obj, MemberKind.EMPTY, (*own, *self.children(obj, depth)))
 
@@ -182,7 +191,9 @@ class _Walk:
         return members
 
     def object(self, obj: Object, place: str, depth: int) -> list[Member]:
-        """Return a list with the object as a member, empty if it is no body; `place` is the name of its assembly."""
+        """Return a list with the object as a member, empty if it is no body; `place` is the name of
+        its assembly.
+        """
         if not measurable(obj) or instanced_by_parent(obj):
             return []
         kind = MemberKind.POINT if is_point_mass(obj) else MemberKind.OBJECT
@@ -209,7 +220,9 @@ class _Walk:
         return [Member(obj, kind)]
 
     def _left_out(self, obj: Object) -> Finding | None:
-        """Return the reason why an object does not count, or why Blender cannot tell whether it counts, or None."""
+        """Return the reason why an object does not count, or why Blender cannot tell whether it
+        counts, or None.
+        """
         if self.inside:
             if obj in self.operands and obj.display_type in {"WIRE", "BOUNDS"}:
                 return finding(BOOLEAN_OPERAND)
@@ -234,7 +247,9 @@ def _shows_members(obj: Object) -> bool:
 
 
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
-    """Return the objects that are no parts of the body, each with the reason: it is an operand, or not rendered."""
+    """Return the objects that are no parts of the body, each with the reason: it is an operand, or
+    not rendered.
+    """
     # A layer that is switched off renders nothing; if all are switched off, the open layer counts.
     layers = [layer for layer in scene.view_layers if layer.use] or [view_layer]
     rendered = {
@@ -251,7 +266,9 @@ def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Findin
 
 
 def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:
-    """Return the operands of objects' Boolean modifiers, each with the first object by name that uses it."""
+    """Return the operands of objects' Boolean modifiers, each with the first object by name that
+    uses it.
+    """
     operands: dict[Object, Object] = {}
     for user in sorted(objects, key=by_name):
         for operand in _operands(user):
@@ -260,7 +277,9 @@ def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:
 
 
 def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Finding]:
-    """Return a finding for each reason why some of the summed objects may be no parts of the body."""
+    """Return a finding for each reason why some of the summed objects may be no parts of the
+    body.
+    """
     if len(objects) < 2:
         return []
     objects = sorted(objects, key=by_name)

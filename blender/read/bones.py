@@ -57,7 +57,9 @@ class RestBones:
 def vertex_weights(
     obj: Object, part: Part, bones: RestBones, depsgraph: Depsgraph
 ) -> VertexWeights:
-    """Return the weights of the deforming bones on an object's own vertices; none if the mesh has others."""
+    """Return the weights of the deforming bones on an object's own vertices; none if the mesh has
+    others.
+    """
     number = {name: k for k, name in enumerate(bones.deforming)}
     groups = [number.get(group.name) for group in obj.vertex_groups]
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh

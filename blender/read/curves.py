@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The splines of a curve object as B-spline curves: Bézier, NURBS, Catmull-Rom and straight splines.
+"""The splines of a curve object as B-spline curves: Bézier, NURBS, Catmull-Rom and straight
+splines.
 
-Blender gives evaluated curves only without a surface; of beveled curves it gives the mesh, so their splines are read.
+Blender gives evaluated curves only without a surface; of beveled curves it gives the mesh, so their
+splines are read.
 """
 
 from __future__ import annotations
@@ -25,14 +27,17 @@ from .visibility import evaluated_geometry
 STRAIGHT_RTOL = 1e-6  # relative to a spline's length: float32 may bend a straight line by as much
 TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # curve types by their number in a geometry set
 CUSTOM_KNOTS_MODE = 4  # the mode of custom knots, which no flags describe
-# steps per point, then tolerances: relative to the length, and for each step to the largest coordinate
+# steps per point, then tolerances: relative to the length, and for each step to the largest
+# coordinate
 STEPS_PER_POINT = 8
 SAME_LENGTH_RTOL = 1e-4
 AGREEMENT_RTOL = 1e-7
 
 
 def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
-    """Return the curves of an evaluated curve object in its own coordinates, and the findings, or raise ReadError."""
+    """Return the curves of an evaluated curve object in its own coordinates, and the findings, or
+    raise ReadError.
+    """
     obj = obj.original
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its curves
     shown = geometry.curves
@@ -59,7 +64,9 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
 
 
 def text_curves(obj, depsgraph) -> list[Curve]:
-    """Return the outlines of a text object as curves of its font, in its own coordinates, or raise ReadError."""
+    """Return the outlines of a text object as curves of its font, in its own coordinates, or raise
+    ReadError.
+    """
     try:
         curves = [
             _curve(*_kind(spline), _control_points(spline), None)
@@ -119,7 +126,9 @@ def _kind(spline) -> tuple[str, bool, int, bool, bool]:
 
 
 def _control_points(spline) -> NDArray[np.float64]:
-    """Return (n, 3) points in Blender's order; a Bézier point counts as left handle, point and right handle."""
+    """Return (n, 3) points in Blender's order; a Bézier point counts as left handle, point and
+    right handle.
+    """
     if spline.type != "BEZIER":
         return weighted_points(spline)[:, :3].astype(np.float64)
     knots = spline.bezier_points
@@ -129,7 +138,9 @@ def _control_points(spline) -> NDArray[np.float64]:
 
 
 def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
-    """Yield the splines as curves, moved by shape keys and hooks; None for each spline that is too short."""
+    """Yield the splines as curves, moved by shape keys and hooks; None for each spline that is too
+    short.
+    """
     name = evaluated.original.name
     splines = list(evaluated.data.splines)
     if not splines:
@@ -153,7 +164,9 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
 
 
 def _has_known_knots(spline, curve: Curve | None) -> bool:
-    """Return whether a spline's knots follow from its settings, so that Blender finds the same length."""
+    """Return whether a spline's knots follow from its settings, so that Blender finds the same
+    length.
+    """
     if curve is None:
         return True
     low, high = curve.space.domain
@@ -213,7 +226,9 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
 
 
 def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
-    """Return (n, 3) offsets to the handles of the equal Bézier curve: a sixth of the way from neighbor to neighbor."""
+    """Return (n, 3) offsets to the handles of the equal Bézier curve: a sixth of the way from
+    neighbor to neighbor.
+    """
     around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic else "edge")
     return (around[2:] - around[:-2]) / 6.0
 
@@ -221,7 +236,9 @@ def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
 def _values(
     curves, name: str, item: str, shape: tuple[int, int], default: float = 0.0
 ) -> NDArray[np.float64]:
-    """Return an attribute of the points or the curves as an array, filled with the default if there is none."""
+    """Return an attribute of the points or the curves as an array, filled with the default if there
+    is none.
+    """
     if name not in curves.attributes:
         return np.full(shape, default)
     attribute = curves.attributes[name]
@@ -245,7 +262,9 @@ def _curve(
     points: NDArray[np.float64],
     weights: NDArray | None,
 ) -> Curve | None:
-    """Return a spline as a curve, None if too short; `points` are (n, 3), three for each point of a Bézier curve."""
+    """Return a spline as a curve, None if too short; `points` are (n, 3), three for each point of a
+    Bézier curve.
+    """
     if kind == "NURBS":
         space = blender_space(len(points), order, cyclic, bezier, endpoint)
         return None if space is None else Curve(space, points, weights)

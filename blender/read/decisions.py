@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The findings about decisions in reading an object, and the reasons if there was nothing to read.
 
-Objects are read as the viewport shows them; a finding says if Blender's settings would render another body.
+Objects are read as the viewport shows them; a finding says if Blender's settings would render
+another body.
 """
 
 from __future__ import annotations
@@ -118,7 +119,9 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
 
 
 def modifier_findings(obj, scene) -> Iterator[Finding]:
-    """Yield the findings about an object's modifiers: differences in the render, and errors of node trees."""
+    """Yield the findings about an object's modifiers: differences in the render, and errors of node
+    trees.
+    """
     yield from _render_findings(obj, scene)
     yield from _node_errors(obj)
 
@@ -137,7 +140,9 @@ def _render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
 
 
 def _member_findings(collections) -> Iterator[Finding]:
-    """Yield findings about members of instanced collections that only the viewport or only the render shows."""
+    """Yield findings about members of instanced collections that only the viewport or only the
+    render shows.
+    """
     shown, rendered = (
         {
             member.original: None
@@ -186,7 +191,9 @@ def _mode_findings(obj) -> Iterator[Finding]:
 
 
 def _spline_findings(evaluated, splines) -> Iterator[Finding]:
-    """Yield the findings about a surface object, which is the read object or one of its instances."""
+    """Yield the findings about a surface object, which is the read object or one of its
+    instances.
+    """
     if splines is not None:
         yield from splines.findings
         return
@@ -201,7 +208,9 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
 
 
 def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
-    """Yield findings about differences in the render; resolutions are ignored for `exact` objects."""
+    """Yield findings about differences in the render; resolutions are ignored for `exact`
+    objects.
+    """
     for modifier in obj.modifiers:
         shown = modifier.show_viewport
         rendered = modifier.show_render
@@ -235,7 +244,9 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
 
 
 def _levels(modifier, render) -> tuple[int, int]:
-    """Return a modifier's levels, steps or resolution in the viewport and in the render; (0, 0) if it has none."""
+    """Return a modifier's levels, steps or resolution in the viewport and in the render; (0, 0) if
+    it has none.
+    """
     if modifier.type in {"SUBSURF", "MULTIRES"}:
         here = modifier.levels
         there = modifier.render_levels

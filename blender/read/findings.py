@@ -25,7 +25,8 @@ INSTANCED_BY_PARENT = note(
 )
 EMPTY_WITHOUT_INSTANCES = error(
     "empty_without_instances",
-    "The empty instances nothing with a surface. Choose a collection with one in Object Properties > Instancing.",
+    "The empty instances nothing with a surface. Choose a collection with one in Object Properties "
+    "> Instancing.",
 )
 INSTANCER_HIDDEN = error(
     "instancer_hidden",
@@ -90,11 +91,13 @@ ONLY_WITHOUT_SURFACE = error(
 SURFACELESS_LEFT_OUT = warning("surfaceless_left_out", "Left out: {kinds}.")
 LINES_ONLY = error(
     "lines_only",
-    "Lines without a surface. Add a bevel or extrusion, fill the curve or text, or set Kind to Wire.",
+    "Lines without a surface. Add a bevel or extrusion, fill the curve or text, or set Kind to "
+    "Wire.",
 )
 SPLINES_WITHOUT_SURFACE = error(
     "splines_without_surface",
-    "No spline has a surface: too few points for the order or for Bézier ends. Add points, lower Order, or "
+    "No spline has a surface: too few points for the order or for Bézier ends. Add points, lower "
+    "Order, or "
     "turn off "
     "Bézier in Active Spline.",
 )
@@ -116,34 +119,41 @@ SPLINES_LEFT_OUT = warning(
 NO_CURVE = error("no_curve", "No spline has a length. Add points, or move them apart.")
 UNKNOWN_KNOTS = error(
     "unknown_knots",
-    "Blender does not expose the imported knots. Turn Endpoint off and on in Active Spline to make known ones.",
+    "Blender does not expose the imported knots. Turn Endpoint off and on in Active Spline to make "
+    "known ones.",
 )
 ONLY_CURVES_ARE_WIRES = error(
     "only_curves_are_wires", "Only curves can be wires. Set Kind to Solid or Shell."
 )
 SHAPE_KEYS_OF_OTHER_POINTS = error(
     "shape_keys_of_other_points",
-    "The shape keys were made for another number of points. Remove them, or undo what added or removed points.",
+    "The shape keys were made for another number of points. Remove them, or undo what added or "
+    "removed points.",
 )
 CONTROL_POINTS_RECOVERED = warning(
     "control_points_recovered",
-    "Control points were recovered from the display mesh, accurate to 6 digits, as modifiers or keys move them.",
+    "Control points were recovered from the display mesh, accurate to 6 digits, as modifiers or "
+    "keys move them.",
 )
 DISPLAY_MESH_FOR_MODIFIERS = warning(
     "display_mesh_for_modifiers",
-    "The display mesh was measured, as modifiers work on it: {modifiers}. Raise Resolution Preview for accuracy.",
+    "The display mesh was measured, as modifiers work on it: {modifiers}. Raise Resolution Preview "
+    "for accuracy.",
 )
 DISPLAY_MESH_FOR_WEIGHTS = warning(
     "display_mesh_for_weights",
-    "The display mesh was measured, as {count} control point has no positive weight. Raise the weight above zero.",
-    "The display mesh was measured, as {count} control points have no positive weights. Raise the weights above zero.",
+    "The display mesh was measured, as {count} control point has no positive weight. Raise the "
+    "weight above zero.",
+    "The display mesh was measured, as {count} control points have no positive weights. Raise the "
+    "weights above zero.",
 )
 DISPLAY_MESH_MEASURED = warning(
     "display_mesh_measured", "The display mesh was measured. Raise Resolution Preview for accuracy."
 )
 ATTRIBUTE_MISSING = error(
     "attribute_missing",
-    "No attribute “{attribute}” with a float per vertex. Create it, use Convert Attribute, or change Attribute.",
+    "No attribute “{attribute}” with a float per vertex. Create it, use Convert Attribute, or "
+    "change Attribute.",
 )
 VOLUME_WITHOUT_GRIDS = error(
     "volume_without_grids",
@@ -174,11 +184,13 @@ GRID_NAMES_REPEATED = warning(
 )
 GRID_SIMPLIFIED = warning(
     "grid_simplified",
-    "Simplify reduces the voxels to {share:percent} of their resolution. Turn off Simplify in Render Properties.",
+    "Simplify reduces the voxels to {share:percent} of their resolution. Turn off Simplify in "
+    "Render Properties.",
 )
 GRID_NEEDS_OPENVDB = error(
     "grid_needs_openvdb",
-    "The grid “{grid}” can only be read with the openvdb module, which this Blender lacks. Convert it to floats, or a "
+    "The grid “{grid}” can only be read with the openvdb module, which this Blender lacks. Convert "
+    "it to floats, or a "
     "level set to a mesh by a Grid to Mesh node.",
 )
 TEMPORARY_FOLDER_FULL = error(
@@ -212,7 +224,8 @@ SECTION_TEXT_ON_CURVE = error(
 )
 SECTION_EXTRUDED = error(
     "section_extruded",
-    "The curve is 3D, extruded, beveled or offset. Set it to 2D, and Extrude, Bevel Depth and Offset to 0, or use "
+    "The curve is 3D, extruded, beveled or offset. Set it to 2D, and Extrude, Bevel Depth and "
+    "Offset to 0, or use "
     "Object > Convert > Mesh.",
 )
 SCALE_ZERO_AXIS = error(

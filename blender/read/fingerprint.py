@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The inputs of stored numbers, in a text short enough for a property: geometry, transform and settings.
+"""The inputs of stored numbers, in a text short enough for a property: geometry, transform and
+settings.
 
-Geometry is digested as the moments themselves; transform and settings can be digested by panels, without numpy.
+Geometry is digested as the moments themselves; transform and settings can be digested by panels,
+without numpy.
 """
 
 from __future__ import annotations
@@ -41,7 +43,9 @@ def matrix_bytes(matrix: Matrix) -> bytes:
 
 
 def transform_key(obj: bpy.types.Object) -> str:
-    """Return a key of the transform for `has_transform`: scale and mirroring, or all if sheared or not movable."""
+    """Return a key of the transform for `has_transform`: scale and mirroring, or all if sheared or
+    not movable.
+    """
     scale = _scale(obj) if _moves_along(obj) else None
     if scale is None:
         return matrix_hash(obj)
@@ -50,7 +54,9 @@ def transform_key(obj: bpy.types.Object) -> str:
 
 
 def has_transform(obj: bpy.types.Object, key: str) -> bool:
-    """Return whether the object's transform agrees with a key in all parts that affect its numbers."""
+    """Return whether the object's transform agrees with a key in all parts that affect its
+    numbers.
+    """
     if key[:1] not in {"+", "-"}:
         return key == matrix_hash(obj)
     scale = _scale(obj) if _moves_along(obj) else None
@@ -64,7 +70,9 @@ def has_transform(obj: bpy.types.Object, key: str) -> bool:
 
 
 def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
-    """Return the sign of the determinant and the lengths of the axes; None if sheared, flat or not finite."""
+    """Return the sign of the determinant and the lengths of the axes; None if sheared, flat or not
+    finite.
+    """
     axes = list(
         zip(*[row[:3] for row in obj.matrix_world[:3]])
     )  # pure Python: a panel asks for many objects
@@ -95,7 +103,9 @@ def _moves_along(obj: bpy.types.Object) -> bool:
 
 
 def scale_hash(obj: bpy.types.Object) -> str:
-    """Return a digest of the object's ratios of scale and its shear, independent of place, rotation and total scale."""
+    """Return a digest of the object's ratios of scale and its shear, independent of place, rotation
+    and total scale.
+    """
     axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))
     products = [sum([i * j for i, j in zip(a, b)]) for a in axes for b in axes]
     largest = max(map(abs, products)) or 1.0

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that an object shows, flattened to surfaces times matrices: its own mesh and all instances under it.
+"""Everything that an object shows, flattened to surfaces times matrices: its own mesh and all
+instances under it.
 
-Instances of geometry nodes are two arrays, transforms and references (`GeometrySet.instances_pointcloud`). The walk
-carries all places of one thing as a (k, 4, 4) array in float64. It mirrors object_dupli.cc; the tests compare the two.
-Instancing on vertices and faces and by particles is left to Blender: `depsgraph.object_instances`, one by one.
+Instances of geometry nodes are two arrays, transforms and references
+(`GeometrySet.instances_pointcloud`). The walk carries all places of one thing as a (k, 4, 4) array
+in float64. It mirrors object_dupli.cc; the tests compare the two. Instancing on vertices and faces
+and by particles is left to Blender: `depsgraph.object_instances`, one by one.
 """
 
 from __future__ import annotations
@@ -43,14 +45,13 @@ class _NeedsInstanceList(Exception):
 class InstanceCollector:
     """The collected surfaces with all their places, and the omitted objects.
 
-    faceless: (vertices, edges) of the meshes without a face.
-    left_out: number of elements without surface, by a word for their kind.
-    sources: the original objects that were read, without the root.
-    vanished_count: number of instances that are scaled to nothing.
-    splines: the patches of each evaluated surface object that was read, None if its display mesh is measured.
-    drawn: the original objects whose own polygons were read.
-    collections: the original collections that are instanced, as far as Blender's own list was not needed.
-    materials, attribute, edges: requests for the faces' materials, for the vertices' attribute of a name, and for the
+    faceless: (vertices, edges) of the meshes without a face. left_out: number of elements without
+    surface, by a word for their kind. sources: the original objects that were read, without the
+    root. vanished_count: number of instances that are scaled to nothing. splines: the patches of
+    each evaluated surface object that was read, None if its display mesh is measured. drawn: the
+    original objects whose own polygons were read. collections: the original collections that are
+    instanced, as far as Blender's own list was not needed. materials, attribute, edges: requests
+    for the faces' materials, for the vertices' attribute of a name, and for the
         edges at the corners.
     """
 
@@ -92,7 +93,9 @@ class InstanceCollector:
             self._add_listed_instances(place)
 
     def parts(self) -> list[Part]:
-        """Return a part for each surface, without instances of scale 0; ReadError for a non-finite matrix."""
+        """Return a part for each surface, without instances of scale 0; ReadError for a non-finite
+        matrix.
+        """
         parts = []
         for part, matrix_blocks in self._parts.values():
             if not len(part.surface.triangles) and not len(part.surface.quads):
@@ -168,7 +171,9 @@ class InstanceCollector:
         self._add_instances(geometry, matrices)
 
     def _add_instances(self, geometry, matrices: NDArray) -> bool:
-        """Add the instances of a geometry set, once for each place of the set; return whether there were any."""
+        """Add the instances of a geometry set, once for each place of the set; return whether there
+        were any.
+        """
         cloud = geometry.instances_pointcloud()
         if cloud is None:  # there are no instances
             return False
@@ -248,7 +253,9 @@ class InstanceCollector:
             )
 
     def _surface_key(self, key: Hashable, owner) -> Hashable:
-        """Return the key of a mesh's surface; if materials are read, it includes the object's own material slots."""
+        """Return the key of a mesh's surface; if materials are read, it includes the object's own
+        material slots.
+        """
         return (key, _object_slots(owner)) if self.materials and owner is not None else key
 
     def _read(self, mesh, owner) -> tuple[Surface, FaceAttributes]:
@@ -276,7 +283,9 @@ class InstanceCollector:
         return FaceAttributes(slots, faces, vertices)
 
     def _edit_mode_surface(self, evaluated) -> tuple[Surface, FaceAttributes]:
-        """Return the surface of an object in Edit Mode of its mesh, with the modifiers that act there."""
+        """Return the surface of an object in Edit Mode of its mesh, with the modifiers that act
+        there.
+        """
         original = evaluated.original
         acting = any(
             modifier.show_viewport and modifier.show_in_editmode for modifier in original.modifiers
@@ -314,7 +323,9 @@ class InstanceCollector:
 
 
 def _object_slots(owner) -> tuple:
-    """Return (index, material) of the object's own slots, which replace the materials of its data."""
+    """Return (index, material) of the object's own slots, which replace the materials of its
+    data.
+    """
     return tuple(
         (i, slot.material.original if slot.material else None)
         for i, slot in enumerate(owner.material_slots)
@@ -323,7 +334,9 @@ def _object_slots(owner) -> tuple:
 
 
 def _slots(mesh, owner) -> tuple:
-    """Return the original materials of an evaluated mesh in the order of slots, None for empty slots."""
+    """Return the original materials of an evaluated mesh in the order of slots, None for empty
+    slots.
+    """
     slots = list(mesh.materials)
     if owner is not None:
         if not slots:  # a copy of an edit mesh has none of its own
@@ -335,7 +348,9 @@ def _slots(mesh, owner) -> tuple:
 
 
 def shows_itself(obj, instanced: bool) -> bool:
-    """Return whether the viewport shows the object's own geometry beside its instances and particles."""
+    """Return whether the viewport shows the object's own geometry beside its instances and
+    particles.
+    """
     instancer = instanced or obj.instance_type != "NONE" or len(obj.particle_systems) > 0
     return obj.show_instancer_for_viewport or not instancer
 
@@ -357,7 +372,9 @@ def _needs_instance_list(obj) -> bool:
 
 
 def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:
-    """Yield the objects of a collection and its children, each once, unless the property `switch` disables them."""
+    """Yield the objects of a collection and its children, each once, unless the property `switch`
+    disables them.
+    """
     visited = set()
     pending = [collection]
     while pending:

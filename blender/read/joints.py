@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Joints of robots, read from rigid-body constraints, from bones, and from the custom properties of both."""
+"""Joints of robots, read from rigid-body constraints, from bones, and from the custom properties of
+both.
+"""
 
 from __future__ import annotations
 
@@ -25,9 +27,10 @@ def is_passive(obj: Object) -> bool:
     return obj.rigid_body is not None and obj.rigid_body.type == "PASSIVE"
 
 
-# For each kind of constraint, its free axes: the kind, the index of an axis of the constraint, the sign of the limits.
-# Blender counts angles of the first object relative to the second, but a piston's and all lengths of the second
-# relative to the first. A generic constraint moves along its axes, then turns about z, y and x.
+# For each kind of constraint, its free axes: the kind, the index of an axis of the constraint, the
+# sign of the limits. Blender counts angles of the first object relative to the second, but a
+# piston's and all lengths of the second relative to the first. A generic constraint moves along its
+# axes, then turns about z, y and x.
 _ROTATIONS = (("rotate", 2, -1.0), ("rotate", 1, -1.0), ("rotate", 0, -1.0))
 _GENERIC = (*(("translate", axis, 1.0) for axis in range(3)), *_ROTATIONS)
 CONSTRAINTS: dict[str, tuple[tuple[str, int, float], ...]] = {
@@ -44,7 +47,9 @@ CONSTRAINTS: dict[str, tuple[tuple[str, int, float], ...]] = {
 def constraint_connections(
     scene: Scene, labels: Mapping[Object, str], unit: float
 ) -> tuple[list[Connection], list[Candidate], list[Finding]]:
-    """Return the constraints of labeled objects as joints, frames of unlabeled passive objects, and findings."""
+    """Return the constraints of labeled objects as joints, frames of unlabeled passive objects, and
+    findings.
+    """
     connections: list[Connection] = []
     bases: dict[str, Candidate] = {}
     findings: list[Finding] = []
@@ -80,7 +85,9 @@ def _pose(obj: Object, unit: float) -> Pose:
 def _freedom(
     constraint: RigidBodyConstraint, values: Mapping[str, float], unit: float
 ) -> tuple[FreeAxis, ...]:
-    """Return the free axes of a constraint, with the values of its springs unless `values` states them."""
+    """Return the free axes of a constraint, with the values of its springs unless `values` states
+    them.
+    """
     free = []
     for kind, index, sign in CONSTRAINTS[constraint.type]:
         turns = kind == "rotate"
@@ -113,7 +120,9 @@ def _freedom(
 def joint_values(
     owner: Object | PoseBone,
 ) -> tuple[dict[str, float], Mimic | None, list[Finding]]:
-    """Return the values of a joint that are custom properties, its mimic, and findings about unusable properties."""
+    """Return the values of a joint that are custom properties, its mimic, and findings about
+    unusable properties.
+    """
     values: dict[str, float] = {}
     findings: list[Finding] = []
     for name in (*VALUES, "mimic_multiplier", "mimic_offset"):
@@ -141,7 +150,9 @@ def joint_values(
 def bone_freedom(
     bone: PoseBone, values: Mapping[str, float] = MappingProxyType({}), unit: float = 1.0
 ) -> tuple[FreeAxis, ...]:
-    """Return a bone's unlocked axes of movement and of rotation with limits, in m, by constraints and IK."""
+    """Return a bone's unlocked axes of movement and of rotation with limits, in m, by constraints
+    and IK.
+    """
     turns = {
         axis: (getattr(bone, "ik_min_" + axis), getattr(bone, "ik_max_" + axis))
         for axis in "xyz"
@@ -169,7 +180,9 @@ def bone_freedom(
 
 
 def _bone_limits(bone: PoseBone, kind: str, *uses: str) -> dict[str, tuple[float, float]]:
-    """Return the limits of a bone's constraints of a kind in local space, by axis. uses: switches of both ends."""
+    """Return the limits of a bone's constraints of a kind in local space, by axis. uses: switches
+    of both ends.
+    """
     limits = {}
     for constraint in bone.constraints:
         if constraint.type != kind or constraint.owner_space != "LOCAL" or not constraint.enabled:
@@ -183,5 +196,7 @@ def _bone_limits(bone: PoseBone, kind: str, *uses: str) -> dict[str, tuple[float
 
 
 def bone_parents(bone: PoseBone, labels: Mapping[str, str]) -> list[str]:
-    """Return the labels of a bone's parents, the nearest first; `labels` maps the names of bones that are links."""
+    """Return the labels of a bone's parents, the nearest first; `labels` maps the names of bones
+    that are links.
+    """
     return [labels[above.name] for above in bone.parent_recursive if above.name in labels]

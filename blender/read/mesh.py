@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mesh and edit mesh to Surface, at the speed of copying arrays; digests, fast enough for every evaluation.
+"""Mesh and edit mesh to Surface, at the speed of copying arrays; digests, fast enough for every
+evaluation.
 
-`foreach_get` on an attribute is one memory copy if the buffer has the attribute's own type; the same numbers through
-`vertex_values`, `loops` and `loop_triangles` cost 10 to 100 times as much. The sizes of the faces follow from the
-attribute `loop_triangle_polygons`. Only n-gons need `loop_triangles`; core/mesh/surface.py cuts quads as Blender does.
+`foreach_get` on an attribute is one memory copy if the buffer has the attribute's own type; the
+same numbers through `vertex_values`, `loops` and `loop_triangles` cost 10 to 100 times as much. The
+sizes of the faces follow from the attribute `loop_triangle_polygons`. Only n-gons need
+`loop_triangles`; core/mesh/surface.py cuts quads as Blender does.
 """
 
 from __future__ import annotations
@@ -33,7 +35,9 @@ MAX_DIGESTED_FACES = 50_000  # faces: reading and digesting them takes 2 ms
 
 
 def plain_mesh(obj, depsgraph):
-    """Return the evaluated mesh of an object that only shows this mesh, or None if `read_object` is needed."""
+    """Return the evaluated mesh of an object that only shows this mesh, or None if `read_object` is
+    needed.
+    """
     data, parent = obj.data, obj.parent
     if (
         obj.type != "MESH"
@@ -51,17 +55,22 @@ def plain_mesh(obj, depsgraph):
 
 
 def mesh_surface(mesh, *, edges: bool = True) -> Surface:
-    """Return the surface of a `bpy.types.Mesh` as copied arrays, in its coordinates; edges take a fifth of the time."""
+    """Return the surface of a `bpy.types.Mesh` as copied arrays, in its coordinates; edges take a
+    fifth of the time.
+    """
     points = vertex_points(mesh)
     corners = _attribute(mesh, ".corner_vert", "value", (len(mesh.loops),), np.int32)
     faces = _faces(mesh, corners)
-    # The memory that sorting the faces took is free again: getting new memory costs more than filling it.
+    # The memory that sorting the faces took is free again: getting new memory costs more than
+    # filling it.
     named = _attribute(mesh, ".corner_edge", "value", corners.shape, np.int32) if edges else None
     return Surface(points, corner_vertices=corners, corner_edges=named, **faces)
 
 
 def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | None:
-    """Return (n, 3) points of a `bpy.types.Mesh`, or None if the vertices at its corners are not `corners`."""
+    """Return (n, 3) points of a `bpy.types.Mesh`, or None if the vertices at its corners are not
+    `corners`.
+    """
     if len(mesh.loops) != len(corners):
         return None
     if not np.array_equal(
@@ -77,7 +86,9 @@ def vertex_points(mesh) -> NDArray[np.float32]:
 
 
 def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
-    """Return the triangles and quads of a mesh, and the indices of their faces, as arguments of `Surface`."""
+    """Return the triangles and quads of a mesh, and the indices of their faces, as arguments of
+    `Surface`.
+    """
     faces = len(mesh.polygons)
     if not faces:
         return {}
@@ -112,7 +123,9 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
 
 
 def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
-    """Return the result of `read` for a mesh in Edit Mode, by a copy: a BMesh gives its elements one by one only."""
+    """Return the result of `read` for a mesh in Edit Mode, by a copy: a BMesh gives its elements
+    one by one only.
+    """
     copy = bpy.data.meshes.new("Body Moments Reading")
     try:
         bmesh.from_edit_mesh(mesh).to_mesh(copy)
@@ -122,7 +135,9 @@ def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
 
 
 def face_slots(mesh) -> NDArray[np.int32]:
-    """Return (f,) material indices of the faces, some of which may be beyond the last slot of the mesh."""
+    """Return (f,) material indices of the faces, some of which may be beyond the last slot of the
+    mesh.
+    """
     if mesh.attributes.get("material_index") is None:  # then all faces have the first material
         return np.zeros(len(mesh.polygons), np.int32)
     return _attribute(mesh, "material_index", "value", (len(mesh.polygons),), np.int32)
@@ -161,7 +176,9 @@ def _loop_triangles(mesh, indices: NDArray) -> NDArray[np.int32]:
 
 
 def shape_digest(obj: Object, depsgraph: Depsgraph) -> bytes | None:
-    """Return a digest of a mesh object's faces; None for other types, modes, large meshes, instancers, node trees."""
+    """Return a digest of a mesh object's faces; None for other types, modes, large meshes,
+    instancers, node trees.
+    """
     if (
         obj.type != "MESH"
         or obj.mode != "OBJECT"

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An object as a Reading: its surfaces in the viewport, and a finding for each decision.
 
-Reading changes nothing. An object that Blender has not evaluated is refused, never read without its modifiers.
+Reading changes nothing. An object that Blender has not evaluated is refused, never read without its
+modifiers.
 """
 
 from __future__ import annotations
@@ -27,10 +28,11 @@ from .visibility import evaluated_geometry, require_kind, why_not_evaluated
 def read_object(
     obj, depsgraph, *, materials: bool = False, attribute: str | None = None, edges: bool = True
 ) -> Reading:
-    """Read an object, original or evaluated, as it is in the up-to-date viewport `depsgraph`, or raise ReadError.
+    """Read an object, original or evaluated, as it is in the up-to-date viewport `depsgraph`, or
+    raise ReadError.
 
-    materials: read the materials of its faces, too. attribute: name of a float attribute on vertices to read. edges:
-    read the edges that prove surfaces closed.
+    materials: read the materials of its faces, too. attribute: name of a float attribute on
+    vertices to read. edges: read the edges that prove surfaces closed.
     """
     obj = obj.original
     require_kind(obj)
@@ -53,7 +55,9 @@ def read_object(
 
 
 def read_lines(obj, depsgraph) -> Reading:
-    """Read the curves of a curve object, original or evaluated, or raise ReadError for other kinds."""
+    """Read the curves of a curve object, original or evaluated, or raise ReadError for other
+    kinds.
+    """
     obj = obj.original
     if obj.type != "CURVE":
         raise ReadError(ONLY_CURVES_ARE_WIRES, subject=obj.name)
@@ -63,7 +67,9 @@ def read_lines(obj, depsgraph) -> Reading:
 
 
 def read_patches(obj, depsgraph) -> Reading | None:
-    """Read the patches of a surface object; None for an instancer, or if the mesh must be measured."""
+    """Read the patches of a surface object; None for an instancer, or if the mesh must be
+    measured.
+    """
     obj = obj.original
     reading = locate(obj, depsgraph)
     if obj.instance_type != "NONE":
@@ -81,7 +87,9 @@ def read_patches(obj, depsgraph) -> Reading | None:
 
 
 def locate(obj, depsgraph) -> Reading:
-    """Return a reading that only has an evaluated object's name, type and place, or raise ReadError."""
+    """Return a reading that only has an evaluated object's name, type and place, or raise
+    ReadError.
+    """
     evaluated = obj.evaluated_get(depsgraph)
     if not evaluated.is_evaluated:
         raise ReadError(why_not_evaluated(obj, depsgraph), subject=obj.name)
@@ -99,7 +107,9 @@ def locate(obj, depsgraph) -> Reading:
 
 
 def require_finite(obj, points: NDArray, source: str = "") -> None:
-    """Raise ReadError if (n, 3) points of an object, or of an instance of the object `source`, are not finite."""
+    """Raise ReadError if (n, 3) points of an object, or of an instance of the object `source`, are
+    not finite.
+    """
     misplaced = np.flatnonzero(~np.isfinite(points).all(axis=1))
     if len(misplaced):
         found = finding(NON_FINITE_VERTICES, misplaced, count=len(misplaced), total=len(points))

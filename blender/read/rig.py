@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A skinned character: the meshes that an armature deforms, and the objects parented to bones. Loads no numpy."""
+"""A skinned character: the meshes that an armature deforms, and the objects parented to bones.
+
+Loads no numpy.
+"""
 
 from __future__ import annotations
 
@@ -68,9 +71,11 @@ def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[O
 
 
 def held_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str]]:
-    """Return (object, bone) of measurable objects that a constraint holds to a bone as evaluated, and their children.
+    """Return (object, bone) of measurable objects that a constraint holds to a bone as evaluated,
+    and their children.
 
-    Objects that the armature deforms, and those parented to its bones, are parts of the character already.
+    Objects that the armature deforms, and those parented to its bones, are parts of the character
+    already.
     """
     found: dict[Object, str] = {}
     for obj in depsgraph.view_layer.objects:
@@ -96,7 +101,9 @@ def _holding_bone(obj: Object, armature: Object, depsgraph: Depsgraph) -> str:
 
 
 def rig_hash(armature: Object, objects: Iterable[Object], scene: Scene) -> str:
-    """Return a digest of the bones, the armature's scale and the objects' settings, but not of the meshes."""
+    """Return a digest of the bones, the armature's scale and the objects' settings, but not of the
+    meshes.
+    """
     keys = []
     for bone in armature.data.bones:
         settings = armature.pose.bones[bone.name].body_moments
@@ -118,13 +125,17 @@ def rig_hash(armature: Object, objects: Iterable[Object], scene: Scene) -> str:
 
 
 def rig_objects(armature: Object, objects: Iterable[Object]) -> list[Object]:
-    """Return the objects that a character consists of: skinned objects, then objects parented to bones."""
+    """Return the objects that a character consists of: skinned objects, then objects parented to
+    bones.
+    """
     skinned = skinned_objects(armature, objects)
     return skinned + [obj for obj, _ in hanging_objects(armature, skinned)]
 
 
 def require_armature(obj: Object | None) -> Object:
-    """Return the armature object; ReadError for any other object, and for an armature in Edit Mode."""
+    """Return the armature object; ReadError for any other object, and for an armature in Edit
+    Mode.
+    """
     if obj is None or obj.type != "ARMATURE":
         raise ReadError(NO_ACTIVE_ARMATURE)
     if obj.mode == "EDIT":

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The inputs of a plane section: selected faces, an object's faces, or the outlines of 2-D curves and text.
+"""The inputs of a plane section: selected faces, an object's faces, or the outlines of 2-D curves
+and text.
 
-Blender fills outlines that touch, coincide or cross wrongly, without a warning, so edges of a copy without fill are
-read. Only a text on a curve is read by its fill.
+Blender fills outlines that touch, coincide or cross wrongly, without a warning, so edges of a copy
+without fill are read. Only a text on a curve is read by its fill.
 """
 
 from __future__ import annotations
@@ -47,10 +48,11 @@ ZERO_SCALE = 1e-17  # a scale that `decompose()` takes for zero
 class SectionReading:
     """Faces or outlines as arrays, in the world, Blender units.
 
-    description: of the object or part, in words. points: (n, 3). triangles: (m, 3), facing as drawn, and faces: (m,)
-    the face of each; of outlines, the triangles are fans that give the plane, and loops has the points of each closed
-    outline in order. facing: (3,) front of the plane, None if the triangles decide. error: largest effect of float32
-    storage on a point. drawn_area: the area that Blender fills, of outlines in a plane. rotation, location: the object
+    description: of the object or part, in words. points: (n, 3). triangles: (m, 3), facing as
+    drawn, and faces: (m,) the face of each; of outlines, the triangles are fans that give the
+    plane, and loops has the points of each closed outline in order. facing: (3,) front of the
+    plane, None if the triangles decide. error: largest effect of float32 storage on a point.
+    drawn_area: the area that Blender fills, of outlines in a plane. rotation, location: the object
     frame; if a zero scale leaves `decompose()` without a rotation, the remaining right-angled axes.
     """
 
@@ -71,7 +73,9 @@ class SectionReading:
 def read_section(
     obj, depsgraph, *, selected: bool = True, resolution: int | None = None
 ) -> SectionReading:
-    """Read an object's faces (in Edit Mode only the `selected` ones) or its outlines, or raise ReadError."""
+    """Read an object's faces (in Edit Mode only the `selected` ones) or its outlines, or raise
+    ReadError.
+    """
     obj = obj.original
     if obj.type not in SECTION_TYPES:
         raise ReadError(FLAT_OF_TYPE, subject=obj.name)
@@ -91,7 +95,9 @@ def read_section(
 
 
 def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64]]:
-    """Return the outlines of a flat curve or text without modifiers in its own coordinates, and its `matrix_world`."""
+    """Return the outlines of a flat curve or text without modifiers in its own coordinates, and its
+    `matrix_world`.
+    """
     obj = obj.original
     place = locate(obj, depsgraph)
     curves = text_curves(obj, depsgraph) if obj.type == "FONT" else read_curves(obj, depsgraph)[0]
@@ -106,7 +112,9 @@ def _section(
     place: Reading,
     **more: Any,
 ) -> SectionReading:
-    """Return the reading of (m, 3) triangles of a surface, and the (m,) face of each; more: further fields."""
+    """Return the reading of (m, 3) triangles of a surface, and the (m,) face of each; more: further
+    fields.
+    """
     shortest = np.sqrt((place.matrix[:, :3] ** 2).sum(axis=0)).min()
     axes = polar_rotation(place.matrix[None])[0][0] if shortest < ZERO_SCALE else place.rotation
     error = float(np.linalg.norm(surface.coordinate_error))
@@ -218,7 +226,9 @@ def _require_flat_outlines(obj) -> None:
 def _spline_outlines(
     obj, resolution: int | None
 ) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
-    """Return (n, 3) spline points, the indices of each closed spline's points, and the number of open splines."""
+    """Return (n, 3) spline points, the indices of each closed spline's points, and the number of
+    open splines.
+    """
     data = obj.data.copy()
     data.dimensions, data.fill_mode = "2D", "NONE"
     if resolution is not None:
@@ -234,7 +244,8 @@ def _spline_outlines(
         copy.to_mesh_clear()
     finally:
         bpy.data.curves.remove(data)  # and the object with it
-    # Each spline is a row of points; the edge that closes it leads back from its last one to its first.
+    # Each spline is a row of points; the edge that closes it leads back from its last one to its
+    # first.
     closing = edges[edges[:, 1] < edges[:, 0]].tolist()
     loops = [np.arange(first, last + 1) for last, first in closing if last - first >= 2]
     inside = np.zeros(len(points), bool)

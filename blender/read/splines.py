@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The splines of a surface object as patches, checked against the mesh that Blender displays.
 
-Shape keys, hooks, and knots that Blender's interface does not show can make patches differ from this mesh. Then control
-points are recovered from its vertices, a linear problem in each direction; if a difference remains, the mesh is
-measured. Blender does not show evaluated control points, so shape keys and hooks are applied by the formulas of key.cc
-and MOD_hook.cc in float64. Splines of an object read from a file are a picture of the file's faces, which `keep_faces`
-keeps.
+Shape keys, hooks, and knots that Blender's interface does not show can make patches differ from
+this mesh. Then control points are recovered from its vertices, a linear problem in each direction;
+if a difference remains, the mesh is measured. Blender does not show evaluated control points, so
+shape keys and hooks are applied by the formulas of key.cc and MOD_hook.cc in float64. Splines of an
+object read from a file are a picture of the file's faces, which `keep_faces` keeps.
 """
 
 from __future__ import annotations
@@ -26,14 +26,15 @@ from ...core.verdict.finding import ReadError, finding
 from .findings import CONTROL_POINTS_RECOVERED, SCALE_ZERO_AXIS, SPLINES_LEFT_OUT
 from .mesh import read_array, vertex_points
 
-AGREEMENT_RTOL = 4e-6  # relative to the largest coordinate: error of float32 evaluation, up to order 6 by order 6
+# relative to the largest coordinate: error of float32 evaluation, up to order 6 by order 6
+AGREEMENT_RTOL = 4e-6
 RECOVERY_RTOL = 1e-6  # relative to the size: error of recovered control points
 MAX_CONDITION = 1e4  # largest condition number of a direction's samples
 
 
 _faces_of_file: dict[int, SplineReading] = {}  # by the identifier of the data in this session
-# These move control points whatever their switch says (curve_get_tessellate_point in displist.cc); other modifiers only
-# with `use_apply_on_spline`. None does after the first constructive modifier.
+# These move control points whatever their switch says (curve_get_tessellate_point in displist.cc);
+# other modifiers only with `use_apply_on_spline`. None does after the first constructive modifier.
 ALWAYS_ON_SPLINE = {"HOOK", "SOFT_BODY", "MESH_DEFORM"}
 CONSTRUCTIVE = {
     "ARRAY",
@@ -68,13 +69,17 @@ FALLOFFS = {
 
 
 def keep_faces(readings: dict[Curve, SplineReading]) -> None:
-    """Register the faces of a file, by which objects are measured instead of by their splines; forget other files."""
+    """Register the faces of a file, by which objects are measured instead of by their splines;
+    forget other files.
+    """
     _faces_of_file.clear()
     _faces_of_file.update({data.session_uid: reading for data, reading in readings.items()})
 
 
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
-    """Return the patches of a surface object, checked against `mesh` if given; None if the mesh must be measured."""
+    """Return the patches of a surface object, checked against `mesh` if given; None if the mesh
+    must be measured.
+    """
     original = evaluated.original
     if original.data.session_uid in _faces_of_file:
         return _faces_of_file[original.data.session_uid]
@@ -165,7 +170,9 @@ def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
 def _verified(
     patches: list[Patch], samples: list[tuple[NDArray, NDArray]], shown: NDArray, tolerance: float
 ) -> list[Patch] | None:
-    """Return the patches if they agree with the display mesh, else patches computed from the mesh, or None."""
+    """Return the patches if they agree with the display mesh, else patches computed from the mesh,
+    or None.
+    """
     counts = [len(v) * len(u) for v, u in samples]
     if sum(counts) != len(shown):
         return None
@@ -200,7 +207,9 @@ def _agrees(
 def _interpolating_patch(
     patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray
 ) -> Patch | None:
-    """Return the patch with the same spaces and weights that interpolates the samples; None if singular."""
+    """Return the patch with the same spaces and weights that interpolates the samples; None if
+    singular.
+    """
     inverses = []
     for table in sample:
         acting = table.any(axis=0)
@@ -216,7 +225,9 @@ def _interpolating_patch(
 
 
 def spline_modifiers(obj) -> tuple[list, list]:
-    """Return the modifiers that move control points, and the later modifiers, which change the mesh."""
+    """Return the modifiers that move control points, and the later modifiers, which change the
+    mesh.
+    """
     shown = [
         modifier
         for modifier in obj.modifiers
@@ -239,7 +250,9 @@ def is_deformed(evaluated) -> bool:
 
 
 def deform(evaluated, points: NDArray, depsgraph) -> NDArray[np.float64]:
-    """Return (n, 3) control points of all splines in turn, moved by shape keys and hooks, or raise ReadError."""
+    """Return (n, 3) control points of all splines in turn, moved by shape keys and hooks, or raise
+    ReadError.
+    """
     points = np.asarray(points, np.float64)
     keys = evaluated.data.shape_keys
     if keys is not None and evaluated.original.mode != "EDIT":

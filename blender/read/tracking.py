@@ -8,7 +8,9 @@ from contextlib import ContextDecorator
 
 
 class tracking_paused(ContextDecorator):
-    """Note no change while the block or function runs: for changes that leave every object's shape as it was."""
+    """Note no change while the block or function runs: for changes that leave every object's shape
+    as it was.
+    """
 
     depth = 0
 

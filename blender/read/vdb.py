@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A grid of a volume, read by Blender's openvdb module in blocks, without the empty space.
 
-An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side; the depth of a value shows if its node of 128 exists.
+An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side; the depth of a value shows if its node
+of 128 exists.
 """
 
 from __future__ import annotations
@@ -51,8 +52,9 @@ def openvdb() -> ModuleType | None:
 class VdbGrid:
     """A grid of a .vdb file.
 
-    low, shape: (3,) the box of its active voxels, in voxels. background: value of all other voxels. level_set: true if
-    the file marks the grid as one. to_object: (4, 4) from voxels. Raises ReadError if the grid cannot be measured.
+    low, shape: (3,) the box of its active voxels, in voxels. background: value of all other voxels.
+    level_set: true if the file marks the grid as one. to_object: (4, 4) from voxels. Raises
+    ReadError if the grid cannot be measured.
     """
 
     def __init__(self, path: str, name: str) -> None:

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks that an object can be read and that Blender has evaluated it.
 
-Blender returns an object that is disabled in viewports, excluded from the view layer or in another scene without its
-modifiers, as if nothing were wrong; `evaluated_geometry()` refuses it. Merely hidden objects are read and reported.
+Blender returns an object that is disabled in viewports, excluded from the view layer or in another
+scene without its modifiers, as if nothing were wrong; `evaluated_geometry()` refuses it. Merely
+hidden objects are read and reported.
 """
 
 from __future__ import annotations
@@ -46,7 +47,9 @@ def measurable(obj) -> bool:
 
 
 def has_shape(obj) -> bool:
-    """Return whether an object may have a shape or a given mass; lights, cameras and plain empties never have one."""
+    """Return whether an object may have a shape or a given mass; lights, cameras and plain empties
+    never have one.
+    """
     return obj.type in GEOMETRY_TYPES or obj.instance_type == "COLLECTION" or is_point_mass(obj)
 
 
@@ -63,7 +66,9 @@ def shows_flat_region(obj) -> bool:
 
 
 def measurable_objects(view_layer) -> list:
-    """Return the measurable objects of a view layer by name, hidden ones included, objects measured with others not."""
+    """Return the measurable objects of a view layer by name, hidden ones included, objects measured
+    with others not.
+    """
     # A view layer that has not been updated knows neither its new objects nor their visibility.
     view_layer.update()
     objects = [
@@ -85,7 +90,9 @@ def instanced_by_parent(obj) -> bool:
 
 
 def metaball_families(view_layer) -> list[list]:
-    """Return the metaballs by family (the name before a number); the lowest number first, which holds all polygons."""
+    """Return the metaballs by family (the name before a number); the lowest number first, which
+    holds all polygons.
+    """
     families: dict[str, list] = {}
     for obj in view_layer.objects:
         if obj.type == "META":
@@ -106,7 +113,9 @@ def require_kind(obj) -> None:
 
 
 def evaluated_geometry(obj, depsgraph, reader):
-    """Return the object's `GeometrySet`, which owns its meshes, or raise ReadError that names the object `reader`."""
+    """Return the object's `GeometrySet`, which owns its meshes, or raise ReadError that names the
+    object `reader`.
+    """
     reason = _sculpt_mode_reason(obj) if obj.mode == "SCULPT" else None
     if obj.type in {"CURVE", "SURFACE"} and not _shape_keys_fit(obj.data):
         reason = finding(SHAPE_KEYS_OF_OTHER_POINTS)
@@ -121,7 +130,9 @@ def evaluated_geometry(obj, depsgraph, reader):
 
 
 def _shape_keys_fit(curve) -> bool:
-    """Return whether a curve's shape keys have as many points as its splines, which joining curves can break."""
+    """Return whether a curve's shape keys have as many points as its splines, which joining curves
+    can break.
+    """
     if curve.shape_keys is None or curve.is_editmode:
         return True
     count = sum(len(spline.bezier_points) + len(spline.points) for spline in curve.splines)
@@ -134,7 +145,9 @@ def why_not_evaluated(obj, depsgraph) -> Finding:
 
 
 def _sculpt_mode_reason(obj) -> Finding | None:
-    """Return the reason why the viewport shows something else than the evaluated mesh in Sculpt Mode, or None."""
+    """Return the reason why the viewport shows something else than the evaluated mesh in Sculpt
+    Mode, or None.
+    """
     levels = [
         modifier
         for modifier in obj.modifiers
@@ -147,7 +160,9 @@ def _sculpt_mode_reason(obj) -> Finding | None:
 
 
 def hidden_reason(obj, depsgraph) -> Finding | None:
-    """Return the reason why the view layer hides the object; None if it is visible or not updated yet."""
+    """Return the reason why the view layer hides the object; None if it is visible or not updated
+    yet.
+    """
     if obj.visible_get(view_layer=depsgraph.view_layer):
         return None
     homes = set(obj.users_collection)
@@ -186,7 +201,9 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
 
 
 def blends_keys(obj) -> bool:
-    """Return whether Edit Mode shows the object's mesh with all of its shape keys, not just the edited one."""
+    """Return whether Edit Mode shows the object's mesh with all of its shape keys, not just the
+    edited one.
+    """
     return obj.data.shape_keys is not None and obj.use_shape_key_edit_mode
 
 

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The grid of voxels that an object shows: a Volume object, or an object that nodes turn into a volume.
+"""The grid of voxels that an object shows: a Volume object, or an object that nodes turn into a
+volume.
 
-With Blender's openvdb module, unchanged grids are read from their .vdb file and others from a temporary one; without
-it, the node Sample Grid stores the value of the nearest voxel at the vertices of a mesh, in a scene made for this
-reading only, so that nothing in the user's scene is changed or evaluated anew.
+With Blender's openvdb module, unchanged grids are read from their .vdb file and others from a
+temporary one; without it, the node Sample Grid stores the value of the nearest voxel at the
+vertices of a mesh, in a scene made for this reading only, so that nothing in the user's scene is
+changed or evaluated anew.
 """
 
 from __future__ import annotations
@@ -22,9 +24,9 @@ from numpy.typing import NDArray
 from ...core.bodies.findings import GRID_TOO_LARGE
 from ...core.bodies.reading import Reading, float64_matrix, name_subject
 from ...core.density.findings import GRID_TRANSFORM_SINGULAR
+from ...core.files.findings import OTHERS_LEFT_OUT
 from ...core.mesh.surface import Surface
 from ...core.numerics.float32 import shortest_decimal
-from ...core.scans.findings import OTHERS_LEFT_OUT
 from ...core.verdict.finding import Finding, ReadError, finding
 from .decisions import modifier_findings
 from .findings import (
@@ -61,10 +63,10 @@ KINDS = {
 class VolumeReading(Reading):
     """One grid, and its place.
 
-    grid: its name. level_set: True if it is marked as one, None if unknown.
-    to_object: (4, 4) float64 from voxels to the object.
-    shape: (3,) of the box that holds its voxels; low: (3,) its offset. background: value outside all voxels.
-    blocks: yields the stored voxels, (offset in the box, array). polygons: gives the surface of a level set.
+    grid: its name. level_set: True if it is marked as one, None if unknown. to_object: (4, 4)
+    float64 from voxels to the object. shape: (3,) of the box that holds its voxels; low: (3,) its
+    offset. background: value outside all voxels. blocks: yields the stored voxels, (offset in the
+    box, array). polygons: gives the surface of a level set.
     """
 
     grid: str
@@ -79,7 +81,9 @@ class VolumeReading(Reading):
 
 @contextmanager
 def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | None]:
-    """Yield the named grid, else “density” or the first scalar grid; None if polygons or no volume are shown."""
+    """Yield the named grid, else “density” or the first scalar grid; None if polygons or no volume
+    are shown.
+    """
     obj = obj.original
     shown = _volume(obj, depsgraph)
     if shown is None:
@@ -112,7 +116,9 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
 
 
 def _volume(obj, depsgraph) -> tuple[bpy.types.Volume, bpy.types.GeometrySet] | None:
-    """Return the evaluated volume, its grids loaded, and its geometry set; None if polygons or no volume are shown."""
+    """Return the evaluated volume, its grids loaded, and its geometry set; None if polygons or no
+    volume are shown.
+    """
     if obj.type not in {"VOLUME", "MESH", "CURVE", "FONT", "SURFACE", "POINTCLOUD", "CURVES"}:
         return None
     evaluated = obj.evaluated_get(depsgraph)
@@ -139,7 +145,9 @@ def _volume(obj, depsgraph) -> tuple[bpy.types.Volume, bpy.types.GeometrySet] | 
 
 
 def _choose_grid(obj, volume: bpy.types.Volume, name: str, findings: list[Finding]):
-    """Return the grid of that name, or if the name is empty “density”, else the first scalar grid."""
+    """Return the grid of that name, or if the name is empty “density”, else the first scalar
+    grid.
+    """
     grids = {grid.name: grid for grid in volume.grids}
     if len(grids) < len(volume.grids):
         findings.append(finding(GRID_NAMES_REPEATED))
@@ -232,7 +240,9 @@ class SampledGrid:
 
     @contextmanager
     def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
-        """Yield a function that takes the first voxel of a block and its shape, and returns the values."""
+        """Yield a function that takes the first voxel of a block and its shape, and returns the
+        values.
+        """
         name = "Body Moments Reading"
         made = []
         try:
@@ -272,11 +282,13 @@ class SampledGrid:
 
 
 def _layer_at_frame_of(shown, scene):
-    """Set an empty scene to the frame of the displayed scene; return a new view layer of the empty scene.
+    """Set an empty scene to the frame of the displayed scene; return a new view layer of the empty
+    scene.
 
-    Setting `frame_current` makes Blender evaluate the animation of every scene, and so revert unkeyed changes;
-    `frame_set` evaluates this scene alone, but calls handlers, so they are removed meanwhile. The layer is new because
-    the next content of an evaluated layer would be reported as changed.
+    Setting `frame_current` makes Blender evaluate the animation of every scene, and so revert
+    unkeyed changes; `frame_set` evaluates this scene alone, but calls handlers, so they are removed
+    meanwhile. The layer is new because the next content of an evaluated layer would be reported as
+    changed.
     """
     handlers = [
         getattr(bpy.app.handlers, name) for name in ("frame_change_pre", "frame_change_post")
@@ -293,7 +305,9 @@ def _layer_at_frame_of(shown, scene):
 
 
 def _fill(tree, obj, name: str, kind: str) -> None:
-    """Add the nodes that store the values of the object's named grid at the vertices, as the attribute "value"."""
+    """Add the nodes that store the values of the object's named grid at the vertices, as the
+    attribute "value".
+    """
     for direction in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
     start, end, info, named, sample, place, store = (

@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Changes of the scene that have to see their own results, many at a time; collections of objects that are made.
+"""Changes of the scene that have to see their own results, many at a time; collections of objects
+that are made.
 
-To evaluate the scene costs as much for one changed object as for a thousand. So a change is a generator: it yields
-whenever it needs the scene evaluated, and gets the evaluated depsgraph back. Unrelated changes go forward side by side,
-with one evaluation for all of them.
+To evaluate the scene costs as much for one changed object as for a thousand. So a change is a
+generator: it yields whenever it needs the scene evaluated, and gets the evaluated depsgraph back.
+Unrelated changes go forward side by side, with one evaluation for all of them.
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ from ...core.verdict.findings import LINKED_OBJECT
 
 Planned = TypeVar("Planned")
 SceneChange = Generator[None, Depsgraph, None]  # yields once before it does anything
-# Types through which objects refer to each other: a curve by its bevel, shape keys by drivers, particles by objects.
+# Types through which objects refer to each other: a curve by its bevel, shape keys by drivers,
+# particles by objects.
 LINKING_TYPES = {
     "ARMATURE",
     "COLLECTION",
@@ -71,7 +73,9 @@ def run_change(context: Context, change: SceneChange) -> None:
 
 
 def run_together(changes: Iterable[SceneChange]) -> SceneChange:
-    """Return one change that runs several changes side by side; if one fails, the others are put back."""
+    """Return one change that runs several changes side by side; if one fails, the others are put
+    back.
+    """
     waiting = list(changes)
     try:
         for change in waiting:
@@ -93,7 +97,9 @@ def _advance(change: SceneChange, depsgraph: Depsgraph) -> bool:
 
 
 def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[Planned]]:
-    """Group changes, given with the data that they may touch, into rounds: changes of the same data follow in order."""
+    """Group changes, given with the data that they may touch, into rounds: changes of the same data
+    follow in order.
+    """
     last: dict[ID, int] = {}
     by_round: dict[int, list[Planned]] = {}
     for change, touched in changes:
@@ -104,7 +110,9 @@ def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[
 
 
 def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
-    """Return, for each object, itself and its direct and indirect users, whose look its change may affect."""
+    """Return, for each object, itself and its direct and indirect users, whose look its change may
+    affect.
+    """
     users = users_of(objects, {"OBJECT", *LINKING_TYPES})
 
     def reached(obj: Object) -> set[Object]:
@@ -120,7 +128,9 @@ def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
 
 
 def users_of(objects: Iterable[Object], through: set[str]) -> dict[ID, set[ID]]:
-    """Return the users of each object, and of each user, direct or indirect, whose type is in `through`."""
+    """Return the users of each object, and of each user, direct or indirect, whose type is in
+    `through`.
+    """
     users: dict[ID, set[ID]] = {}
     new: set[ID] = set(objects)
     while new:
@@ -131,7 +141,9 @@ def users_of(objects: Iterable[Object], through: set[str]) -> dict[ID, set[ID]]:
 
 
 def made_collection(context: Context, key: str, owner: object, name: str) -> Collection:
-    """Return the scene's collection whose ID property `key` is the owner, included in the view layer, or a new one."""
+    """Return the scene's collection whose ID property `key` is the owner, included in the view
+    layer, or a new one.
+    """
     for collection in context.scene.collection.children_recursive:
         if collection.get(key) == owner and collection.is_editable:
             _include(context, collection)
@@ -143,9 +155,11 @@ def made_collection(context: Context, key: str, owner: object, name: str) -> Col
 
 
 class MadeCollection:
-    """A scene's collection of objects made for an armature, cleared of earlier ones; everything else in it stays.
+    """A scene's collection of objects made for an armature, cleared of earlier ones; everything
+    else in it stays.
 
-    key: name of the ID property that holds the armature object, on the collection and the objects made in it.
+    key: name of the ID property that holds the armature object, on the collection and the objects
+    made in it.
     """
 
     def __init__(self, context: Context, armature: Object, key: str, name: str):
@@ -169,7 +183,9 @@ class MadeCollection:
 
 
 def _include(context: Context, collection: Collection) -> None:
-    """Include a collection in the view layer, as Blender adds rigid bodies and joints only to objects in it."""
+    """Include a collection in the view layer, as Blender adds rigid bodies and joints only to
+    objects in it.
+    """
     layers = [context.view_layer.layer_collection]
     found = []
     for layer in layers:

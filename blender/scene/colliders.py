@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colliders as objects: children of their body, in a collection of their own, displayed as wire and not rendered.
+"""Colliders as objects: children of their body, in a collection of their own, displayed as wire and
+not rendered.
 
-A hull has its vertices in the body's own coordinates and no transform of its own, so that it is exact wherever the body
-lies, and follows its scale. A primitive has its pose in the body's frame; its parent inverse undoes the body's scale.
+A hull has its vertices in the body's own coordinates and no transform of its own, so that it is
+exact wherever the body lies, and follows its scale. A primitive has its pose in the body's frame;
+its parent inverse undoes the body's scale.
 """
 
 from __future__ import annotations
@@ -59,7 +61,9 @@ def stretch_of(obj: Object, rotation: NDArray[np.float64]) -> NDArray[np.float64
 
 
 def as_stored(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Shape:
-    """Return a shape with the vertices of its hull as a mesh of the object stores them, in the object's frame in m."""
+    """Return a shape with the vertices of its hull as a mesh of the object stores them, in the
+    object's frame in m.
+    """
     if shape.surface is None:
         return shape
     local = _local_points(shape, stretch, unit)
@@ -76,7 +80,9 @@ def _local_points(shape: Shape, stretch: NDArray[np.float64], unit: float) -> ND
 
 
 def collider_mesh(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Mesh:
-    """Return the mesh of a hull in its body's own coordinates, or of a primitive in its own frame, in Blender units."""
+    """Return the mesh of a hull in its body's own coordinates, or of a primitive in its own frame,
+    in Blender units.
+    """
     mesh = bpy.data.meshes.new("Collider")
     if shape.surface is None:
         _draw_primitive(mesh, shape, unit)
@@ -87,10 +93,18 @@ def collider_mesh(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Me
 
 
 def place_colliders(
-    context: Context, obj: Object, old: Sequence[Object], shapes: Sequence[Shape], meshes: Sequence[Mesh],
-    stretch: NDArray[np.float64], unit: float, engine: str,
-) -> list[Object]:  # fmt: skip
-    """Give an object these colliders in place of its `old` ones, which are used again, and return them."""
+    context: Context,
+    obj: Object,
+    old: Sequence[Object],
+    shapes: Sequence[Shape],
+    meshes: Sequence[Mesh],
+    stretch: NDArray[np.float64],
+    unit: float,
+    engine: str,
+) -> list[Object]:
+    """Give an object these colliders in place of its `old` ones, which are used again, and return
+    them.
+    """
     collection = made_collection(context, COLLECTION, True, "Colliders")
     kept = list(old[: len(shapes)])
     unneeded = list(old[len(shapes) :])
@@ -142,7 +156,9 @@ def remove_colliders(colliders: Sequence[Object]) -> None:
 def read_colliders(
     colliders: Iterable[Object], rotation: NDArray[np.float64], unit: float
 ) -> list[Shape]:
-    """Return colliders as shapes in the frame of their body, in m; `rotation` is that of the frame."""
+    """Return colliders as shapes in the frame of their body, in m; `rotation` is that of the
+    frame.
+    """
     shapes = []
     for collider in colliders:
         stored = collider[COLLIDER]

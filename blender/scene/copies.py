@@ -1,13 +1,16 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Copies among meshes: equal points, faces and layers of data, however the elements are numbered; and their linking.
+"""Copies among meshes: equal points, faces and layers of data, however the elements are numbered;
+and their linking.
 
-A mesh is compared with the first mesh of each kind so far. The first similarity counts that lays one onto the other and
-under which the layers agree, too. So UVs and materials of symmetric shapes stay in place.
+A mesh is compared with the first mesh of each kind so far. The first similarity counts that lays
+one onto the other and under which the layers agree, too. So UVs and materials of symmetric shapes
+stay in place.
 
-If M lays the shared mesh onto an object's own one, its matrix W becomes W · M. `reframe` makes that change and keeps it
-only if neither the object nor anything that refers to it looks different. It compares the present frame, without
-shading: an object that would look different at another time, or in a render, is left out before.
+If M lays the shared mesh onto an object's own one, its matrix W becomes W · M. `reframe` makes that
+change and keeps it only if neither the object nor anything that refers to it looks different. It
+compares the present frame, without shading: an object that would look different at another time, or
+in a render, is left out before.
 """
 
 from __future__ import annotations
@@ -84,9 +87,9 @@ GENERATED = {
 class MeshData:
     """A mesh as arrays.
 
-    layers: types, domains and (n, k) values of the attributes, by name. normals: (c, 3) of the corners, if they are the
-    user's own. keys: the (n, 3) points of the shape keys. traits: all else that has to be equal, by aspect. bytes: the
-    approximate memory of the mesh.
+    layers: types, domains and (n, k) values of the attributes, by name. normals: (c, 3) of the
+    corners, if they are the user's own. keys: the (n, 3) points of the shape keys. traits: all else
+    that has to be equal, by aspect. bytes: the approximate memory of the mesh.
     """
 
     def __init__(self, mesh: Mesh, may_differ: set[str]):
@@ -130,7 +133,9 @@ class MeshData:
 
     @cached_property
     def weights(self) -> list[dict[int, float]]:
-        """The weights of each vertex by the number of the group; Blender gives them one by one only."""
+        """The weights of each vertex by the number of the group; Blender gives them one by one
+        only.
+        """
         return [
             {entry.group: entry.weight for entry in vertex.groups} for vertex in self.mesh.vertices
         ]
@@ -160,7 +165,9 @@ class MeshData:
 
 
 def _read(items: bpy_prop_collection, name: str | int = 1) -> NDArray:
-    """Return the (n, k) values of a property of all items, by default the first after `rna_type`; texts as objects."""
+    """Return the (n, k) values of a property of all items, by default the first after `rna_type`;
+    texts as objects.
+    """
     if not len(items):
         return np.empty((0, 3), np.int32)
     value = items[0].bl_rna.properties[name]
@@ -178,7 +185,9 @@ def _differing_aspects(
     found: Correspondence,
     tolerance: float,
 ) -> set[str]:
-    """Return the aspects in which two equal surfaces do not agree. groups: names of their vertex groups."""
+    """Return the aspects in which two equal surfaces do not agree. groups: names of their vertex
+    groups.
+    """
     differing = {name for name, trait in first.traits.items() if trait != second.traits[name]}
     if first.is_animated or second.is_animated:
         differing.add("ANIMATION")
@@ -235,8 +244,8 @@ def _agree(values: NDArray, others: NDArray) -> bool:
 class Copies:
     """Objects that can share a mesh.
 
-    members: objects with other meshes, and how the shared mesh's elements meet theirs. reason: the reason why the
-    objects cannot share a mesh of equal surface.
+    members: objects with other meshes, and how the shared mesh's elements meet theirs. reason: the
+    reason why the objects cannot share a mesh of equal surface.
     """
 
     data: MeshData
@@ -257,7 +266,9 @@ def find_copies(
     may_differ: set[str],
     progress: Callable[[float], None],
 ) -> list[Copies]:
-    """Return the kinds of meshes of mesh objects. progress: called with the number of compared objects."""
+    """Return the kinds of meshes of mesh objects. progress: called with the number of compared
+    objects.
+    """
     users: dict[Mesh, list[Object]] = {}
     for obj in objects:
         users.setdefault(obj.data, []).append(obj)
@@ -302,7 +313,9 @@ def find_copies(
 
 
 class Linked(NamedTuple):
-    """The linked objects, reasons for those left out, the farthest move of a vertex, and the bytes saved."""
+    """The linked objects, reasons for those left out, the farthest move of a vertex, and the bytes
+    saved.
+    """
 
     objects: list[Object]
     left_out: list[tuple[Object, Finding]]
@@ -317,7 +330,9 @@ def link_copies(
     keep_materials: bool,
     progress: Callable[[float], None] = lambda done: None,
 ) -> Linked:
-    """Let the members of each kind share its mesh; no vertex moves by more than the tolerance, relative to the size."""
+    """Let the members of each kind share its mesh; no vertex moves by more than the tolerance,
+    relative to the size.
+    """
     left_out = [
         (obj, kind.reason)
         for kind in kinds
@@ -381,7 +396,9 @@ def _is_mere_exchange(found: Correspondence) -> bool:
 
 
 def _followers(objects: set[Object]) -> dict[Object, ID]:
-    """Return, by object, data that may show its transform at another time, as by a driver or a constraint."""
+    """Return, by object, data that may show its transform at another time, as by a driver or a
+    constraint.
+    """
     found: dict[Object, ID] = {}
     for obj, users in (bpy.data.user_map(subset=objects) if objects else {}).items():
         for user in users:
@@ -397,7 +414,9 @@ def _followers(objects: set[Object]) -> dict[Object, ID]:
 
 
 def _check(obj: Object, found: Correspondence, follower: ID | None) -> None:
-    """Raise MeasureError if any part of the object depends on its axes or numbering, perhaps at another time."""
+    """Raise MeasureError if any part of the object depends on its axes or numbering, perhaps at
+    another time.
+    """
     if (
         not (obj.is_editable and obj.data.is_editable)
         or obj.override_library

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dependents of an object whose origin and axes change: its shape, its children and all other users must not move.
+"""Dependents of an object whose origin and axes change: its shape, its children and all other users
+must not move.
 
 Surfaces are compared as they are evaluated, point by point in the world, because no list of
 modifiers could say how each of them depends on an origin.
@@ -20,7 +21,8 @@ from .changes import LINKING_TYPES, users_of
 from .findings import CHILD_NOT_HELD, DEPENDENT_SHAPE_CHANGES, FOLLOWER_MOVED
 from .transforms import FLOAT32, Matrix4, world
 
-# Relative to the size: more than the rounding in a chain of modifiers, and far less than anyone can see.
+# Relative to the size: more than the rounding in a chain of modifiers, and far less than anyone can
+# see.
 SAME_SHAPE_RTOL = 1e-5
 # Points compared in each of many instances; the first instance is compared point by point.
 SAMPLES = 64
@@ -49,7 +51,9 @@ def referring(objects: set[Object]) -> dict[Object, set[Object]]:
 
 
 def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
-    """Return the world points of an object's surfaces: all of the first instance, samples of others; None if none."""
+    """Return the world points of an object's surfaces: all of the first instance, samples of
+    others; None if none.
+    """
     try:
         reading = read_object(obj, depsgraph, edges=False)
     except ReadError:
@@ -92,7 +96,9 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
 
 
 def _sample_instances(shape: Shape) -> dict[int, NDArray[np.float64]]:
-    """Return a dict from numbers of points to (k, s, 3) samples of k instances, sorted by center along a line."""
+    """Return a dict from numbers of points to (k, s, 3) samples of k instances, sorted by center
+    along a line.
+    """
     by_count: dict[int, list[NDArray[np.float64]]] = {}
     for first, rest in shape:
         sample_index = np.linspace(0, len(first) - 1, rest.shape[1]).astype(int)
@@ -116,7 +122,9 @@ def _nearly_equal(first: NDArray, second: NDArray, size: float) -> bool:
 
 
 class DependentsGuard:
-    """Objects that refer to the changed ones: children are held in place, the others are watched."""
+    """Objects that refer to the changed ones: children are held in place, the others are
+    watched.
+    """
 
     def __init__(
         self,
@@ -156,7 +164,9 @@ class DependentsGuard:
         }
 
     def compensate(self) -> None:
-        """Set the inverses of children and of Child Of constraints so that the children stay in place."""
+        """Set the inverses of children and of Child Of constraints so that the children stay in
+        place.
+        """
         held = {parent: np.linalg.solve(world(parent), was) for parent, was in self.changed.items()}
         for child, inverse in self.children.items():
             child.matrix_parent_inverse = Matrix(held[child.parent] @ inverse)
@@ -164,7 +174,9 @@ class DependentsGuard:
             constraint.inverse_matrix = Matrix(held[constraint.target] @ inverse)
 
     def verify(self, depsgraph: Depsgraph, size: float) -> None:
-        """Raise EditRefusedError if a child or another object's shape moved; followers by constraint are only noted."""
+        """Raise EditRefusedError if a child or another object's shape moved; followers by
+        constraint are only noted.
+        """
         for dependent, place in self.places.items():
             moved = self._moved(place, world(dependent), size)
             if moved and dependent in self.children:
@@ -194,7 +206,9 @@ class DependentsGuard:
 
 
 def _has_derived_shape(obj: Object) -> bool:
-    """Return whether an object's shape is more than its own data, so that it may depend on other objects."""
+    """Return whether an object's shape is more than its own data, so that it may depend on other
+    objects.
+    """
     return bool(
         obj.modifiers or obj.type in {"CURVE", "FONT"} or getattr(obj.data, "shape_keys", None)
     )

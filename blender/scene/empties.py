@@ -41,7 +41,9 @@ def place_empties(
     size: float,
     progress: Callable[[float], None],
 ) -> tuple[list[SnapTarget], dict[Object, Exception]]:
-    """Put or move empties to objects' principal frames; return the bodies whose empties were elsewhere, and errors."""
+    """Put or move empties to objects' principal frames; return the bodies whose empties were
+    elsewhere, and errors.
+    """
     existing = {
         empty[OBJECT_KEY]: empty
         for empty in context.scene.objects
@@ -85,7 +87,10 @@ def _place(
     display: str,
     size: float,
 ) -> Generator[None, Depsgraph, bool]:
-    """Move the empty, or a new one, to the body's frame; return whether it was elsewhere. Raises EditRefusedError."""
+    """Move the empty, or a new one, to the body's frame; return whether it was elsewhere.
+
+    Raises EditRefusedError.
+    """
     parent = body.obj if is_parent else None
     if existing is not None:
         return (yield from _moved(existing, body, parent, size))
@@ -117,7 +122,10 @@ def _new_empty(context: Context, obj: Object) -> Object:
 def _moved(
     empty: Object, body: SnapTarget, parent: Object | None, size: float
 ) -> Generator[None, Depsgraph, bool]:
-    """Move the empty to the body's frame; return whether it was elsewhere. EditRefusedError if it cannot be there."""
+    """Move the empty to the body's frame; return whether it was elsewhere.
+
+    EditRefusedError if it cannot be there.
+    """
     if _follows(body.obj, empty):
         raise EditRefusedError(FOLLOWS_MOVED, follower=body.obj.name, target=empty.name)
     if _is_there(empty, body) and empty.parent == parent:
@@ -176,7 +184,9 @@ def _is_there(empty: Object, body: SnapTarget) -> bool:
 
 
 def move_parent(context: Context, empty: Object, center: Sequence[float]) -> None:
-    """Put an empty at a point while its children stay; raise EditRefusedError if constraints or locks prevent it."""
+    """Put an empty at a point while its children stay; raise EditRefusedError if constraints or
+    locks prevent it.
+    """
     require_editable(empty)
     children = [child for child in empty.children if child.parent_type == "OBJECT"]
     saved = TransformChannels(empty)
@@ -213,7 +223,9 @@ def move_parent(context: Context, empty: Object, center: Sequence[float]) -> Non
 
 
 def _is_at(obj: Object, place: NDArray, tolerance: float) -> bool:
-    """Return whether an object is at a place: within `tolerance`, and with equal rotation and scale to rounding."""
+    """Return whether an object is at a place: within `tolerance`, and with equal rotation and scale
+    to rounding.
+    """
     off = np.abs(world(obj) - place)
     return bool(
         off[:, 3].max() <= tolerance and off[:, :3].max() <= PLACE_RTOL * np.abs(place[:, :3]).max()

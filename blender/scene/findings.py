@@ -6,7 +6,8 @@ from ...core.verdict.finding import error, note, warning
 
 OPEN_OBJECT = error(
     "open_object",
-    "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind to Shell.",
+    "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind "
+    "to Shell.",
 )
 BALANCE_NO_VERTICES = error(
     "balance_no_vertices",
@@ -14,7 +15,8 @@ BALANCE_NO_VERTICES = error(
 )
 BALANCE_SETTINGS = error(
     "balance_settings",
-    "Balancing needs uniform density and a thin shell or a solid. Set Density From to One Value, and Wall to Thin.",
+    "Balancing needs uniform density and a thin shell or a solid. Set Density From to One Value, "
+    "and Wall to Thin.",
 )
 BALANCE_TRIANGULATION_VARIES = error(
     "balance_triangulation_varies",
@@ -22,7 +24,8 @@ BALANCE_TRIANGULATION_VARIES = error(
 )
 BALANCE_UNCLEAN = error(
     "balance_unclean",
-    "The mesh is not closed with all faces outward. Merge by distance, fill holes and recalculate normals, or"
+    "The mesh is not closed with all faces outward. Merge by distance, fill holes and recalculate "
+    "normals, or"
     " set Kind to Shell.",
 )
 SHAPE_OF_MODIFIERS = error(
@@ -31,7 +34,8 @@ SHAPE_OF_MODIFIERS = error(
 )
 SHAPE_NOT_OF_MESH = error(
     "shape_not_of_mesh",
-    "The measured shape is made by shape keys, animation, constraints or instances. Apply or remove them.",
+    "The measured shape is made by shape keys, animation, constraints or instances. Apply or "
+    "remove them.",
 )
 FOLLOWS_MOVED = error(
     "follows_moved",
@@ -39,12 +43,14 @@ FOLLOWS_MOVED = error(
 )
 MIRROR_IMAGE = error(
     "mirror_image",
-    "A mirror image of the active object, which it cannot match. Mirror it, or turn a flat shape over.",
+    "A mirror image of the active object, which it cannot match. Mirror it, or turn a flat shape "
+    "over.",
 )
 SCAN_NON_FINITE = error("scan_non_finite", "Some samples are not finite. Remove them.")
 SURFACES_ROUNDED = note(
     "surfaces_rounded",
-    "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to {share:percent} of the "
+    "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to "
+    "{share:percent} of the "
     "size.",
 )
 PARENT_SHEARS = error(
@@ -52,7 +58,8 @@ PARENT_SHEARS = error(
 )
 CHANNEL_LOCKED = error(
     "channel_locked",
-    "The {channel:word} is locked, animated or driven. Unlock it in Object Properties > Transform, or remove the "
+    "The {channel:word} is locked, animated or driven. Unlock it in Object Properties > Transform, "
+    "or remove the "
     "animation.",
 )
 TRANSFORM_CONSTRAINED = error(
@@ -65,24 +72,29 @@ SHOWS_INSTANCES = error(
 )
 DATA_WITHOUT_TRANSFORM = error(
     "data_without_transform",
-    "Geometry of this type cannot be moved so inside its object. Use Object > Convert > Mesh, Add Empty, or Align "
+    "Geometry of this type cannot be moved so inside its object. Use Object > Convert > Mesh, Add "
+    "Empty, or Align "
     "Object to World.",
 )
 DENSITY_COORDINATES = error(
     "density_coordinates",
-    "The density polynomial uses {frame:word} coordinates, so the density would change. Change Coordinates.",
+    "The density polynomial uses {frame:word} coordinates, so the density would change. Change "
+    "Coordinates.",
 )
 BOUND_TO_ARMATURE = error(
     "bound_to_armature",
-    "Bound to the armature “{armature}”, which would not move along. Rotate the armature, or apply its modifier.",
+    "Bound to the armature “{armature}”, which would not move along. Rotate the armature, or apply "
+    "its modifier.",
 )
 OWN_AXES_USED = error(
     "own_axes_used",
-    "“{cause}” may depend on the object's own origin or axes, which would change. Show and apply it, or remove it.",
+    "“{cause}” may depend on the object's own origin or axes, which would change. Show and apply "
+    "it, or remove it.",
 )
 COPY_DIFFERS = error(
     "copy_differs",
-    "Equal to “{object}” in shape, but not in {aspects}. Allow that under May Differ, or make it equal.",
+    "Equal to “{object}” in shape, but not in {aspects}. Allow that under May Differ, or make it "
+    "equal.",
 )
 SHAPE_WOULD_CHANGE = error(
     "shape_would_change", "The shape would change. Apply the scale, or use Object > Convert > Mesh."
@@ -93,11 +105,13 @@ MODIFIERS_CHANGE_SHAPE = error(
 )
 CHILD_NOT_HELD = error(
     "child_not_held",
-    "The child “{object}” cannot be held in place. Use Object > Parent > Clear Parent on it, or make it local.",
+    "The child “{object}” cannot be held in place. Use Object > Parent > Clear Parent on it, or "
+    "make it local.",
 )
 DEPENDENT_SHAPE_CHANGES = error(
     "dependent_shape_changes",
-    "“{object}” would change shape, as it uses this object. Apply its modifier, or use Object > Convert > Mesh on it.",
+    "“{object}” would change shape, as it uses this object. Apply its modifier, or use Object > "
+    "Convert > Mesh on it.",
 )
 DATA_COPIED = note("data_copied", "The data was copied, as other objects use it.")
 FOLLOWER_MOVED = warning("follower_moved", "“{object}” follows by a constraint and moved along.")
@@ -110,7 +124,8 @@ RIGID_BODY_MASS_TOO_SMALL = error(
 )
 RIGID_WORLD_LINKED = error(
     "rigid_world_linked",
-    "The rigid body world uses the collection “{collection}”, which is linked. Give it one of this file.",
+    "The rigid body world uses the collection “{collection}”, which is linked. Give it one of this "
+    "file.",
 )
 INTERPOLATION_UNCUT = error(
     "interpolation_uncut",

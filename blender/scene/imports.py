@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects of imported files: patches with Blender's knots as surface objects, and scans as Volume objects.
+"""Objects of imported files: patches with Blender's knots as surface objects, and scans as Volume
+objects.
 
-Only Blender's operators make a grid of control points out of nothing, and only in Edit Mode. So a grid of each size is
-made once in a temporary scene; the patches of an object are joined there, and get their points last. Nothing of the
-user's scene is selected, changed or evaluated. Blender takes voxels from .vdb files only, so one is written beside the
-scan.
+Only Blender's operators make a grid of control points out of nothing, and only in Edit Mode. So a
+grid of each size is made once in a temporary scene; the patches of an object are joined there, and
+get their points last. Nothing of the user's scene is selected, changed or evaluated. Blender takes
+voxels from .vdb files only, so one is written beside the scan.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ from ...core.bodies.reading import SplineReading
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import MAX_ORDER, SurfaceBody, is_storable
 from ...core.density.grid_values import positions_text
+from ...core.files.findings import FILE_UNREADABLE
+from ...core.files.limits import Limits
 from ...core.numerics.float32 import shortest_decimal
 from ...core.nurbs.blender_knots import bezier_space
 from ...core.nurbs.flat_face import FlatFace
@@ -39,10 +42,10 @@ from ...core.scans.formats import (
 )
 from ...core.scans.numpy_files import read_raw
 from ...core.scans.scan import Scan
-from ...core.scans.scan_files import Limits, scan_suffix
-from ...core.streams.findings import FILE_UNREADABLE
+from ...core.scans.scan_files import scan_suffix
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.splines import keep_faces
+from ..scale import meters_per_unit
 from .findings import SCAN_NON_FINITE, SURFACES_ROUNDED
 
 MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit
@@ -55,7 +58,9 @@ SAMPLES_PER_SLAB = 1 << 22  # samples at a time
 def surface_object(
     name: str, patches: Sequence[Patch], factor: float = 1.0
 ) -> tuple[Object, float]:
-    """Return a surface object of *Bézier* patches in no collection, and the effect of float32 as a share."""
+    """Return a surface object of *Bézier* patches in no collection, and the effect of float32 as a
+    share.
+    """
     data, moved, origin = surface_data(name, patches, factor)
     obj = bpy.data.objects.new(name, data)
     obj.location = origin
@@ -65,7 +70,9 @@ def surface_object(
 def surface_data(
     name: str, patches: Sequence[Patch], factor: float
 ) -> tuple[Curve, float, NDArray[np.float32]]:
-    """Return the data of `surface_object`, its points' movement as a share of the size, and its origin's place."""
+    """Return the data of `surface_object`, its points' movement as a share of the size, and its
+    origin's place.
+    """
     low = factor * np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
     high = factor * np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
     size = float((high - low).max())
@@ -81,7 +88,9 @@ def surface_data(
 
 
 def _stored(patch: Patch, factor: float, origin: NDArray) -> tuple[NDArray[np.float32], float]:
-    """Return (n, 4) control points and weights as Blender has them, and the largest move of the surface."""
+    """Return (n, 4) control points and weights as Blender has them, and the largest move of the
+    surface.
+    """
     points = factor * patch.points - origin
     values = np.ones((*points.shape[:2], 4), np.float32)
     values[..., :3] = points
@@ -106,7 +115,9 @@ def _fill(spline, patch: Patch, values: NDArray[np.float32]) -> None:
 
 
 def _grids(name: str, shapes: Sequence[tuple[int, int]]) -> Curve:
-    """Return surface data with one spline, a grid of (count_v, count_u) points, for each of these pairs, in order."""
+    """Return surface data with one spline, a grid of (count_v, count_u) points, for each of these
+    pairs, in order.
+    """
     with _temporary_scene() as scene:
         models = {shape: _grid(scene, shape) for shape in dict.fromkeys(shapes)}
         objects = [bpy.data.objects.new(name, models[shape]) for shape in shapes]
@@ -181,7 +192,9 @@ def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
 def import_bodies(
     bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float
 ) -> list[tuple[Object, float]]:
-    """Add an object of each body, of patches alone, to a collection; return the pairs of `surface_object`."""
+    """Add an object of each body, of patches alone, to a collection; return the pairs of
+    `surface_object`.
+    """
     made = []
     for body in bodies:
         obj, moved = surface_object(
@@ -195,7 +208,9 @@ def import_bodies(
 def show_bodies(
     bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float
 ) -> list[Object]:
-    """Add an object for each body to a collection; it shows the body's faces and is measured by them."""
+    """Add an object for each body to a collection; it shows the body's faces and is measured by
+    them.
+    """
     made = []
     readings = {}
     for body in bodies:
@@ -214,7 +229,9 @@ def show_bodies(
 
 
 def _shown(face: Face) -> Patch:
-    """Return a patch that Blender can hold and that looks like a face: the patch itself, or one through samples."""
+    """Return a patch that Blender can hold and that looks like a face: the patch itself, or one
+    through samples.
+    """
     if isinstance(face, FlatFace):
         a, b, c, d = np.moveaxis(face.quads(SHOWN_SAMPLES), 1, 0)
         # A band along all trapezoids, with folds of no width between them.
@@ -230,7 +247,9 @@ def _shown(face: Face) -> Patch:
 
 
 class ImportedSurfaces(NamedTuple):
-    """Objects of a file of surfaces, with the number and the highest order of their patches, and findings."""
+    """Objects of a file of surfaces, with the number and the highest order of their patches, and
+    findings.
+    """
 
     objects: list[Object]
     patches: int
@@ -239,12 +258,15 @@ class ImportedSurfaces(NamedTuple):
 
 
 def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -> ImportedSurfaces:
-    """Make an object of each body in a file. unit: meters per unit of a file that states none. Raises FileError."""
+    """Make an object of each body in a file. unit: meters per unit of a file that states none.
+
+    Raises FileError.
+    """
     try:
         file = read_surfaces(path, limits)
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-    scale = shortest_decimal(context.scene.unit_settings.scale_length)
+    scale = meters_per_unit(context.scene)
     factor = (shortest_decimal(unit) if file.unit is None else file.unit) / scale
     made = import_bodies(file.bodies, context.collection, factor)
     patches = [patch for body in file.bodies for patch in body.patches]
@@ -257,7 +279,8 @@ def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -
 
 
 class PlacedScan(NamedTuple):
-    """A scan with the (4, 4) map from its voxels to meters, uneven sample positions by axis, and findings.
+    """A scan with the (4, 4) map from its voxels to meters, uneven sample positions by axis, and
+    findings.
 
     target: the .vdb file beside the scan.
     """
@@ -277,7 +300,10 @@ def read_placed(
     files: dict[str, str],
     unit: float,
 ) -> PlacedScan:
-    """Read a scan and place its samples; files: of their positions, in `unit` meters, by axis. Raises FileError."""
+    """Read a scan and place its samples; files: of their positions, in `unit` meters, by axis.
+
+    Raises FileError.
+    """
     try:
         is_raw = scan_suffix(path) == ".raw"
         scan = (
@@ -300,7 +326,9 @@ def read_placed(
 
 
 def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
-    """Write the scan whole, with `unit` meters per unit and a background of 0 or less; return the least value."""
+    """Write the scan whole, with `unit` meters per unit and a background of 0 or less; return the
+    least value.
+    """
     scan = placed.scan
     target = placed.target
     matrix = placed.matrix.copy()

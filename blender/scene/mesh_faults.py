@@ -50,7 +50,9 @@ DEFORMING_MODIFIERS = {
 
 
 def require_editable_mesh(obj: Object) -> None:
-    """Raise EditRefusedError if the mesh is linked, or modifiers give the measured mesh other elements."""
+    """Raise EditRefusedError if the mesh is linked, or modifiers give the measured mesh other
+    elements.
+    """
     if not obj.data.is_editable:  # true of linked objects, too
         raise EditRefusedError(LINKED_OBJECT)
     changing = [
@@ -63,7 +65,9 @@ def require_editable_mesh(obj: Object) -> None:
 
 
 def defects_by_kind(measurement: Measurement) -> dict[str, np.ndarray]:
-    """Return the elements of each kind of defect that a mesh has: (k, 2) vertices of edges, or (k,) faces."""
+    """Return the elements of each kind of defect that a mesh has: (k, 2) vertices of edges, or (k,)
+    faces.
+    """
     elements = measurement.health.defective_elements
     arrays = {
         field.name: np.asarray(getattr(elements, field.name), np.int64)
@@ -110,7 +114,9 @@ def _edited(mesh: bpy.types.Mesh) -> Iterator[bmesh.types.BMesh]:
 
 
 def reverse_faces(mesh: bpy.types.Mesh, elements: Sequence[Sequence[int]]) -> int:
-    """Reverse the faces in several lists of indices, or all faces if one list is empty; return the number."""
+    """Reverse the faces in several lists of indices, or all faces if one list is empty; return the
+    number.
+    """
     if not all(map(len, elements)):
         elements = [range(len(mesh.polygons))]
     indices = sorted({int(index) for part in elements for index in part})
@@ -138,7 +144,9 @@ def fill_holes(mesh: bpy.types.Mesh) -> int:
 
 
 def merge_by_distance(mesh: bpy.types.Mesh) -> int:
-    """Merge vertices that count as one when a body is measured; return the number of vertices that are gone."""
+    """Merge vertices that count as one when a body is measured; return the number of vertices that
+    are gone.
+    """
     before = len(mesh.vertices)
     points = np.empty((before, 3), np.float32)
     mesh.vertices.foreach_get("co", points.ravel())

@@ -4,9 +4,10 @@
 
 It follows modifiers and animation, renders, and works without the add-on.
 
-Over the triangles (a, b, c), with corners relative to the middle of the bounding box, the volume is Σ a·(b×c) / 6 and
-the center of mass Σ a·(b×c) (a + b + c) / 4 over Σ a·(b×c). Both sums change their sign together in a mirrored object
-or one turned inside out: the volume is the magnitude. Nodes compute in single precision: five to six digits.
+Over the triangles (a, b, c), with corners relative to the middle of the bounding box, the volume is
+Σ a·(b×c) / 6 and the center of mass Σ a·(b×c) (a + b + c) / 4 over Σ a·(b×c). Both sums change
+their sign together in a mirrored object or one turned inside out: the volume is the magnitude.
+Nodes compute in single precision: five to six digits.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from typing import NamedTuple
 import bpy
 from bpy.types import Context, GeometryNodeTree, Node, NodeSocket, Object
 
-from ...core.numerics.float32 import shortest_decimal
+from ..scale import meters_per_unit
 from ..settings.density import object_density
 
 GROUP_NAME = "Center of Mass"
@@ -156,7 +157,9 @@ def _corner(make: _Builder, index: int, position: Node, middle: Node) -> NodeSoc
 
 
 def add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object:
-    """Add an object, at the world's origin, that shows a ball at the center of mass of `obj`; return it."""
+    """Add an object, at the world's origin, that shows a ball at the center of mass of `obj`;
+    return it.
+    """
     tree = bpy.data.node_groups.new(MARKER_NAME, "GeometryNodeTree")
     tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
     tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
@@ -166,7 +169,7 @@ def add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object
     source = make.node("GeometryNodeObjectInfo", 1, transform_space="RELATIVE")
     source.inputs["Object"].default_value = obj
     nodes = make.node("GeometryNodeGroup", 2, node_tree=group)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     nodes.inputs["Density"].default_value = (
         object_density(obj.body_moments, context.scene) * unit**3
     )

@@ -7,12 +7,13 @@ inverses from P to W'⁻¹ W P. W' is read back after Blender has rounded it to 
 undoes the very matrix that is used, and D is applied in float64 with one rounding.
 
 Nothing is assumed of modifiers: the change is first made on a copy of the data, the evaluated
-surfaces in the world are compared with the earlier ones, and the change is kept only if they are the
-same. Otherwise all is put back. Other users of the data keep it as it is; the objects that are
+surfaces in the world are compared with the earlier ones, and the change is kept only if they are
+the same. Otherwise all is put back. Other users of the data keep it as it is; the objects that are
 changed get a copy of their own, shared among them.
 
-Meshes that one object alone shows unmodified need no trial: see `reframe_meshes`. Other unrelated objects are changed
-side by side. An object that is refused is tried again alone, in case the change of another object was the reason.
+Meshes that one object alone shows unmodified need no trial: see `reframe_meshes`. Other unrelated
+objects are changed side by side. An object that is refused is tried again alone, in case the change
+of another object was the reason.
 """
 
 from __future__ import annotations
@@ -127,7 +128,9 @@ def check(obj: Object) -> None:
 def reframe(
     context: Context, plans: list[Plan], progress: Callable[[float], None] = lambda done: None
 ) -> tuple[list[Plan], list[tuple[Object, Finding]]]:
-    """Carry out the plans; return the successful ones, and the reason for each object that was left as it was."""
+    """Carry out the plans; return the successful ones, and the reason for each object that was left
+    as it was.
+    """
     objects = {plan.obj for plan in plans}
     users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
     refused: dict[Object, Finding] = {}
@@ -168,7 +171,9 @@ def reframe(
 
 
 def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
-    """Return groups of plans that share data and want the same change of it; no group has a child and its parent."""
+    """Return groups of plans that share data and want the same change of it; no group has a child
+    and its parent.
+    """
     groups: list[list[Plan]] = []
     sharing: dict[ID, list[tuple[Matrix4, list[Plan]]]] = {}
     for plan in plans:
@@ -239,7 +244,9 @@ def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> Scene
 
 
 def _in_order(own: Shape | None, order: NDArray[np.intp] | None) -> Shape | None:
-    """Return a shape with its first points in another order; others have points that no order of vertices tells."""
+    """Return a shape with its first points in another order; others have points that no order of
+    vertices tells.
+    """
     if own is None or order is None:
         return own
     (first, rest), *more = own
@@ -265,7 +272,9 @@ def check_movable(obj: Object) -> None:
 
 
 def move(context: Context, plan: Plan) -> None:
-    """Move an object by `set_world_matrix`; put it back and raise the error if its shape or a lock prevents that."""
+    """Move an object by `set_world_matrix`; put it back and raise the error if its shape or a lock
+    prevents that.
+    """
     obj = plan.obj
     saved = TransformChannels(plan.obj)
     was = world(obj)
@@ -285,7 +294,9 @@ def move(context: Context, plan: Plan) -> None:
 
 
 def set_world_matrix(plan: Plan) -> SceneChange:
-    """Set the channels so that the evaluated matrix becomes the target; EditRefusedError if something else holds it."""
+    """Set the channels so that the evaluated matrix becomes the target; EditRefusedError if
+    something else holds it.
+    """
     yield
     obj = plan.obj
     outer = _parent_matrix(obj)
@@ -328,7 +339,9 @@ def _parent_matrix(obj: Object) -> Matrix4:
 
 
 def transform_data(data: ID, change: Matrix4) -> None:
-    """Map every control point of the data and its shape keys, p → change · p, or raise EditRefusedError."""
+    """Map every control point of the data and its shape keys, p → change · p, or raise
+    EditRefusedError.
+    """
     if isinstance(data, bpy.types.Mesh):
         if data.vertices:
             _transform_mesh(data, change)

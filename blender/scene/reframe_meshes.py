@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""New origins and axes of many meshes at once, for objects that show their unmodified mesh and have no users.
+"""New origins and axes of many meshes at once, for objects that show their unmodified mesh and have
+no users.
 
-The new places of their points are known, so that no trial is needed. Objects that share a mesh and want the same change
-of it go on sharing; for different changes, or if other objects use the mesh, too, it is copied. Objects that miss their
-plan, and after an error all objects, are put back and left to `reframe`, which changes each by itself.
+The new places of their points are known, so that no trial is needed. Objects that share a mesh and
+want the same change of it go on sharing; for different changes, or if other objects use the mesh,
+too, it is copied. Objects that miss their plan, and after an error all objects, are put back and
+left to `reframe`, which changes each by itself.
 """
 
 from __future__ import annotations
@@ -42,9 +44,9 @@ UNCHANGED = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 class Plan:
     """The wanted place of one object.
 
-    target: the (4, 4) matrix_world. size: of the body, in Blender units. move_only: keep the axes to the bit. findings:
-    added while the plan is carried out. mesh: shown afterwards instead of the changed data; order: the numbers of its
-    (n,) vertices in the object's own mesh.
+    target: the (4, 4) matrix_world. size: of the body, in Blender units. move_only: keep the axes
+    to the bit. findings: added while the plan is carried out. mesh: shown afterwards instead of the
+    changed data; order: the numbers of its (n,) vertices in the object's own mesh.
     """
 
     obj: Object
@@ -57,7 +59,9 @@ class Plan:
 
 
 def location_tolerance(obj: Object, size: float) -> float:
-    """Return the tolerance of an origin's location, by float32 rounding of the size and of all ancestors' locations."""
+    """Return the tolerance of an origin's location, by float32 rounding of the size and of all
+    ancestors' locations.
+    """
     return rounding_of_locations(
         size, max(np.abs(world(ancestor)[:3, 3]).max() for ancestor in ancestors(obj))
     )
@@ -69,13 +73,17 @@ def rounding_of_locations(size: PerBody, reach: PerBody) -> PerBody:
 
 
 def largest_move(difference: NDArray, reach: float) -> NDArray[np.float64]:
-    """Return the (...,) largest moves of points up to `reach` by (..., 4, 4) differences of maps."""
+    """Return the (...,) largest moves of points up to `reach` by (..., 4, 4) differences of
+    maps.
+    """
     off = np.abs(difference)
     return off[..., :3, :3].sum(axis=(-2, -1)) * reach + off[..., :3, 3].max(axis=-1)
 
 
 def data_change(was: NDArray, now: NDArray, move_only: bool) -> NDArray[np.float64]:
-    """Return (..., 4, 4) maps that keep points in place while their objects' matrices go from `was` to `now`."""
+    """Return (..., 4, 4) maps that keep points in place while their objects' matrices go from `was`
+    to `now`.
+    """
     change = np.linalg.solve(now, was)
     if move_only:
         change[..., :3, :3] = np.eye(3)
@@ -86,7 +94,9 @@ def data_change(was: NDArray, now: NDArray, move_only: bool) -> NDArray[np.float
 
 
 def shows_own_mesh(obj: Object, users: dict[Object, set[Object]]) -> bool:
-    """Return whether an object shows just its unmodified mesh, has no users, and its own channels alone place it."""
+    """Return whether an object shows just its unmodified mesh, has no users, and its own channels
+    alone place it.
+    """
     data = obj.data
     return (
         obj.type == "MESH"
@@ -107,7 +117,9 @@ def shows_own_mesh(obj: Object, users: dict[Object, set[Object]]) -> bool:
 
 
 def reframe_own_meshes(context: Context, plans: Sequence[Plan]) -> list[Object]:
-    """Carry out plans for objects that pass `shows_own_mesh`; return the finished ones and leave the others."""
+    """Carry out plans for objects that pass `shows_own_mesh`; return the finished ones and leave
+    the others.
+    """
     done: list[Object] = []
     for move_only in (True, False):
         some = [plan for plan in plans if plan.move_only == move_only]
@@ -178,7 +190,9 @@ def _reframe_alike(
 
 
 def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> list[int]:
-    """Copy meshes that are shared but to be changed differently; return the index of the first plan of each mesh."""
+    """Copy meshes that are shared but to be changed differently; return the index of the first plan
+    of each mesh.
+    """
     sharing: dict[Mesh, list[int]] = {}
     for i, plan in enumerate(plans):
         sharing.setdefault(plan.obj.data, []).append(i)
@@ -199,7 +213,9 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
 
 
 def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[list[int]]:
-    """Return groups of indices of changes that move any point within `reach` to almost the same place, to `within`."""
+    """Return groups of indices of changes that move any point within `reach` to almost the same
+    place, to `within`.
+    """
     groups = []
     left = np.arange(len(changes))
     while len(left):
@@ -216,7 +232,9 @@ def _worlds(objects: Sequence[Object]) -> NDArray[np.float64]:
 
 
 def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> NDArray[np.bool_]:
-    """Set objects' rotations and scales to (n, 3, 3) matrices; return a mask of matrices that have no shear."""
+    """Set objects' rotations and scales to (n, 3, 3) matrices; return a mask of matrices that have
+    no shear.
+    """
     turns, scales, fits = rotation_and_scale(
         linear, np.array([obj.scale for obj in objects], np.float64)
     )

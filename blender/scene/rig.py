@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects that are made for a character: rigid bodies with joints, and an empty at its center of mass.
+"""Objects that are made for a character: rigid bodies with joints, and an empty at its center of
+mass.
 
-A bone's part moves with the bone, so an empty at the part's center is parented to the bone. Copy Location constraints
-put one more empty at the weighted mean of these: the influence of each is its part's share of the mass so far.
+A bone's part moves with the bone, so an empty at the part's center is parented to the bone. Copy
+Location constraints put one more empty at the weighted mean of these: the influence of each is its
+part's share of the mass so far.
 """
 
 from __future__ import annotations
@@ -14,9 +16,9 @@ from bpy.types import Context, Object, PoseBone
 from mathutils import Matrix, Vector
 
 from ...core.mesh.surface import join_surfaces
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError
 from ..bodies.rig import BonePart, Rig
+from ..scale import meters_per_unit
 from .changes import MadeCollection
 from .findings import RIGID_BODY_MASS_TOO_SMALL
 from .rigid_world import MIN_MASS, add_joint, add_rigid_bodies, require_rigid_world
@@ -28,7 +30,7 @@ RIG_OF = "physics_rig_of"
 def add_center(context: Context, rig: Rig) -> None:
     """Add an empty that follows the character's center of mass."""
     armature = rig.armature
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     made = MadeCollection(context, armature, CENTER_OF, "Center of Mass")
     center = bpy.data.objects.new("{:s} Center of Mass".format(armature.name), None)
     center.empty_display_type = "SPHERE"
@@ -82,7 +84,7 @@ def create_physics_rig(context: Context, rig: Rig) -> tuple[int, int]:
                 limit=MIN_MASS,
             )
     require_rigid_world(context.scene, joints=True)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     made = MadeCollection(context, rig.armature, RIG_OF, "Physics Rig")
     bodies = {part.name: _body(made, rig.armature, part, unit) for part in parts}
     add_rigid_bodies(context, list(bodies.values()))
@@ -104,7 +106,9 @@ def create_physics_rig(context: Context, rig: Rig) -> tuple[int, int]:
 
 
 def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -> Object:
-    """Add the object of a part: its closed pieces, in a frame at its center along its principal axes."""
+    """Add the object of a part: its closed pieces, in a frame at its center along its principal
+    axes.
+    """
     assert part.measurement is not None
     body = part.measurement.mass_properties
     frame = np.eye(4)

@@ -29,7 +29,9 @@ def down(scene: Scene) -> NDArray[np.float64]:
 
 
 def require_rigid_world(scene: Scene, joints: bool = False) -> None:
-    """Raise EditRefusedError if the scene takes no new rigid bodies or, with `joints`, no new joints."""
+    """Raise EditRefusedError if the scene takes no new rigid bodies or, with `joints`, no new
+    joints.
+    """
     world = scene.rigidbody_world
     if world is None:
         return

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sculpt Balance: chosen vertices of a mesh are moved as little as brings its center of mass over a point.
+"""Sculpt Balance: chosen vertices of a mesh are moved as little as brings its center of mass over a
+point.
 
-Without chosen vertices the body leans: each vertex moves in proportion to its height, so that no face turns over.
-The change is made on the mesh itself, and the object is measured again in the usual way. If faces that are not flat are
-then cut into other triangles, the change is solved again for these. A change that misses the point is undone.
+Without chosen vertices the body leans: each vertex moves in proportion to its height, so that no
+face turns over. The change is made on the mesh itself, and the object is measured again in the
+usual way. If faces that are not flat are then cut into other triangles, the change is solved again
+for these. A change that misses the point is undone.
 """
 
 from __future__ import annotations
@@ -20,7 +22,6 @@ from numpy.typing import NDArray
 from ...core.bodies.reading import Part
 from ...core.measurement.measurement import Measurement
 from ...core.moments.moments import Measure
-from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.balancing import balance
 from ...core.statics.findings import BALANCE_NO_EFFECT, BALANCE_SHORT
 from ...core.verdict.finding import EditRefusedError, MeasureError
@@ -31,6 +32,7 @@ from ..read.findings import SCALE_ZERO_AXIS
 from ..read.mesh import vertex_points
 from ..read.objects import read_object
 from ..read.tracking import tracking_paused
+from ..scale import meters_per_unit
 from .findings import (
     BALANCE_NO_VERTICES,
     BALANCE_SETTINGS,
@@ -49,7 +51,9 @@ ROUNDING = 1e-7  # relative to the body's size; a coordinate below is reported a
 
 @dataclass(frozen=True)
 class Balanced:
-    """The number of moved vertices, the longest move in m, and (3,) the center of mass before and after, in m."""
+    """The number of moved vertices, the longest move in m, and (3,) the center of mass before and
+    after, in m.
+    """
 
     count: int
     distance: float
@@ -60,8 +64,8 @@ class Balanced:
 class _Vertices:
     """The vertices of a mesh that may move.
 
-    start: (n, 3) points of the mesh. movable: (k,) indices. weights: (k,), how freely each moves. leans: whether the
-    whole body leans.
+    start: (n, 3) points of the mesh. movable: (k,) indices. weights: (k,), how freely each moves.
+    leans: whether the whole body leans.
     """
 
     start: NDArray[np.float32]
@@ -96,7 +100,9 @@ class _EditedMesh(_Vertices):
 
 
 class _StoredMesh(_Vertices):
-    """The vertices of one of the vertex groups of an object in Object Mode; without groups, all of them, which lean."""
+    """The vertices of one of the vertex groups of an object in Object Mode; without groups, all of
+    them, which lean.
+    """
 
     def __init__(self, obj: Object, name: str):
         self.mesh = obj.data
@@ -126,10 +132,12 @@ class _StoredMesh(_Vertices):
 def balance_mesh(
     context: Context, obj: Object, group: str, point: Sequence[float], align: str, longest: float
 ) -> Balanced:
-    """Move vertices so that the center of mass comes over a point, or raise MeasureError and leave them in place."""
+    """Move vertices so that the center of mass comes over a point, or raise MeasureError and leave
+    them in place.
+    """
     mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _StoredMesh(obj, group)
     up = -down(context.scene)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     across = np.eye(3) if align == "ALL" else np.linalg.svd(up[None])[2][1:]
     target = np.array(point, np.float64) * unit
     _require_balanceable(obj)
@@ -203,7 +211,8 @@ def balance_mesh(
 
 
 def _lean(points: NDArray, center: NDArray, shift: NDArray, up: NDArray) -> NDArray[np.float64]:
-    """Return (n, 3) moves in proportion to the height above the lowest of the points, by `shift` at the center.
+    """Return (n, 3) moves in proportion to the height above the lowest of the points, by `shift` at
+    the center.
 
     Raise MeasureError if the center is, or would come to be, no higher than the lowest point.
     """
@@ -215,7 +224,9 @@ def _lean(points: NDArray, center: NDArray, shift: NDArray, up: NDArray) -> NDAr
 
 
 def _require_balanceable(obj: Object) -> None:
-    """Raise EditRefusedError if the mesh is linked or has shape keys, or the object is a shell with a real wall."""
+    """Raise EditRefusedError if the mesh is linked or has shape keys, or the object is a shell with
+    a real wall.
+    """
     if not obj.data.is_editable:
         raise EditRefusedError(LINKED_OBJECT)
     if obj.data.shape_keys is not None:
@@ -225,7 +236,9 @@ def _require_balanceable(obj: Object) -> None:
 
 
 def _measure(context: Context, obj: Object) -> Measurement:
-    """Measure the object in the usual way; EditRefusedError if its center cannot be differentiated by its vertices."""
+    """Measure the object in the usual way; EditRefusedError if its center cannot be differentiated
+    by its vertices.
+    """
     measurement = measure_object(obj, context.evaluated_depsgraph_get())
     if measurement.mass_moments[0].measure == Measure.MASS:
         raise EditRefusedError(BALANCE_SETTINGS)
@@ -237,7 +250,9 @@ def _measure(context: Context, obj: Object) -> Measurement:
 
 
 def _read_surface(context: Context, obj: Object, mesh: _Vertices | None) -> Part:
-    """Return the measured surface; raise EditRefusedError if its vertices are not those of `mesh`."""
+    """Return the measured surface; raise EditRefusedError if its vertices are not those of
+    `mesh`.
+    """
     reading = read_object(obj, context.evaluated_depsgraph_get(), edges=False)
     part = reading.parts[0]
     if reading.all_singular:

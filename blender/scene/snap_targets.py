@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Targets of snapping operators: the place of a body, in Blender units, the new frames for its object, and matches.
+"""Targets of snapping operators: the place of a body, in Blender units, the new frames for its
+object, and matches.
 
-Coordinates in float32 do not fix the directions of nearly equal moments: when a body is measured again, they turn by
-about the rounding divided by the gap between the moments. Whether axes are principal is therefore decided by the
-tensor, which must be diagonal in them to rounding, not from the angle between two measured frames.
+Coordinates in float32 do not fix the directions of nearly equal moments: when a body is measured
+again, they turn by about the rounding divided by the gap between the moments. Whether axes are
+principal is therefore decided by the tensor, which must be diagonal in them to rounding, not from
+the angle between two measured frames.
 """
 
 from __future__ import annotations
@@ -20,13 +22,13 @@ from numpy.typing import NDArray
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.plain_body import EQUAL_AXES
 from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
-from ...core.numerics.float32 import shortest_decimal
 from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict.finding import EditRefusedError, Finding
 from ...core.verdict.method import Procedure
 from ..bodies.measure_object import Measured, measure_body
 from ..bodies.stacks.many import measured_in_turn
 from ..bodies.stacks.stack import Stacked
+from ..scale import meters_per_unit
 from ..settings.options import MeasureOptions
 from . import reframe
 from .changes import ancestors
@@ -47,9 +49,10 @@ UNIT_SCALE = 1e-6  # largest deviation of the products of an object's axes from 
 class SnapTarget:
     """An object as measured now, world axes, lengths in Blender units.
 
-    center (3,), axes (3, 3) principal, as columns, det +1; inertia (3, 3) about the center in kg·m²; gyration (3,)
-    radii; size: the largest of them; finding: about free choices. shape_axes: indices of axes of equal moments that the
-    shape itself fixes; is_unique: whether it fixes all axes.
+    center (3,), axes (3, 3) principal, as columns, det +1; inertia (3, 3) about the center in
+    kg·m²; gyration (3,) radii; size: the largest of them; finding: about free choices. shape_axes:
+    indices of axes of equal moments that the shape itself fixes; is_unique: whether it fixes all
+    axes.
     """
 
     obj: Object
@@ -86,7 +89,9 @@ class SnapTarget:
         return float(self.gyration.max())
 
     def is_principal(self, frame: NDArray) -> bool:
-        """Return whether the columns of `frame` are this body's principal axes, as far as its coordinates can show."""
+        """Return whether the columns of `frame` are this body's principal axes, as far as its
+        coordinates can show.
+        """
         tensor = frame.T @ self.inertia @ frame
         limit = DIAGONAL_RTOL * np.trace(tensor)
         diagonal = np.diag(tensor)
@@ -100,20 +105,26 @@ class SnapTarget:
         )
 
     def _matches_shape_axes(self, frame: NDArray) -> bool:
-        """Return whether axes of equal moments lie as the shape requires; a cube's axes may be swapped or reversed."""
+        """Return whether axes of equal moments lie as the shape requires; a cube's axes may be
+        swapped or reversed.
+        """
         cosines = (frame.T @ self.axes)[:, self.shape_axes]
         expected = np.eye(3)[:, self.shape_axes] if self.is_unique else np.round(cosines)
         return bool((np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all())
 
 
 def targets_in_turn(context: Context, objects: Sequence[Object]) -> Callable[[Object], SnapTarget]:
-    """Return a function that gives the `snap_target` of one object at a time, measured in batches, in a fixed scene."""
+    """Return a function that gives the `snap_target` of one object at a time, measured in batches,
+    in a fixed scene.
+    """
     measured = measured_in_turn(objects, context.evaluated_depsgraph_get(), POSE)
     return lambda obj: target_of(context, obj, measured(obj), False)
 
 
 def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarget:
-    """Measure an object for snapping, or raise EditRefusedError; strict: by Zhang and Chen's rule."""
+    """Measure an object for snapping, or raise EditRefusedError; strict: by Zhang and Chen's
+    rule.
+    """
     return target_of(
         context, obj, measure_body(obj, context.evaluated_depsgraph_get(), POSE), strict
     )
@@ -125,7 +136,7 @@ def target_of(
     """Return the `snap_target` of a measured object."""
     if measured.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     body = measured.mass_properties
     principal = body.principal
     if strict:
@@ -140,7 +151,9 @@ def target_of(
 
 
 def matrix_at_center(obj: Object, body: SnapTarget) -> NDArray | None:
-    """Return the object's matrix with its origin at the body's center, or None if it is there already."""
+    """Return the object's matrix with its origin at the body's center, or None if it is there
+    already.
+    """
     target = world(obj)
     if np.abs(target[:3, 3] - body.center).max() <= reframe.location_tolerance(obj, body.size):
         return None
@@ -149,7 +162,9 @@ def matrix_at_center(obj: Object, body: SnapTarget) -> NDArray | None:
 
 
 def matrix_along_axes(obj: Object, body: SnapTarget) -> NDArray | None:
-    """Return the matrix of the body's center and principal axes, or None if the object has them already."""
+    """Return the matrix of the body's center and principal axes, or None if the object has them
+    already.
+    """
     now = world(obj)
     linear = now[:3, :3]
     is_rotation = (
@@ -165,7 +180,9 @@ def matrix_along_axes(obj: Object, body: SnapTarget) -> NDArray | None:
 def align_to_world(
     context: Context, obj: Object, order: str, at_origin: bool, strict: bool
 ) -> bool:
-    """Turn an object's principal axes along the world's in an order; return whether it had to be moved."""
+    """Turn an object's principal axes along the world's in an order; return whether it had to be
+    moved.
+    """
     frame = np.eye(3)[:, ["XYZ".index(letter) for letter in order]]
     frame[:, 2] *= np.linalg.det(frame)
     reframe.check_movable(obj)
@@ -196,10 +213,12 @@ def plan_match(
     target: Shape | FlatShape,
     match: RigidMatch,
 ) -> reframe.Plan:
-    """Return the plan that lays the object onto the target; raise EditRefusedError for a mirror image."""
+    """Return the plan that lays the object onto the target; raise EditRefusedError for a mirror
+    image.
+    """
     if match.is_mirror_image:
         raise EditRefusedError(MIRROR_IMAGE)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     matrix = world(obj)
     matrix[:3, :3] = match.rotation @ matrix[:3, :3]
     matrix[:3, 3] = (target.center + match.rotation @ (matrix[:3, 3] * unit - shape.center)) / unit
@@ -207,7 +226,9 @@ def plan_match(
 
 
 def is_copy(match: RigidMatch, size: float) -> bool:
-    """Return whether the surfaces of a match lie on each other, by a tolerance relative to the body's size."""
+    """Return whether the surfaces of a match lie on each other, by a tolerance relative to the
+    body's size.
+    """
     return match.max_distance <= MAX_FIT_RTOL * size
 
 

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An object's own transform channels, in float64.
 
-Blender's setters for `matrix_world` and `matrix_basis` take Euler angles out of a float32 matrix, each angle by itself;
-near gimbal lock the angles then no longer fit together. Here each angle is taken from the rotation that remains after
-the angles before it, in float64, so that the angles rebuild any rotation.
+Blender's setters for `matrix_world` and `matrix_basis` take Euler angles out of a float32 matrix,
+each angle by itself; near gimbal lock the angles then no longer fit together. Here each angle is
+taken from the rotation that remains after the angles before it, in float64, so that the angles
+rebuild any rotation.
 
 The basis of an object is T(location + delta) · R(delta) R(rotation) · S(scale · delta), before
 parents and constraints.
@@ -38,7 +39,9 @@ def world(obj: Object) -> Matrix4:
 
 
 def solve(matrix: Matrix4, right_side: Matrix4) -> Matrix4:
-    """Return the (4, 4) solution x of `matrix` · x = `right_side`, declared as float64, unlike numpy's function."""
+    """Return the (4, 4) solution x of `matrix` · x = `right_side`, declared as float64, unlike
+    numpy's function.
+    """
     return np.asarray(np.linalg.solve(matrix, right_side), np.float64)
 
 
@@ -58,13 +61,17 @@ def _order(mode: str) -> tuple[int, int, int, float]:
 
 
 def euler_matrix(angles: NDArray, mode: str) -> Matrix3:
-    """Return the (3, 3) matrix of Euler angles by axis x, y, z; in mode "XYZ" the turn about X comes first."""
+    """Return the (3, 3) matrix of Euler angles by axis x, y, z; in mode "XYZ" the turn about X
+    comes first.
+    """
     i, j, k, _ = _order(mode)
     return _turn(k, angles[k]) @ _turn(j, angles[j]) @ _turn(i, angles[i])
 
 
 def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> NDArray[np.float64]:
-    """Return (..., 3) Euler angles by axis of (..., 3, 3) rotations: of all equivalent ones the nearest to `near`."""
+    """Return (..., 3) Euler angles by axis of (..., 3, 3) rotations: of all equivalent ones the
+    nearest to `near`.
+    """
     i, j, k, s = _order(mode)
     locked = np.hypot(rotation[..., k, j], rotation[..., k, k]) < 1e-7
     first = np.where(locked, near[..., i], np.arctan2(s * rotation[..., k, j], rotation[..., k, k]))
@@ -104,7 +111,9 @@ def _delta_rotation(obj: Object) -> Matrix3:
 
 
 def basis(obj: Object) -> Matrix4:
-    """Return the (4, 4) matrix of location, rotation and scale with their deltas, before parents and constraints."""
+    """Return the (4, 4) matrix of location, rotation and scale with their deltas, before parents
+    and constraints.
+    """
     matrix = np.eye(4)
     scale = np.array(obj.scale, np.float64) * np.array(obj.delta_scale, np.float64)
     matrix[:3, :3] = _delta_rotation(obj) @ _rotation(obj) * scale
@@ -113,7 +122,9 @@ def basis(obj: Object) -> Matrix4:
 
 
 def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
-    """Put the origin of the basis at `location`; locked axes may move by no more than `tolerance`."""
+    """Put the origin of the basis at `location`; locked axes may move by no more than
+    `tolerance`.
+    """
     channel_location = location - np.array(obj.delta_location, np.float64)
     _assign(obj, "location", channel_location, obj.lock_location, tolerance)
 
@@ -121,7 +132,9 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
 def rotation_and_scale(
     linear: NDArray, scale: NDArray
 ) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
-    """Return rotations and scales, signed as `scale`, of (..., 3, 3) maps, and a mask of maps without shear or zero."""
+    """Return rotations and scales, signed as `scale`, of (..., 3, 3) maps, and a mask of maps
+    without shear or zero.
+    """
     length = np.linalg.norm(linear, axis=-2)
     sign = np.where(scale < 0.0, -1.0, 1.0)
     sign[..., 0] *= np.where(np.prod(sign, axis=-1) * np.linalg.det(linear) < 0.0, -1.0, 1.0)
@@ -136,7 +149,9 @@ def rotation_and_scale(
 
 
 def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
-    """Set rotation and scale so that the basis has the 3×3 part `linear`; EditRefusedError if that is sheared."""
+    """Set rotation and scale so that the basis has the 3×3 part `linear`; EditRefusedError if that
+    is sheared.
+    """
     delta_scale = np.array(obj.delta_scale, np.float64)
     if np.linalg.norm(linear, axis=0).min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
         raise EditRefusedError(SCALE_ZERO_AXIS)

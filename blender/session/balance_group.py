@@ -12,7 +12,6 @@ import numpy as np
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
-from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.support import Support, find_contacts, support_of_contacts
 from ...core.verdict import internal_error
 from ...core.verdict.finding import EditRefusedError, MeasureError
@@ -20,6 +19,7 @@ from ..bodies.assembly.assembly import measure_assembly
 from ..read.assembly import Member, MemberKind, members_of, settings_of
 from ..read.rig import is_skin_of
 from ..read.visibility import measurable
+from ..scale import meters_per_unit
 from ..scene.rigid_world import down
 from ..write.properties import BALANCE_GROUP
 from ..write.reports import Refused
@@ -37,8 +37,9 @@ SUMS = (MemberKind.COLLECTION, MemberKind.EMPTY)
 class BalanceGroup:
     """Objects whose common center of mass is followed over a range of frames.
 
-    objects: the followed objects, sorted by name. feet: objects that may touch the ground. centers: a (3,) center in
-    Blender units for each frame so far. supports: a support for each frame, None if nothing touches the ground.
+    objects: the followed objects, sorted by name. feet: objects that may touch the ground. centers:
+    a (3,) center in Blender units for each frame so far. supports: a support for each frame, None
+    if nothing touches the ground.
     """
 
     def __init__(
@@ -60,7 +61,9 @@ class BalanceGroup:
         self.supports: list[Support | None] = []
 
     def _members(self, collection: str) -> list[Object]:
-        """Return the followed objects, sorted by name; keep the collection in `_assembly` if its mass is given."""
+        """Return the followed objects, sorted by name; keep the collection in `_assembly` if its
+        mass is given.
+        """
         context = self._context
         if collection:
             depsgraph = context.evaluated_depsgraph_get()
@@ -91,7 +94,9 @@ class BalanceGroup:
         return sorted(followed, key=lambda obj: obj.name_full)
 
     def follow(self, scene: Scene, frames: Sequence[float]) -> Generator[int, None, None]:
-        """Measure frame after frame, yield the number of finished frames, and restore the scene's frame at the end."""
+        """Measure frame after frame, yield the number of finished frames, and restore the scene's
+        frame at the end.
+        """
         before = scene.frame_current
         subframe = scene.frame_subframe
         motion = Motion(len(frames))
@@ -124,7 +129,7 @@ class BalanceGroup:
         """Return the common center at this frame, in Blender's units."""
         if self._assembly is not None:
             body = measure_assembly(self._assembly, depsgraph).measurement.mass_properties
-            return body.center / shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+            return body.center / meters_per_unit(depsgraph.scene)
         masses, centers = zip(*[motion.mass_and_center(obj, depsgraph) for obj in self.objects])
         return centers[0] + np.einsum(
             "i,ij->j", np.array(masses) / np.sum(masses), np.array(centers) - centers[0]
@@ -136,7 +141,9 @@ class BalanceGroup:
         signals: Mapping[str, NDArray] | None = None,
         spans: Sequence[tuple[float, float, float, float]] = (),
     ) -> Object:
-        """Store the path as keys of the group's empty, which is added if there is none, and return the empty."""
+        """Store the path as keys of the group's empty, which is added if there is none, and return
+        the empty.
+        """
         signals = dict(signals or {})
         centers = np.array(self.centers)
         if self.feet:
@@ -165,7 +172,9 @@ def _collection(name: str) -> Collection:
 
 
 def counted(member: Member) -> Iterator[Object]:
-    """Yield the objects of an assembly that count; an instanced collection counts as its instancer."""
+    """Yield the objects of an assembly that count; an instanced collection counts as its
+    instancer.
+    """
     if member.is_measured or member.kind == MemberKind.INSTANCE:
         yield member.data
     if member.kind != MemberKind.INSTANCE:

@@ -20,12 +20,12 @@ from ...core.measurement.settings import digest
 from ...core.mesh.hulls import convex_hull
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.moments.affine_maps import are_singular
-from ...core.numerics.float32 import shortest_decimal
 from ...core.robots.model import Pose, Shape
 from ...core.verdict.finding import ReadError
 from ..bodies.measure_object import Measured, measure_body
 from ..read.findings import OBJECT_WITHOUT_GEOMETRY, SCALE_ZERO_AXIS
 from ..read.fingerprint import colliders_digest
+from ..scale import meters_per_unit
 from ..scene import colliders as scene
 from ..scene.changes import require_storable_data
 from ..settings.given import COLLIDER, COLLIDERS
@@ -38,7 +38,9 @@ WITHOUT_AXES = MeasureOptions(axes=False)
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The colliders of an object, in its frame, with their effect. key: equal for objects that share their meshes."""
+    """The colliders of an object, in its frame, with their effect. key: equal for objects that
+    share their meshes.
+    """
 
     obj: Object
     shapes: tuple[Shape, ...]
@@ -56,15 +58,16 @@ def plan_colliders(
     correct: str,
     known: dict[str, Plan],
 ) -> Generator[float, None, Plan]:
-    """Plan the colliders of an object, in steps that yield the completed share; MeasureError if it cannot have any.
+    """Plan the colliders of an object, in steps that yield the completed share; MeasureError if it
+    cannot have any.
 
-    is_share: the tolerances are parts of the size. correct: "NONE", "MASSES" or "VERTICES". known: plans of this run by
-    their keys, to which this one is added.
+    is_share: the tolerances are parts of the size. correct: "NONE", "MASSES" or "VERTICES". known:
+    plans of this run by their keys, to which this one is added.
     """
     require_storable_data(obj)
     measured = measure_body(obj, depsgraph, WITHOUT_AXES)
     measurement = measured.measurement
-    unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    unit = meters_per_unit(depsgraph.scene)
     surface = _surface(obj, measured)
     stretch = scene.stretch_of(obj, measurement.rotation)
     if are_singular(stretch[None])[0]:
@@ -96,7 +99,9 @@ def plan_colliders(
 
 
 def _mesh_key(obj: Object, measured: Measured) -> str:
-    """Return a key that is equal for objects with the same settings and meshes in the same places of their frames."""
+    """Return a key that is equal for objects with the same settings and meshes in the same places
+    of their frames.
+    """
     measurement = measured.measurement
     parts = []
     to_frame = Pose(measurement.location, measurement.rotation).inverse()
@@ -127,7 +132,7 @@ def _surface(obj: Object, measured: Measured) -> Surface:
 
 def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> list[Object]:
     """Make the planned colliders in place of earlier ones, store their effects, and return them."""
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     earlier = scene.colliders_by_body(context.scene.objects)
     meshes: dict[str, list] = {}
     made = []
@@ -161,7 +166,7 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
             for key, one in plan.record.items()
             if None not in (one if isinstance(one, list) else [one])
         }
-        plan.obj[COLLIDERS] = {**known, **marks}
+        plan.obj[COLLIDERS] = known | marks
     fresh = [
         (plan.obj, stamp) for plan in plans if (stamp := stamps.of_colliders(plan.obj)) is not None
     ]
@@ -170,7 +175,8 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
 
 
 def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
-    """Remove the colliders of objects with what is stored about them; return the number of objects that had any.
+    """Remove the colliders of objects with what is stored about them; return the number of objects
+    that had any.
 
     Colliders whose bodies were deleted are removed themselves.
     """
@@ -188,7 +194,9 @@ def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
 def collider_record(
     obj: Object, measurement: Measurement, context: Context
 ) -> dict[str, Any] | None:
-    """Return the effect of an object's colliders for its record, with the reason if it is out of date; else None."""
+    """Return the effect of an object's colliders for its record, with the reason if it is out of
+    date; else None.
+    """
     stamp = stamps.of_colliders(obj)
     if stamp is None:
         return None

@@ -61,15 +61,17 @@ def describe(
     store : bool
         Stores the results on the objects, as *Measure* does. Otherwise nothing in the file changes.
     **options
-        Override the objects' settings: kind ("solid", "shell", "wire"), density (kg/m³), mass (kg), thickness (m),
-        overlap ("signed", "union"), wall ("thin", "inward", "outward", "centered"), unit_scale (meters per unit).
+        Override the objects' settings: kind ("solid", "shell", "wire"), density (kg/m³), mass (kg),
+        thickness (m), overlap ("signed", "union"), wall ("thin", "inward", "outward", "centered"),
+        unit_scale (meters per unit).
 
     Returns
     -------
     list of dict
-        Each has `name`, `verdict` ("exact", "repaired", "doubtful" or "not measured"), `numbers`, `units`,
-        `error_bound` (by quantity, in its unit), `findings` (each with `message` and `remedies`, which are calls) and
-        `next`, the calls that make sense now. Calls of operators act on the selected objects.
+        Each has `name`, `verdict` ("exact", "repaired", "doubtful" or "not measured"), `numbers`,
+        `units`, `error_bound` (by quantity, in its unit), `findings` (each with `message` and
+        `remedies`, which are calls) and `next`, the calls that make sense now. Calls of operators
+        act on the selected objects.
 
     Raises
     ------
@@ -139,7 +141,9 @@ def _description(
     is_stored: bool,
     is_overridden: bool,
 ) -> dict[str, Any]:
-    """Return the dictionary of one object. is_overridden: whether an option replaces its density or mass."""
+    """Return the dictionary of one object. is_overridden: whether an option replaces its density or
+    mass.
+    """
     if isinstance(found, Exception):
         entry: dict[str, Any] = {
             "name": obj.name,
@@ -155,11 +159,13 @@ def _description(
         entry = record.record(replace(measurement, name=obj.name), frame)
         entry["numbers"] = {name: entry[name] for name in NUMBERS}
     findings = [
-        {
-            **one,
-            "elements": one.get("elements", [])[:MAX_ELEMENTS],
-            "remedies": [_call(remedy) for remedy in remedies_of(one["code"], obj.type)],
-        }
+        (
+            one
+            | {
+                "elements": one.get("elements", [])[:MAX_ELEMENTS],
+                "remedies": [_call(remedy) for remedy in remedies_of(one["code"], obj.type)],
+            }
+        )
         for one in entry["findings"]
     ]
     calls = [call for one in findings if one["severity"] != "note" for call in one["remedies"]]

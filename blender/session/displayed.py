@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The displayed numbers of objects, and the verdict on them: panels, list and overlay ask here. Loads no numpy.
+"""The displayed numbers of objects, and the verdict on them: panels, list and overlay ask here.
+
+Loads no numpy.
 
 The order of the list is cached until Blender reports a change.
 """
@@ -17,20 +19,19 @@ from bpy.types import ID, Context, Object, PoseBone, Scene, ViewLayer
 
 from ...core.inertia.plain_body import PlainBody, add_bodies
 from ...core.lazy import loaded_module
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
 from ...core.verdict.method import Method, Procedure
 from ...core.verdict.sentences import Group, grouped
 from ...core.verdict.verdict import Verdict, find_verdict, open_body_caveats
 from .. import read
 from ..read.fingerprint import has_transform
+from ..scale import meters_per_unit
 from ..write import properties
 from ..write.units import Units
-from . import live
+from . import live, memory
 from .live import following
 from .live.following import Lag, LiveResult
 from .tracking import armatures, handlers
-from .tracking.cache import SessionCache, current_value
 from .tracking.staleness import stale_reason
 from .tracking.stamps import Stale, of_results
 
@@ -43,9 +44,9 @@ RANKS = {verdict: rank for rank, verdict in enumerate(Verdict)}
 class Displayed(NamedTuple):
     """The displayed numbers of an object, SI.
 
-    numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason: the reason if the
-    numbers are out of date. live: the result with Live on. lag: the lag of live numbers behind the object. is_posed:
-    whether the numbers are a sum of parts in the present pose.
+    numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason:
+    the reason if the numbers are out of date. live: the result with Live on. lag: the lag of live
+    numbers behind the object. is_posed: whether the numbers are a sum of parts in the present pose.
     """
 
     numbers: PlainBody
@@ -68,9 +69,9 @@ class Displayed(NamedTuple):
 class Total:
     """Selected objects as one body.
 
-    count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names of objects without
-    results; stale: names of objects with outdated results; findings: caveats about the sum; verdict: the least of any
-    object; groups: the objects' own findings.
+    count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names
+    of objects without results; stale: names of objects with outdated results; findings: caveats
+    about the sum; verdict: the least of any object; groups: the objects' own findings.
     """
 
     count: int
@@ -84,34 +85,29 @@ class Total:
     groups: tuple[Group, ...]
 
 
-_drawn: dict[int, Displayed] = {}  # session uid → drawn numbers, of objects that depend on no other
-_drawn_in: tuple = ()  # the scene's part in them
-_moved: set[int] = set()  # session uids of objects that have only moved since
-# A scene's last total, after its generation and view layer: the panel is drawn at every mouse movement.
-_totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
-
-
 def displayed(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an original object: posed, live or stored; None if there are none."""
+    """Return the displayed numbers of an original object: posed, live or stored; None if there are
+    none.
+    """
     weighed = _weighed(obj, scene) if obj.type == "ARMATURE" else None
     if weighed is not None:
         return weighed
     if obj.type == "ARMATURE" and armatures.stands_for_meshes(obj):
         meshes = armatures.deformed_meshes(obj)
-        if "body_mass" in obj and not any(mesh in following.followed for mesh in meshes):
+        if "body_mass" in obj and not any(mesh in memory.followed for mesh in meshes):
             parts = [drawn_bone(bone, scene) for bone in obj.pose.bones]
         else:
             parts = [displayed(mesh, scene) for mesh in meshes]
         total = _as_one(obj, scene, parts)
         if total is not None:
             return total
-    current = following.followed.get(obj)
+    current = memory.followed.get(obj)
     now = None if current is None else current.result
     if current is not None and now is not None and (measurement := now.measurement) is not None:
-        own = live.live.map_properties(obj, current, measurement, scene)
+        own = live.mapping.map_properties(obj, current, measurement, scene)
         method = measurement.method
         findings = measurement.findings
-        lag = following.lag(obj)
+        lag = live.mapping.lag(obj)
         reason = stale_reason(obj, scene, following.stamp_of)
         is_behind = reason is not None or lag == Lag.BEHIND
     else:
@@ -125,20 +121,23 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
     if own is None:
         return None
     verdict = Verdict.OUT_OF_DATE if is_behind else find_verdict(method, findings)
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     return Displayed(
         own, own.in_world(obj.matrix_world, unit), unit, method, findings, verdict, reason, now, lag
     )
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the numbers of an original object at its place, or of a character in its pose; None without a mass."""
+    """Return the numbers of an original object at its place, or of a character in its pose; None
+    without a mass.
+    """
     return all_drawn([obj], scene)[0]
 
 
 def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]:
-    """Return `drawn` of many objects, cached until Blender or the session reports a change of the object."""
-    global _drawn_in
+    """Return `drawn` of many objects, cached until Blender or the session reports a change of the
+    object.
+    """
     settings = scene.body_moments
     key = (
         scene.session_uid,
@@ -146,19 +145,23 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
         settings.default_material,
         settings.default_density,
     )
-    if key != _drawn_in:
-        _drawn.clear()
-        _drawn_in = key
+    if key != memory.state.drawn_in:
+        memory.drawn.clear()
+        memory.state.drawn_in = key
     found = []
     for obj in objects:
         uid = obj.session_uid
-        known = _drawn.get(uid)
-        found.append(known if known is not None and uid not in _moved else _draw(obj, scene, known))
+        known = memory.drawn.get(uid)
+        found.append(
+            known if known is not None and uid not in memory.moved else _draw(obj, scene, known)
+        )
     return found
 
 
 def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | None:
-    """Return `drawn` of an object; keep it if it depends on no other object. before: its numbers before it moved."""
+    """Return `drawn` of an object; keep it if it depends on no other object. before: its numbers
+    before it moved.
+    """
     if obj.type == "ARMATURE":
         shown = displayed(obj, scene)
         if shown is not None and not shown.is_posed:  # its own stored numbers are of the rest pose
@@ -168,9 +171,7 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
         if before is not None and stamp is not None and has_transform(obj, stamp.transform):
             shown = before._replace(world=before.numbers.in_world(obj.matrix_world, before.unit))
         else:
-            shown = (
-                displayed(obj, scene) if "body_mass" in obj or obj in following.followed else None
-            )
+            shown = displayed(obj, scene) if "body_mass" in obj or obj in memory.followed else None
     if shown is None or not shown.world.mass > 0.0:
         return None
     shows_others = obj.instance_type != "NONE" or len(obj.particle_systems)
@@ -180,34 +181,38 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
         or obj.body_moments.density_from in BY_OTHERS
     )
     if not (shows_others or depends or shown.live is not None):
-        _drawn[obj.session_uid] = shown
-        _moved.discard(obj.session_uid)
+        memory.drawn[obj.session_uid] = shown
+        memory.moved.discard(obj.session_uid)
     return shown
 
 
 def note_updates(events: handlers.Updates) -> None:
-    """Drop the cached numbers of objects that Blender has evaluated again; after a move, only the place."""
+    """Drop the cached numbers of objects that Blender has evaluated again; after a move, only the
+    place.
+    """
     for uid in (*events.reshaped, *events.others):
-        _drawn.pop(uid, None)
-    _moved.update(_drawn.keys() & events.moved)
+        memory.drawn.pop(uid, None)
+    memory.moved.update(memory.drawn.keys() & events.moved)
 
 
 def forget_drawn(data: ID | None = None) -> None:
     """Drop the cached numbers of an object, or of all."""
     if data is None:
-        _drawn.clear()
-        _moved.clear()
+        memory.drawn.clear()
+        memory.moved.clear()
     else:
-        _drawn.pop(data.session_uid, None)
+        memory.drawn.pop(data.session_uid, None)
 
 
 def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
-    """Return the numbers of an original armature's bone at the bone's current place, or None if there are none."""
+    """Return the numbers of an original armature's bone at the bone's current place, or None if
+    there are none.
+    """
     armature = bone.id_data
     own = properties.stored(bone)
     if own is None:
         return None
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     world = own.in_world(armature.matrix_world @ bone.matrix, unit)
     method = properties.method(bone)
     findings = properties.findings(armature)
@@ -217,12 +222,14 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
 
 
 def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -> Displayed | None:
-    """Return the sum of a character's meshes or bones in its current pose; None if they have no mass."""
+    """Return the sum of a character's meshes or bones in its current pose; None if they have no
+    mass.
+    """
     known = [part for part in parts if part is not None]
     world = add_bodies([part.world for part in known])
     if world is None:
         return None
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     rest = properties.optional(armature, "body_mass")
     if rest is not None:  # posing stretches and squeezes the skin, and leaves the mass
         factor = rest / world.mass
@@ -241,7 +248,9 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
 
 
 def _weighed(armature: Object, scene: Scene) -> Displayed | None:
-    """Return a character whose weight is shown, by its bones in the present pose; None for others."""
+    """Return a character whose weight is shown, by its bones in the present pose; None for
+    others.
+    """
     depsgraph = bpy.context.view_layer.depsgraph
     character = loaded_module(live, "character")
     if not armature.body_moments_weight.show or character is None or depsgraph is None:
@@ -249,7 +258,7 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     weight = character.weight(armature, depsgraph)
     if weight is None:
         return None
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     method = properties.method(armature)
     findings = properties.findings(armature)
     reason = stale_reason(armature, scene)
@@ -259,7 +268,8 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
 
 
 def shown_objects(context: Context) -> list[Object]:
-    """Return the objects that the panel is about: the selected ones if there are several, else the active one.
+    """Return the objects that the panel is about: the selected ones if there are several, else the
+    active one.
 
     The meshes of a posed armature stand in its place.
     """
@@ -269,13 +279,17 @@ def shown_objects(context: Context) -> list[Object]:
 
 
 def total(context: Context) -> Total:
-    """Return the selected objects as one body, by the parallel-axis theorem, from displayed numbers."""
-    key = handlers.generation(), context.view_layer.name
-    return current_value(_totals, context.scene, key, lambda: _sum(context))
+    """Return the selected objects as one body, by the parallel-axis theorem, from displayed
+    numbers.
+    """
+    key = memory.state.generation, context.view_layer.name
+    return memory.current_value(memory.totals, context.scene, key, lambda: _sum(context))
 
 
 def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
-    """Return the members of an assembly or character: its descendants, and the `objects` that it deforms."""
+    """Return the members of an assembly or character: its descendants, and the `objects` that it
+    deforms.
+    """
     return [*obj.children_recursive, *read.rig.skinned_objects(obj, objects)]
 
 
@@ -323,21 +337,15 @@ class SortBy(StrEnum):
     VERDICT = "VERDICT"  # the least trustworthy first
 
 
-_masses: SessionCache[tuple[tuple, dict[int, str]]] = (
-    SessionCache()
-)  # by scene: the last query, and its answer
-_listings: SessionCache[tuple[tuple, Listing]] = (
-    SessionCache()
-)  # by scene: the last query, and its answer
-
-
 def listing(
     scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool
 ) -> Listing:
-    """Return two lists over a view layer's objects: whether each is listed, and its line, warnings first on request."""
-    key = (handlers.generation(), view_layer.name, name, sort_by, warnings_first)
-    return current_value(
-        _listings,
+    """Return two lists over a view layer's objects: whether each is listed, and its line, warnings
+    first on request.
+    """
+    key = (memory.state.generation, view_layer.name, name, sort_by, warnings_first)
+    return memory.current_value(
+        memory.listings,
         scene,
         key,
         lambda: _listing(scene, view_layer, name.lower(), sort_by, warnings_first),
@@ -345,7 +353,9 @@ def listing(
 
 
 def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
-    """Return texts of the masses of a view layer's measured objects by session uid, with common unit and decimals."""
+    """Return texts of the masses of a view layer's measured objects by session uid, with common
+    unit and decimals.
+    """
     units = Units.from_settings(scene.unit_settings)
 
     def list_masses() -> dict[int, str]:
@@ -359,8 +369,8 @@ def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
             zip([obj.session_uid for obj in masses], units.texts("mass", list(masses.values())))
         )
 
-    return current_value(
-        _masses, scene, (handlers.generation(), view_layer.name, units), list_masses
+    return memory.current_value(
+        memory.masses, scene, (memory.state.generation, view_layer.name, units), list_masses
     )
 
 

@@ -6,7 +6,8 @@ from ...core.verdict.finding import error, warning
 
 MASS_MOMENTS_UNKNOWN = error(
     "mass_moments_unknown",
-    "Moments of the mass are not available to order {order} for this object. Set Order to 3, or Domain to Volume.",
+    "Moments of the mass are not available to order {order} for this object. Set Order to 3, or "
+    "Domain to Volume.",
 )
 MOMENTS_OF_AREA_ONLY = error(
     "moments_of_area_only",

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rigid bodies as Blender's physics engine takes them to be, for one object or a thousand.
 
-Bullet takes an object's origin as its center of mass and its axes as principal axes, so these belong together.
+Bullet takes an object's origin as its center of mass and its axes as principal axes, so these
+belong together.
 """
 
 from __future__ import annotations
@@ -14,13 +15,13 @@ import bpy
 from bpy.types import Context, Object
 
 from ...core.inertia.mass_properties import combine
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError
 from ...core.verdict.method import Procedure
 from ..bodies.measure_object import Measured as MeasuredBody
 from ..bodies.stacks.many import measured_in_turn
 from ..bodies.stacks.stack import Stacked
 from ..read.tracking import tracking_paused
+from ..scale import meters_per_unit
 from ..scene import reframe
 from ..scene.changes import require_storable_data
 from ..scene.colliders import colliders_by_body
@@ -46,7 +47,9 @@ PROBE_DENSITY = 1e6  # for Calculate Mass: high, as Blender's rigid bodies weigh
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """An object that becomes a rigid body, with the objects below it that belong to the same body."""
+    """An object that becomes a rigid body, with the objects below it that belong to the same
+    body.
+    """
 
     obj: Object
     members: tuple[Object, ...] = ()
@@ -64,7 +67,9 @@ class Measured:
 
 @dataclass(frozen=True, eq=False)
 class RigidBodies:
-    """New rigid bodies by their objects, their masses in kg by Calculate Mass, and the refusals of other bodies."""
+    """New rigid bodies by their objects, their masses in kg by Calculate Mass, and the refusals of
+    other bodies.
+    """
 
     measured: dict[Object, Measured]
     calculated: dict[Object, float]
@@ -74,7 +79,9 @@ class RigidBodies:
 def make_rigid_bodies(
     context: Context, objects: Sequence[Object], type: str, shape: str, frame: str, compounds: bool
 ) -> RigidBodies:
-    """Make objects, or each with its descendants, rigid bodies with their mass, center of mass and principal axes."""
+    """Make objects, or each with its descendants, rigid bodies with their mass, center of mass and
+    principal axes.
+    """
     bodies = _bodies(objects) if compounds else [Body(obj) for obj in objects]
     measured: dict[Object, Measured] = {}
     failures: list[Finding] = []
@@ -102,7 +109,9 @@ def make_rigid_bodies(
 
 
 def _place(context: Context, measured: dict[Object, Measured], frame: str) -> list[Finding]:
-    """Give each body the requested frame; remove refused bodies from `measured`, and return the reasons."""
+    """Give each body the requested frame; remove refused bodies from `measured`, and return the
+    reasons.
+    """
     failures: list[Finding] = []
     if frame == "KEEP":
         return failures
@@ -144,7 +153,10 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
 
 
 def _add(context: Context, measured: dict[Object, Measured], type: str, shape: str) -> list[Object]:
-    """Add rigid bodies and set collision shapes. Return the objects that had no rigid body before."""
+    """Add rigid bodies and set collision shapes.
+
+    Return the objects that had no rigid body before.
+    """
     parts = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
     colliders = colliders_by_body(context.scene.objects) if shape == "KEEP" else {}
     added = [collider for part in parts for collider in colliders.get(part, ())]
@@ -168,7 +180,9 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
 
 
 def _bodies(objects: Sequence[Object]) -> list[Body]:
-    """Return a body for each object without a parent among `objects`, with its descendants among them."""
+    """Return a body for each object without a parent among `objects`, with its descendants among
+    them.
+    """
     chosen = set(objects)
     members: dict[Object, list[Object]] = {obj: [] for obj in objects if obj.parent not in chosen}
     for obj in objects:
@@ -206,7 +220,7 @@ def _measured(
         whole = combine(moments, preferred_axes=measurements[0].rotation)
     if whole.mass < MIN_MASS:
         raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(whole.mass), limit=MIN_MASS)
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     target = SnapTarget.of_body(body.obj, whole, whole.principal, unit)
     volume = sum(measurement.volume for measurement in measurements)
     return Measured(body, target, whole.mass / volume, tuple(parts))
@@ -215,7 +229,9 @@ def _measured(
 def _measured_part(
     part: Object, ask: Callable[[Object], MeasuredBody | Stacked]
 ) -> MeasuredBody | Stacked:
-    """Measure a part of a body as it is now; raise EditRefusedError if it cannot belong to a rigid body."""
+    """Measure a part of a body as it is now; raise EditRefusedError if it cannot belong to a rigid
+    body.
+    """
     require_storable_data(part)
     if part.type != "MESH":
         raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
@@ -226,7 +242,9 @@ def _measured_part(
 
 
 def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> dict[Object, float]:
-    """Return the mass in kg that Blender's Calculate Mass gives each body at the body's mean density."""
+    """Return the mass in kg that Blender's Calculate Mass gives each body at the body's mean
+    density.
+    """
     objects = list(measured)
     if not objects:
         return {}
@@ -236,7 +254,9 @@ def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> di
 
 
 def _joint_in_place(context: Context, obj: Object) -> Object | None:
-    """Add an empty with a copy of the object's joint, in its place, and return it; None without a joint."""
+    """Add an empty with a copy of the object's joint, in its place, and return it; None without a
+    joint.
+    """
     joint = obj.rigid_body_constraint
     if joint is None:
         return None

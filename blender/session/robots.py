@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The scene as a robot: the choice of objects, the links made from them, their parents and their joints."""
+"""The scene as a robot: the choice of objects, the links made from them, their parents and their
+joints.
+"""
 
 from __future__ import annotations
 
@@ -42,9 +44,11 @@ from .findings import LEFT_OUT_OF_ROBOT
 
 @dataclass(frozen=True)
 class SceneLinks:
-    """A robot made from the scene, with findings about its links and omitted objects. unit: meters per Blender unit.
+    """A robot made from the scene, with findings about its links and omitted objects. unit: meters
+    per Blender unit.
 
-    members: the objects of each link. pieces: the surfaces of each bone's link, with maps into the world in meters.
+    members: the objects of each link. pieces: the surfaces of each bone's link, with maps into the
+    world in meters.
     """
 
     robot: Robot
@@ -54,7 +58,9 @@ class SceneLinks:
     pieces: dict[str, tuple[tuple[Surface, NDArray[np.float64]], ...]] = field(default_factory=dict)
 
     def with_colliders(self) -> SceneLinks:
-        """Return the links with the colliders of their objects in place of their geometry as collision shapes."""
+        """Return the links with the colliders of their objects in place of their geometry as
+        collision shapes.
+        """
         by_body = colliders_by_body(bpy.data.objects)
 
         def colliders_of(link: Link) -> list[Shape]:
@@ -76,7 +82,9 @@ class SceneLinks:
         return replace(self, robot=with_colliders(self.robot, colliders_of))
 
     def surface(self, context: Context, label: str) -> Surface | None:
-        """Return a link's surface, in meters along the link's axes; None if the link shows no faces."""
+        """Return a link's surface, in meters along the link's axes; None if the link shows no
+        faces.
+        """
         pose = self.robot.link(label).pose
         if label not in self.pieces:
             depsgraph = context.evaluated_depsgraph_get()
@@ -94,7 +102,9 @@ class SceneLinks:
 
 
 def candidates(context: Context, collection: str, selected: bool) -> list[Object]:
-    """Return the objects of the named collection, else the selected ones, else all rendered ones; no colliders."""
+    """Return the objects of the named collection, else the selected ones, else all rendered ones;
+    no colliders.
+    """
     chosen = [obj for obj in context.view_layer.objects if not obj.hide_render]
     if collection:
         chosen = bpy.data.collections[collection].all_objects
@@ -110,7 +120,9 @@ def jointed_robot(
     labels: Mapping[Object, str],
     unit: float,
 ) -> tuple[Robot, list[Finding]]:
-    """Return a robot of candidates with the joints of the scene's rigid-body constraints, and findings."""
+    """Return a robot of candidates with the joints of the scene's rigid-body constraints, and
+    findings.
+    """
     connections, bases, findings = constraint_connections(context.scene, labels, unit)
     robot, more = assemble_robot(name, [*made, *bases], connections)
     return robot, [*findings, *more]
@@ -122,7 +134,9 @@ def object_links(
     objects: list[Object],
     step: Callable[[float], None] = lambda done: None,
 ) -> SceneLinks:
-    """Return a robot with a link for each measurable object; a finding names the others. step: gets finished counts."""
+    """Return a robot with a link for each measurable object; a finding names the others. step: gets
+    finished counts.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     chosen = [obj for obj in objects if measurable(obj)]
     measured: dict[Object, Measurement] = {}
@@ -154,7 +168,9 @@ def collection_links(
     objects: list[Object],
     options: MeasureOptions = AS_SET,
 ) -> SceneLinks:
-    """Return a robot with a link along the world's axes for each child collection of `root`, or for `root` alone."""
+    """Return a robot with a link along the world's axes for each child collection of `root`, or for
+    `root` alone.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     made = []
     failures = []
@@ -182,7 +198,9 @@ def collection_links(
 def bone_links(
     context: Context, name: str, objects: list[Object], options: MeasureOptions = AS_SET
 ) -> SceneLinks:
-    """Return a robot with a link in rest frame for each bone that has a part; joints have the limits of the bones."""
+    """Return a robot with a link in rest frame for each bone that has a part; joints have the
+    limits of the bones.
+    """
     made = []
     connections = []
     findings = []
@@ -220,7 +238,9 @@ def bone_links(
 
 
 def left_out(failures: list[Finding], total: int) -> list[Finding]:
-    """Return a list with one finding about all objects that could not be measured, empty if there are none."""
+    """Return a list with one finding about all objects that could not be measured, empty if there
+    are none.
+    """
     if not failures:
         return []
     causes = [failure.as_record() for failure in reports.first(failures)]
@@ -230,7 +250,9 @@ def left_out(failures: list[Finding], total: int) -> list[Finding]:
 def object_candidate(
     label: str, obj: Object | None, measurement: Measurement, labels: Mapping[Object, str]
 ) -> Candidate:
-    """Return a measured object as a possible link, with the labels of its parents; `obj` is None for instances."""
+    """Return a measured object as a possible link, with the labels of its parents; `obj` is None
+    for instances.
+    """
     if obj is None:
         return make_candidate(label, measurement)
     parents = []
@@ -246,7 +268,9 @@ def object_candidate(
 def link_surface(
     objects: Iterable[Object], depsgraph: Depsgraph, pose: Pose, unit: float
 ) -> Surface | None:
-    """Return the surface of a link's objects as triangles in m, in the link's frame; None without visible faces."""
+    """Return the surface of a link's objects as triangles in m, in the link's frame; None without
+    visible faces.
+    """
     pieces = []
     to_link = pose.inverse()
     for obj in objects:
@@ -271,7 +295,9 @@ USD_ROOT = "root"  # Blender's exporter puts everything under it
 
 
 def usd_path(obj: Object, identifier: Callable[[str], str]) -> list[str]:
-    """Return the names of the prims from the root to an object's; `identifier` converts names as the exporter does."""
+    """Return the names of the prims from the root to an object's; `identifier` converts names as
+    the exporter does.
+    """
     names = []
     above = obj
     while above is not None:

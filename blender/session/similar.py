@@ -24,7 +24,9 @@ DESCRIPTOR_ORDER = 12  # ample to separate parts, in a fourth of the time of ord
 
 
 class Match(NamedTuple):
-    """A compared shape. verdict: relation to the wanted shape. distance: between signatures. scale: relative size."""
+    """A compared shape. verdict: relation to the wanted shape. distance: between signatures. scale:
+    relative size.
+    """
 
     name: str
     file: str
@@ -35,7 +37,9 @@ class Match(NamedTuple):
 
 
 class SimilarSearch:
-    """A search for objects that are similar in shape to a measured one. The scene must not change meanwhile.
+    """A search for objects that are similar in shape to a measured one.
+
+    The scene must not change meanwhile.
 
     wanted: the signature of the measured object, once `measure` has ended.
     """
@@ -58,7 +62,9 @@ class SimilarSearch:
     def comparison(
         self, objects: Sequence[Object]
     ) -> Callable[[Object], Generator[float, None, None]]:
-        """Return a function that compares one of the objects with the wanted object and yields the finished share."""
+        """Return a function that compares one of the objects with the wanted object and yields the
+        finished share.
+        """
         wanted_shape = self._shape
         skin = None
         depsgraph = self._depsgraph
@@ -86,15 +92,17 @@ class SimilarSearch:
                     shape, wanted_shape, skin_compared, skin, 1.0 / likeness.scale
                 )
                 is_copy = match.max_distance <= MAX_FIT_RTOL * wanted_shape.size
-                self._mirror_images[entry] = (
-                    False if is_copy else True if match.is_mirror_image else None
-                )
+                self._mirror_images[entry] = None
+                if is_copy or match.is_mirror_image:
+                    self._mirror_images[entry] = not is_copy
             self._objects[entry] = obj
 
         return compare
 
     def find_nearest(self, scaled: bool, mirrored: bool) -> list[Match]:
-        """Return the matches, nearest first. scaled, mirrored: rank scaled copies and mirror images like copies."""
+        """Return the matches, nearest first. scaled, mirrored: rank scaled copies and mirror images
+        like copies.
+        """
         matches = []
         for entry, likeness in rank(self.wanted, self._objects, scaled, mirrored):
             is_mirror_image = self._mirror_images.get(entry, likeness.is_mirror_image)
@@ -105,7 +113,9 @@ class SimilarSearch:
     def find_in_library(
         self, path: Path, scaled: bool, mirrored: bool
     ) -> tuple[list[Match], list[Finding]]:
-        """Return the bodies of a library, the most similar first, and findings about records that are left out."""
+        """Return the bodies of a library, the most similar first, and findings about records that
+        are left out.
+        """
         entries, missing = read_library(path)
         for _ in self.measure():
             pass

@@ -31,7 +31,9 @@ def remeasure(
     objects: Sequence[Object],
     known: Mapping[Object, Measured | Stacked] | None = None,
 ) -> None:
-    """Measure and store results anew after objects have moved; known: measurements of those that have not."""
+    """Measure and store results anew after objects have moved; known: measurements of those that
+    have not.
+    """
     known = known or {}
     stored = [obj for obj in objects if properties.is_stored(obj)]
     if not stored:
@@ -57,12 +59,16 @@ def reframe_objects(
     move_only: bool,
     strict: bool = False,
 ) -> tuple[list[reframe.Plan], list[Finding]]:
-    """Give objects the frames of `target_matrix` while nothing visible moves; return finished plans and refusals."""
+    """Give objects the frames of `target_matrix` while nothing visible moves; return finished plans
+    and refusals.
+    """
 
     def plans_of(
         chosen: Sequence[Object], right: dict[Object, Measured | Stacked]
     ) -> tuple[list[reframe.Plan], list[Finding]]:
-        """Return plans and refusals; measurements of unchanged objects with stored results go to `right`."""
+        """Return plans and refusals; measurements of unchanged objects with stored results go to
+        `right`.
+        """
         plans: list[reframe.Plan] = []
         failures: list[Finding] = []
         measured = measured_in_turn(

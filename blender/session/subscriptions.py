@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reactions of the session to Blender's reports and to changed settings, in one table; sliders add theirs when used."""
+"""Reactions of the session to Blender's reports and to changed settings, in one table; sliders add
+theirs when used.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +10,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..settings import hooks
-from . import displayed, live, stored
-from .live.following import followed
+from . import displayed, live, memory, stored
 from .stored import outcome
 from .tracking import armatures, handlers, staleness, updates
 
@@ -17,15 +18,15 @@ SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
     (handlers.on_update, updates.note_updates),
     (handlers.on_update, armatures.note_updates),
     (handlers.on_update, displayed.note_updates),
-    (handlers.on_update, lambda events: live.live.note_updates(events) if len(followed) else None),
+    (
+        handlers.on_update,
+        lambda events: live.measuring.note_updates(events) if len(memory.followed) else None,
+    ),
     (handlers.on_note, displayed.forget_drawn),
     (handlers.before_undo, staleness.note_all_edits),
     (handlers.on_undo, updates.note_undo),
     (handlers.on_undo, outcome.forget),
     (handlers.on_undo, armatures.watch_all),  # undo makes Python's references to objects invalid
-    (handlers.on_load, updates.forget_file),
-    (handlers.on_load, staleness.forget_file),
-    (handlers.on_load, outcome.forget),
     (handlers.on_load, armatures.watch_all),
     (handlers.on_save, staleness.write_notes),
     (hooks.on_change, updates.note_setting),
@@ -49,14 +50,10 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Write the notes of edits, because the file may outlive the add-on; then drop them and all subscriptions."""
+    """Write the notes of edits, because the file may outlive the add-on; then drop them and all
+    subscriptions.
+    """
     staleness.write_notes()
-    for forget in (
-        updates.forget_file,
-        staleness.forget_file,
-        outcome.forget,
-        displayed.forget_drawn,
-    ):
-        forget()
+    memory.forget_file()
     for subscribers in (*handlers.LISTS, *hooks.LISTS):
         subscribers.clear()

@@ -23,7 +23,9 @@ def accepted_codes(obj: Object) -> frozenset[str]:
 
 
 def set_accepted(obj: Object, code: str, accepted: bool) -> bool:
-    """Accept the findings with a code for an object, or revoke this; return whether anything changed."""
+    """Accept the findings with a code for an object, or revoke this; return whether anything
+    changed.
+    """
     before = accepted_codes(obj)
     after = before | {code} if accepted else before - {code}
     if after != before:
@@ -40,4 +42,4 @@ def _marked(finding: Finding, accepted: bool) -> Finding:
     if accepted == (ACCEPTED in finding.values):
         return finding
     others = {name: value for name, value in finding.values.items() if name != ACCEPTED}
-    return replace(finding, values={**others, ACCEPTED: True} if accepted else others)
+    return replace(finding, values=(others | {ACCEPTED: True}) if accepted else others)

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings of the masses of assemblies and of pose bones, and of the weight of characters.
 
-An assembly is a collection, or an empty with its children; the rows of its tree are kept beside its settings.
+An assembly is a collection, or an empty with its children; the rows of its tree are kept beside its
+settings.
 """
 
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty, StringProperty
@@ -21,7 +22,10 @@ Root = Object | Collection
 
 
 class BodyMomentsAssemblyRow(PropertyGroup):
-    """One member in the tree of an assembly, as it was measured. `name`: of the object or collection."""
+    """One member in the tree of an assembly, as it was measured.
+
+    `name`: of the object or collection.
+    """
 
     depth: IntProperty(name="Depth", description="How many assemblies the member is in")
     member: choice_property(
@@ -80,7 +84,9 @@ def is_assembly(data: Root) -> bool:
 
 
 def active_assembly(context: Context) -> Root:
-    """Return the active empty if it has children, else a collection of the active object, else the active one."""
+    """Return the active empty if it has children, else a collection of the active object, else the
+    active one.
+    """
     obj, active = context.object, context.collection
     if obj is None or is_assembly(obj):
         return active if obj is None else obj
@@ -117,7 +123,8 @@ class BodyMomentsBoneSettings(PropertyGroup):
     )
     is_contact: BoolProperty(
         name="Contact",
-        description="Only such bones touch the ground. If no bone of the armature is one, every bone may",
+        description="Only such bones touch the ground. If no bone of the armature is one, every "
+        "bone may",
         override={"LIBRARY_OVERRIDABLE"},
         update=part_changed,
     )
@@ -128,13 +135,15 @@ class BodyMomentsWeightSettings(PropertyGroup):
 
     show: BoolProperty(
         name="Weight",
-        description="Draw center of mass, plumb line and support polygon of the character as it is posed",
+        description="Draw center of mass, plumb line and support polygon of the character as it is "
+        "posed",
         override={"LIBRARY_OVERRIDABLE"},
         update=part_changed,
     )
     mass: FloatProperty(
         name="Total Mass",
-        description="Mass of all bones in kilograms; those with a mass of their own keep it. At 0, the measured mass",
+        description="Mass of all bones in kilograms; those with a mass of their own keep it. At 0, "
+        "the measured mass",
         min=0.0,
         step=10,
         precision=3,
@@ -143,7 +152,8 @@ class BodyMomentsWeightSettings(PropertyGroup):
     )
     ground: FloatProperty(
         name="Ground",
-        description="Height of the ground, against gravity from the world origin. Show Weight finds it",
+        description="Height of the ground, against gravity from the world origin. Show Weight "
+        "finds it",
         unit="LENGTH",
         override={"LIBRARY_OVERRIDABLE"},
         update=part_changed,

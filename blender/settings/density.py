@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The density in an object's settings, one number or a varying field, and its key for the fingerprint."""
+"""The density in an object's settings, one number or a varying field, and its key for the
+fingerprint.
+"""
 
 from __future__ import annotations
 
@@ -33,8 +35,9 @@ _BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_M
 class DensityField(NamedTuple):
     """A density that varies over a body.
 
-    kind: "materials", "polynomial", "attribute" or "volume". polynomial: kg/m³ of meters, along the world's axes if
-    `in_world`, else each surface's own; text: as it was typed. attribute: the name of the vertex attribute.
+    kind: "materials", "polynomial", "attribute" or "volume". polynomial: kg/m³ of meters, along the
+    world's axes if `in_world`, else each surface's own; text: as it was typed. attribute: the name
+    of the vertex attribute.
     """
 
     kind: str
@@ -49,13 +52,17 @@ class DensityField(NamedTuple):
         return "world" if self.in_world else "object"
 
     def polynomial_source(self) -> Finding:
-        """Return the source of a polynomial density; a text with commas is shown as a list, as one may be mistaken."""
+        """Return the source of a polynomial density; a text with commas is shown as a list, as one
+        may be mistaken.
+        """
         text = "({}) · (1, x, y, z, …)".format(self.text) if "," in self.text else self.text
         return finding(DENSITY_FROM_POLYNOMIAL, polynomial=text, frame=self.frame)
 
 
 def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
-    """Return the density field of the settings, None for one value or a given mass, or raise MeasureError."""
+    """Return the density field of the settings, None for one value or a given mass, or raise
+    MeasureError.
+    """
     if settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
         return None
     if settings.density_from == "MATERIALS":
@@ -78,7 +85,9 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
 
 
 def object_density(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> float:
-    """Return an object's uniform density in kg/m³: its own if it is set or the scene has none, else the scene's."""
+    """Return an object's uniform density in kg/m³: its own if it is set or the scene has none, else
+    the scene's.
+    """
     default = None if settings.is_property_set("density") else default_density(scene)
     return shortest_decimal(settings.density) if default is None else default
 
@@ -103,7 +112,9 @@ def unset_density(
 
 
 def is_density_unset(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> bool:
-    """Return whether neither the object nor the scene has set the density that `object_density` returns."""
+    """Return whether neither the object nor the scene has set the density that `object_density`
+    returns.
+    """
     return not settings.is_property_set("density") and default_density(scene) is None
 
 
@@ -122,9 +133,11 @@ def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
 
 
 def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Scene) -> str:
-    """Return the settings and materials behind the density, as a text; "" for one value, a given mass or a wire.
+    """Return the settings and materials behind the density, as a text; "" for one value, a given
+    mass or a wire.
 
-    used: the full names of the materials that the last measurement met, beside the ones in the object's slots.
+    used: the full names of the materials that the last measurement met, beside the ones in the
+    object's slots.
     """
     settings = obj.body_moments
     given = GivenPart.from_settings(settings, 1.0).key if settings.mass_from == "MASS" else ""

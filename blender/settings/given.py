@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings of masses and densities that objects, materials, assemblies and bones share; given centers and inertia.
+"""Settings of masses and densities that objects, materials, assemblies and bones share; given
+centers and inertia.
 
 A given center and inertia count only if the mass is given.
 """
@@ -22,7 +23,8 @@ GIVEN_PROPERTIES = (
     "given_inertia_products",
 )
 Row = tuple[float, ...]
-COLLIDER = "body_collider"  # ID property of a collider: kind, size in m and mass in kg; its parent is the body
+# ID property of a collider: kind, size in m and mass in kg; its parent is the body
+COLLIDER = "body_collider"
 COLLIDERS = "body_colliders"  # ID property of a body with colliders: what they do to its physics
 
 
@@ -56,7 +58,7 @@ def density_property(description: str, update: Hook, **special: Any) -> Any:
         "step": 1000,
         "precision": 3,
     }
-    return FloatProperty(description=description, update=update, **{**usual, **special})
+    return FloatProperty(description=description, update=update, **(usual | special))
 
 
 class GivenPartProperties:
@@ -69,7 +71,8 @@ class GivenPartProperties:
     )
     given_center: FloatVectorProperty(
         name="Center of Mass",
-        description="Center of mass from the origin, along the axes of the object. Of a collection, in the world",
+        description="Center of mass from the origin, along the axes of the object. Of a "
+        "collection, in the world",
         subtype="XYZ",
         unit="LENGTH",
         precision=6,
@@ -77,13 +80,15 @@ class GivenPartProperties:
     )
     use_inertia: BoolProperty(
         name="Given Inertia",
-        description="Enter the inertia tensor instead of taking that of the geometry with the given mass",
+        description="Enter the inertia tensor instead of taking that of the geometry with the "
+        "given mass",
         update=changed,
     )
     given_inertia_diagonal: FloatVectorProperty(
         name="Ixx, Iyy, Izz",
         description=(
-            "Diagonal of the inertia tensor about the center of mass in kg·m², independent of the scene units, along "
+            "Diagonal of the inertia tensor about the center of mass in kg·m², independent of the "
+            "scene units, along "
             "the axes of the object. Of a collection, along the world axes"
         ),
         min=0.0,
@@ -92,14 +97,16 @@ class GivenPartProperties:
     )
     given_inertia_products: FloatVectorProperty(
         name="Ixy, Ixz, Iyz",
-        description="Tensor entries off the diagonal in kg·m², independent of the scene units: Ixy = −∫xy dm",
+        description="Tensor entries off the diagonal in kg·m², independent of the scene units: Ixy "
+        "= −∫xy dm",
         precision=6,
         update=changed,
     )
 
 
 class GivenPart(NamedTuple):
-    """Given values of a part besides its mass, SI, in its own frame; None for values that follow from the geometry.
+    """Given values of a part besides its mass, SI, in its own frame; None for values that follow
+    from the geometry.
 
     center: (3,) center of mass, m. inertia: (3, 3) rows of the tensor about the center, kg·m².
     """
@@ -109,7 +116,9 @@ class GivenPart(NamedTuple):
 
     @classmethod
     def from_settings(cls, settings: PropertyGroup, unit: float) -> "GivenPart":
-        """Return the given values in the settings of an object or assembly. unit: meters per Blender unit."""
+        """Return the given values in the settings of an object or assembly. unit: meters per
+        Blender unit.
+        """
         center = inertia = None
         if settings.use_center:
             center = tuple(unit * shortest_decimal(value) for value in settings.given_center)
@@ -129,7 +138,9 @@ class GivenPart(NamedTuple):
 
 
 def shows_collection(obj: Object) -> bool:
-    """Return whether the object instances a collection; a chosen collection may have its instancing off."""
+    """Return whether the object instances a collection; a chosen collection may have its instancing
+    off.
+    """
     return obj.instance_type == "COLLECTION" and obj.instance_collection is not None
 
 

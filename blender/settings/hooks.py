@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Functions called after a change of a setting; the session registers them, so that settings need not import it."""
+"""Functions called after a change of a setting; the session registers them, so that settings need
+not import it.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Options that override objects' settings, and their resolution into the settings of a measurement."""
+"""Options that override objects' settings, and their resolution into the settings of a
+measurement.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +12,7 @@ from bpy.types import Object, Scene
 
 from ...core.measurement.settings import RequestedResults, Settings
 from ...core.numerics.float32 import shortest_decimal
+from ..scale import meters_per_unit
 from .density import object_density
 
 
@@ -30,7 +33,7 @@ class MeasureOptions(RequestedResults):
 
     def meters_per_unit(self, scene: Scene) -> float:
         """Return the length of a Blender unit in meters: the given one, else the scene's."""
-        return self.unit_scale or shortest_decimal(scene.unit_settings.scale_length)
+        return self.unit_scale or meters_per_unit(scene)
 
 
 AS_SET = MeasureOptions()  # every object as its own settings say

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: initial settings of a scene, copied into it when it is first used (`copy_defaults`).
+"""The add-on's preferences: initial settings of a scene, copied into it when it is first used
+(`copy_defaults`).
 
 So a file gives the same numbers on every machine, and in batch, which never reads preferences.
 """
@@ -59,7 +60,8 @@ class SceneDefaults:
     )
     digits: IntProperty(
         name="Precision",
-        description="Significant digits of the largest number of a column. Copied values always have all digits",
+        description="Significant digits of the largest number of a column. Copied values always "
+        "have all digits",
         default=4,
         min=2,
         max=15,
@@ -94,7 +96,8 @@ class BodyMomentsPreferences(SceneDefaults, AddonPreferences):
 
     show_overlay: BoolProperty(
         name="Overlay",
-        description="Draw the center of mass and the principal axes of measured objects in the 3D Viewport",
+        description="Draw the center of mass and the principal axes of measured objects in the 3D "
+        "Viewport",
         default=True,
     )
     live_budget: FloatProperty(
@@ -107,7 +110,8 @@ class BodyMomentsPreferences(SceneDefaults, AddonPreferences):
     )
     show_advanced: BoolProperty(
         name="Advanced",
-        description="Show the menu and the panel Advanced: moments of any order, Fourier transforms, sections, "
+        description="Show the menu and the panel Advanced: moments of any order, Fourier "
+        "transforms, sections, "
         "signatures, density polynomials",
     )
 
@@ -141,13 +145,17 @@ def preferences() -> BodyMomentsPreferences | None:
 
 
 def shows_advanced() -> bool:
-    """Return whether analyses that few need are shown; without an enabled add-on nothing could switch them on."""
+    """Return whether analyses that few need are shown; without an enabled add-on nothing could
+    switch them on.
+    """
     chosen = preferences()
     return chosen is None or chosen.show_advanced
 
 
 def copy_defaults(scene: Scene) -> None:
-    """Copy the preferences into a scene that has none yet; meant for operators that a user starts."""
+    """Copy the preferences into a scene that has none yet; meant for operators that a user
+    starts.
+    """
     settings = scene.body_moments
     source = preferences()
     if source is None or settings.has_defaults or not scene.is_editable:
@@ -161,7 +169,9 @@ def copy_defaults(scene: Scene) -> None:
 
 
 def default_density(scene: Scene) -> float | None:
-    """Return the density in kg/m³ of the scene's objects without their own, None if the scene has none."""
+    """Return the density in kg/m³ of the scene's objects without their own, None if the scene has
+    none.
+    """
     settings = scene.body_moments
     if settings.default_material == "CUSTOM":
         return shortest_decimal(settings.default_density)
@@ -171,7 +181,9 @@ def default_density(scene: Scene) -> float | None:
 
 
 def default_material(scene: Scene) -> str:
-    """Return the name of the material of the scene's objects that have no density of their own, "" if there is none."""
+    """Return the name of the material of the scene's objects that have no density of their own, ""
+    if there is none.
+    """
     name = scene.body_moments.default_material
     return name if name in BY_NAME else ""
 

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of an object's body and of its materials, in property groups; results live in ID properties.
+"""The settings of an object's body and of its materials, in property groups; results live in ID
+properties.
 
-The given mass has no unit type: Blender would scale it by scale_length³, while a part weighs the same in all units.
+The given mass has no unit type: Blender would scale it by scale_length³, while a part weighs the
+same in all units.
 """
 
 from functools import partial
@@ -14,6 +16,7 @@ from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
 from ...core.density.materials import BY_NAME, CT_DENSITIES, DENSITY_UNITS, density_unit
 from ...core.numerics.float32 import shortest_decimal
+from ..scale import meters_per_unit
 from .density import object_density
 from .given import (
     GIVEN_PROPERTIES,
@@ -122,7 +125,8 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         (
             "MATERIALS",
             "Materials",
-            "Density of each material, per face of a shell and per closed component of a solid. Faces whose "
+            "Density of each material, per face of a shell and per closed component of a solid. "
+            "Faces whose "
             "material has no density use the object's",
         ),
         (
@@ -144,7 +148,8 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
     )
     density_polynomial: _text(
         "Polynomial",
-        "Density in kg/m³ for x, y and z in meters, such as 1000 + 20*z. Alternatively the coefficients of 1, x, "
+        "Density in kg/m³ for x, y and z in meters, such as 1000 + 20*z. Alternatively the "
+        "coefficients of 1, x, "
         "y, z, x², xy, xz, y², yz, z², … separated by commas",
         default="1000",
     )
@@ -154,7 +159,8 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         (
             "OBJECT",
             "Object",
-            "Meters along the object's axes from its origin, mirrored by a negative scale. Each instance has its own",
+            "Meters along the object's axes from its origin, mirrored by a negative scale. Each "
+            "instance has its own",
         ),
         ("WORLD", "World", "Meters along the world axes from the world origin"),
     )
@@ -254,13 +260,15 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
     )
     transfer_table: _text(
         "Transfer Table",
-        "Pairs of a grid value and a density in kg/m³, separated by commas. Linear in between, constant beyond. "
+        "Pairs of a grid value and a density in kg/m³, separated by commas. Linear in between, "
+        "constant beyond. "
         "The default converts CT numbers to tissue densities",
         default=CT_DENSITIES,
     )
     spline_order: IntProperty(
         name="Spline Order",
-        description="Order of the spline whose coefficients the values are: 1 for voxels, 2 for trilinear, 4 for cubic",
+        description="Order of the spline whose coefficients the values are: 1 for voxels, 2 for "
+        "trilinear, 4 for cubic",
         default=1,
         min=1,
         max=6,
@@ -308,7 +316,9 @@ class BodyMomentsMaterialSettings(PropertyGroup):
 
 
 def density_field_name(scene: Scene) -> str:
-    """Return the name of the property that shows an object's or a material's density in the scene's unit."""
+    """Return the name of the property that shows an object's or a material's density in the scene's
+    unit.
+    """
     return (
         "density_"
         + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
@@ -333,7 +343,9 @@ def _comparable(value):
 
 
 def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
-    """Write kind, overlap, wall, density, mass and thickness from `MeasureOptions` into the settings, if not None."""
+    """Write kind, overlap, wall, density, mass and thickness from `MeasureOptions` into the
+    settings, if not None.
+    """
     for name in ("kind", "overlap", "wall"):
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name).upper())
@@ -350,7 +362,7 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
         settings.mass_from = "MASS"
         settings.mass = options.mass
     if options.thickness is not None:
-        settings.thickness = options.thickness / shortest_decimal(scene.unit_settings.scale_length)
+        settings.thickness = options.thickness / meters_per_unit(scene)
 
 
 CLASSES = (BodyMomentsObjectSettings, BodyMomentsMaterialSettings)

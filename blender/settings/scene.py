@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of a scene, declared as property groups: display, initial settings, overlay, and reference.
+"""The settings of a scene, declared as property groups: display, initial settings, overlay, and
+reference.
 
 Inertia and moments are shown about the reference.
 """
@@ -19,12 +20,14 @@ class BodyMomentsOverlaySettings(PropertyGroup):
 
     show: BoolProperty(
         name="Mass Properties",
-        description="Draw the center of mass and the principal axes of measured objects in the 3D Viewport",
+        description="Draw the center of mass and the principal axes of measured objects in the 3D "
+        "Viewport",
         default=True,
     )
     show_all: BoolProperty(
         name="All Measured Objects",
-        description="Draw all visible measured objects instead of the selected ones. From 20 objects on, only the "
+        description="Draw all visible measured objects instead of the selected ones. From 20 "
+        "objects on, only the "
         "sum, doubtful ones and the active one are drawn",
     )
     show_axes: BoolProperty(
@@ -46,15 +49,18 @@ class BodyMomentsOverlaySettings(PropertyGroup):
     )
     show_sum: BoolProperty(
         name="Sum of Selection",
-        description="Draw the center of mass and the principal axes of the selected objects as one body",
+        description="Draw the center of mass and the principal axes of the selected objects as one "
+        "body",
     )
     show_faults: BoolProperty(
         name="Faults",
-        description="Draw boundary edges and flipped faces that were found when the object was measured",
+        description="Draw boundary edges and flipped faces that were found when the object was "
+        "measured",
     )
     show_support: BoolProperty(
         name="Support Polygon",
-        description="Draw the support polygon and the direction of tipping of objects whose stability was computed",
+        description="Draw the support polygon and the direction of tipping of objects whose "
+        "stability was computed",
         default=True,
     )
     show_path: BoolProperty(
@@ -147,7 +153,8 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
         (
             "INVARIANT",
             "Invariants",
-            "Numbers of a flat shape that do not depend on its place, rotation and size: Hu's, then Flusser's",
+            "Numbers of a flat shape that do not depend on its place, rotation and size: Hu's, "
+            "then Flusser's",
         ),
         ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
         translation_context=TRANSLATION_CONTEXT,

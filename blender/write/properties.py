@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stored results as ID properties of an object: the public contract for drivers, rigs and exporters.
+"""The stored results as ID properties of an object: the public contract for drivers, rigs and
+exporters.
 
-SI units, object frame (the object's location and rotation, unit scale). Inertia is six tensor entries about the center
-of mass, xx, yy, zz, xy, xz, yz, with xy = -∫xy dm.
+SI units, object frame (the object's location and rotation, unit scale). Inertia is six tensor
+entries about the center of mass, xx, yy, zz, xy, xz, yz, with xy = -∫xy dm.
 """
 
 from __future__ import annotations
@@ -37,12 +38,14 @@ DESCRIPTIONS = {
     "body_volume": "Volume in m³",
     "body_area": "Surface area in m²",
     "body_center_of_mass": "Center of mass in {frame}, in m",
-    "body_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the center of mass, along the axes of {frame}, "
+    "body_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the center of mass, along the "
+    "axes of {frame}, "
     "in kg·m² (xy = −∫xy dm)",
     "body_inertia_diagonal": "Inertia tensor xx, yy, zz, as in body_inertia, in kg·m²",
     "body_inertia_products": "Inertia tensor xy, xz, yz, as in body_inertia, in kg·m²",
     "body_principal_moments": "Principal moments of inertia, ascending, in kg·m²",
-    "body_principal_axes": "Quaternion w, x, y, z that turns the axes of {frame} into the principal axes",
+    "body_principal_axes": "Quaternion w, x, y, z that turns the axes of {frame} into the "
+    "principal axes",
     "body_error_bound": "What rounding may have changed: volume, area, center of mass, inertia; "
     "then the same four for what storing coordinates as float32 may have",
     "body_density_from": "Where the density came from",
@@ -51,15 +54,20 @@ DESCRIPTIONS = {
     "body_warnings": "Warnings in English, one a line",
     "body_findings": "What was found and decided, as JSON: codes, values and the first elements",
     "body_length": "Length of a wire in m",
-    "body_display_volume": "What the display mesh of a NURBS surface would have given as its volume, in m³",
+    "body_display_volume": "What the display mesh of a NURBS surface would have given as its "
+    "volume, in m³",
     "body_fingerprint": "What the numbers were computed from",
     "body_reference": "What body_reference_inertia is about, as JSON",
     "body_reference_origin": "Origin of the reference in the world, in m",
-    "body_reference_axes": "Quaternion w, x, y, z that turns the world axes into those of the reference",
-    "body_reference_center": "Center of mass from the origin of the reference, along its axes, in m",
-    "body_reference_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the origin of the reference, along its "
+    "body_reference_axes": "Quaternion w, x, y, z that turns the world axes into those of the "
+    "reference",
+    "body_reference_center": "Center of mass from the origin of the reference, along its axes, in "
+    "m",
+    "body_reference_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the origin of the "
+    "reference, along its "
     "axes, in kg·m² (xy = −∫xy dm)",
-    "body_reference_error_bound": "What rounding may have changed: center of mass, inertia; then the same two for what "
+    "body_reference_error_bound": "What rounding may have changed: center of mass, inertia; then "
+    "the same two for what "
     "storing coordinates as float32 may have",
     "body_axis_inertia": "Moment of inertia about the axis of the reference, in kg·m²",
 }
@@ -87,7 +95,8 @@ LENGTHS = {
 BALANCE_GROUP = (
     "body_balance_group"  # on an empty that shows a group: the names of its objects, one a line
 )
-BALANCE_SPANS = "body_balance_spans"  # on it: first frame, last frame, N·s and N·m·s from nothing, span after span
+# on it: first frame, last frame, N·s and N·m·s from nothing, span after span
+BALANCE_SPANS = "body_balance_spans"
 OPTIONAL = (
     "body_length",
     "body_display_volume",
@@ -96,7 +105,10 @@ ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 
 
 def store(obj: Owner, measurement: Measurement) -> None:
-    """Write all results on an object, a collection or a pose bone. Raises EditRefusedError if it cannot hold them."""
+    """Write all results on an object, a collection or a pose bone.
+
+    Raises EditRefusedError if it cannot hold them.
+    """
     require_storable(obj)
     body = measurement.in_object_frame()
     bound = measurement.error_bound
@@ -133,11 +145,12 @@ def store_stack(
     error_bounds: NDArray,
     texts: Iterable[tuple[Method, tuple[Finding, ...], str]],
 ) -> Iterator[Exception | None]:
-    """Write the results of n objects, each a solid of one density; yield each object's exception or None.
+    """Write the results of n objects, each a solid of one density; yield each object's exception or
+    None.
 
     body: with a leading axis, in the object frames. density, volume, area: (n,) arrays.
-    error_bounds: (n, 2, 4) bounds of rounding and of float32 coordinates, in the order of BOUND_KEYS.
-    texts: the method, findings and fingerprint of each object.
+    error_bounds: (n, 2, 4) bounds of rounding and of float32 coordinates, in the order of
+    BOUND_KEYS. texts: the method, findings and fingerprint of each object.
     """
     columns = (
         body.mass,
@@ -177,7 +190,9 @@ def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str
 
 
 def _replace(obj: Owner, values: dict[str, Any]) -> None:
-    """Replace all results by `values`, or keep the earlier results on failure; add the tensor in two parts."""
+    """Replace all results by `values`, or keep the earlier results on failure; add the tensor in
+    two parts.
+    """
     entries = values["body_inertia"]
     values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
     before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
@@ -204,7 +219,9 @@ def _write(obj: Owner, values: dict[str, Any]) -> None:
 def store_scaled(
     obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str
 ) -> None:
-    """Scale stored finite results to another density: mass, inertia and its bounds. density: mean, 0 for a wire."""
+    """Scale stored finite results to another density: mass, inertia and its bounds. density: mean,
+    0 for a wire.
+    """
     factor = mass / obj["body_mass"]
     for key in (
         "body_inertia",
@@ -300,9 +317,10 @@ def clear(obj: Owner) -> bool:
 def retrigger_drivers(obj: Owner) -> None:
     """Make Blender evaluate only the drivers that read the stored results.
 
-    Update tags do more: TIME evaluates the object's animation, which reverts unkeyed changes; OBJECT evaluates
-    dependents of its place, such as Booleans with this operand. If a property that is only drawn is set, Blender copies
-    the object for evaluation, and then looks at its custom properties.
+    Update tags do more: TIME evaluates the object's animation, which reverts unkeyed changes;
+    OBJECT evaluates dependents of its place, such as Booleans with this operand. If a property that
+    is only drawn is set, Blender copies the object for evaluation, and then looks at its custom
+    properties.
     """
     if isinstance(obj, bpy.types.Collection):
         obj.color_tag = obj.color_tag
@@ -316,7 +334,9 @@ def is_stored(obj: Owner) -> bool:
 
 
 def method(obj: Owner) -> Method | None:
-    """Return the method of the stored numbers; None without numbers, and for a method of another version."""
+    """Return the method of the stored numbers; None without numbers, and for a method of another
+    version.
+    """
     return Method.parse(method_text(obj))
 
 
@@ -326,7 +346,9 @@ def method_text(obj: Owner) -> str:
 
 
 def fingerprint(obj: Owner) -> str:
-    """Return the stamp of the numbers' inputs (session/tracking/stamps.py) as text, "" if there is none."""
+    """Return the stamp of the numbers' inputs (session/tracking/stamps.py) as text, "" if there is
+    none.
+    """
     return str(obj.get("body_fingerprint", ""))
 
 
@@ -352,7 +374,9 @@ def findings_text(findings: Iterable[Finding]) -> str:
 
 
 def findings_in(text: object) -> tuple[Finding, ...]:
-    """Return the findings in a stored text that can be put into words; none if `findings_text` did not write it."""
+    """Return the findings in a stored text that can be put into words; none if `findings_text` did
+    not write it.
+    """
     return _findings_in(text) if isinstance(text, str) else ()
 
 
@@ -373,7 +397,9 @@ def _has_sentence(finding: Finding) -> bool:
 
 
 def is_estimated(obj: bpy.types.Object) -> bool:
-    """Return whether the stored bounds are estimates, as for splines and for solids filled with a grid."""
+    """Return whether the stored bounds are estimates, as for splines and for solids filled with a
+    grid.
+    """
     how = method(obj)
     if how is None:
         return False
@@ -393,7 +419,9 @@ def density_from(obj: Owner) -> str:
 
 
 def stored(obj: Owner) -> PlainBody | None:
-    """Return the stored results, in the object frame; None if one is missing or (except error bounds) not finite."""
+    """Return the stored results, in the object frame; None if one is missing or (except error
+    bounds) not finite.
+    """
     values: list[Any] = []
     for key, length in LENGTHS.items():
         value = obj.get(key)
@@ -406,4 +434,4 @@ def stored(obj: Owner) -> PlainBody | None:
         values.append(row if length else row[0])
     *numbers, turn, bounds = values
     rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
-    return PlainBody._make((*numbers, rotation_axes(turn), {**rounding, "input": inputs}))
+    return PlainBody._make((*numbers, rotation_axes(turn), (rounding | {"input": inputs})))

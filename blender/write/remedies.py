@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The remedies of findings: the effect of one press of a button, and the findings that it remedies."""
+"""The remedies of findings: the effect of one press of a button, and the findings that it
+remedies.
+"""
 
 from typing import NamedTuple
 
@@ -44,7 +46,8 @@ REMEDIES = {
     FILL: Remedy("Fill Holes", "Close the holes of the mesh with faces", "MESH_PLANE"),
     OUTSIDE: Remedy(
         "Recalculate Outside",
-        "Reverse the faces that were measured as reversed: flipped ones, and those of components that are inside out. "
+        "Reverse the faces that were measured as reversed: flipped ones, and those of components "
+        "that are inside out. "
         "Cavities keep facing inward",
         "NORMALS_FACE",
     ),
@@ -81,7 +84,9 @@ EDITS = (FILL, OUTSIDE, MERGE, DUPLICATES)  # edits of a mesh
 
 
 def remedies_of(code: str, object_type: str) -> tuple[str, ...]:
-    """Return the remedies of a finding about an object of this type: keys of REMEDIES, or an operator's idname."""
+    """Return the remedies of a finding about an object of this type: keys of REMEDIES, or an
+    operator's idname.
+    """
     found = ADVICE.get(code, ())
     return (
         found

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Texts of operators: reports, reasons for disabled buttons, the status bar.
 
-A text of the interface is an English template at the place where it is shown; `phrase` translates and fills it.
-Findings are shown by their sentences. Both are in the language of the interface, with lengths in the scene's units.
+A text of the interface is an English template at the place where it is shown; `phrase` translates
+and fills it. Findings are shown by their sentences. Both are in the language of the interface, with
+lengths in the scene's units.
 """
 
 from __future__ import annotations
@@ -34,7 +35,9 @@ class Refused(Exception):
 
 
 def phrase(template: str, plural: str | None = None, /, **values: Any) -> str:
-    """Return an interface text, translated and filled as sentences are; plural: for a `count` other than 1."""
+    """Return an interface text, translated and filled as sentences are; plural: for a `count` other
+    than 1.
+    """
     return fill(template, plural, values, bpy.app.translations.pgettext_rpt, _length)
 
 
@@ -47,8 +50,9 @@ def text(*parts: Finding | str) -> str:
             if isinstance(part, str)
             else sentence(part, bpy.app.translations.pgettext_rpt, _length)
         )
-        between = " " if joined.endswith((".", ":")) else ". " if added.endswith(".") else "; "
-        joined += between + added if joined else added
+        if joined and not joined.endswith((".", ":")):
+            joined += "." if added.endswith(".") else ";"
+        joined += " " + added if joined else added
     return joined
 
 
@@ -61,7 +65,8 @@ def _rank(part: Finding | str) -> Severity:
 
 
 def report(operator: Operator, *parts: Finding | str, level: Severity = Severity.NOTE) -> set[str]:
-    """Report texts and findings in one message, with the highest severity; return the result of `execute`.
+    """Report texts and findings in one message, with the highest severity; return the result of
+    `execute`.
 
     level: the severity of the texts.
     """
@@ -71,14 +76,18 @@ def report(operator: Operator, *parts: Finding | str, level: Severity = Severity
 
 
 def unavailable(operator: type[Operator], reason: str) -> bool:
-    """Return False for an operator's `poll`, and give Blender the reason, which is passed in English."""
+    """Return False for an operator's `poll`, and give Blender the reason, which is passed in
+    English.
+    """
     operator.poll_message_set(phrase(reason))
     return False
 
 
 @contextmanager
 def progress(count: float) -> Iterator[Callable[[float], None]]:
-    """Yield a function that displays the finished part of `count` at the cursor, if `count` is more than 1."""
+    """Yield a function that displays the finished part of `count` at the cursor, if `count` is more
+    than 1.
+    """
     manager = bpy.context.window_manager
     if count <= 1:
         yield lambda _done: None
@@ -91,13 +100,17 @@ def progress(count: float) -> Iterator[Callable[[float], None]]:
 
 
 def first(parts: Sequence[Any]) -> list[Any]:
-    """Return at most MAX_REPORTED findings or texts, the most severe first, and the number of omitted ones."""
+    """Return at most MAX_REPORTED findings or texts, the most severe first, and the number of
+    omitted ones.
+    """
     ranked = sorted(parts, key=lambda part: [*Severity].index(_rank(part)), reverse=True)
     return truncate_findings(ranked, MAX_REPORTED)
 
 
 def failure(name: str, reason: Finding | Exception) -> Finding:
-    """Return the finding that one of several objects was left unchanged, by a refusal or an internal error."""
+    """Return the finding that one of several objects was left unchanged, by a refusal or an
+    internal error.
+    """
     cause = reason if isinstance(reason, Finding) else internal_error.finding_of(reason)
     return finding(FAILURE, object=name, cause=cause.as_record())
 

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A stored section: one group of ID properties, `body_section`, on the measured object, and its text report.
+"""A stored section: one group of ID properties, `body_section`, on the measured object, and its
+text report.
 
-SI units, world axes. It holds a `core.flat.section.Section` with its description, findings and a fingerprint.
+SI units, world axes. It holds a `core.flat.section.Section` with its description, findings and a
+fingerprint.
 """
 
 from __future__ import annotations
@@ -90,7 +92,9 @@ def fingerprint(obj: bpy.types.Object) -> str:
 
 
 def unit(obj: bpy.types.Object) -> float | None:
-    """Return the unit scale of the stored section, in meters; None if there is none, or it is damaged."""
+    """Return the unit scale of the stored section, in meters; None if there is none, or it is
+    damaged.
+    """
     group = obj.get(KEY)
     try:
         (meters,) = group["unit"]
@@ -147,7 +151,9 @@ def clear(obj: bpy.types.Object) -> bool:
 
 
 def text(name: str, section: StoredSection, outdated: str | None = None) -> str:
-    """Return a report that a person reads, in SI units. outdated: the reason why the section no longer holds."""
+    """Return a report that a person reads, in SI units. outdated: the reason why the section no
+    longer holds.
+    """
     return "\n".join(_lines(name, section, outdated)) + "\n"
 
 
@@ -196,9 +202,8 @@ def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> It
     ):
         yield report_line(
             label,
-            "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} m⁴".format(
-                *(rounded_up(bound[name]) for name in BOUND_KEYS)
-            ),
+            "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} "
+            "m⁴".format(*(rounded_up(bound[name]) for name in BOUND_KEYS)),
         )
     for finding in stored_section.findings:
         yield report_line(

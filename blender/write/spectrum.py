@@ -12,9 +12,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.files.whole_file import whole_file
 from ...core.fourier.wave_vectors import Spectrum
 from ...core.measurement.documents import SPECTRUM_ARRAYS
-from ...core.whole_file import whole_file
 
 IMAGE_MARK = (
     "body_fourier"  # property of the images that may be overwritten; its value is their name
@@ -32,9 +32,10 @@ def save(
 ) -> None:
     """Write a spectrum as an .npz file, complete or not at all.
 
-    The arrays are q, (M, 3) in rad/m; F, (M,) complex in m³ or m²; error, (M,) bounds of the rounding; input, a bound
-    of the error by float32 coordinates; method; frame. check: as in `whole_file`. plane: the further
-    `FLAT_SPECTRUM_ARRAYS` of a flat shape, for which q is (M, 2). Raises OSError.
+    The arrays are q, (M, 3) in rad/m; F, (M,) complex in m³ or m²; error, (M,) bounds of the
+    rounding; input, a bound of the error by float32 coordinates; method; frame. check: as in
+    `whole_file`. plane: the further `FLAT_SPECTRUM_ARRAYS` of a flat shape, for which q is (M, 2).
+    Raises OSError.
     """
     with whole_file(path, check) as file:
         arrays = (
@@ -51,12 +52,13 @@ def save(
 def picture(
     name: str, values: NDArray[np.complex128], count: int, dimension: int = 3
 ) -> bpy.types.Image:
-    """Return an image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a grid of count³.
+    """Return an image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a
+    grid of count³.
 
     With two dimensions, on a grid of count², the image shows all of it.
 
-    Gray is log |F|: white at the maximum, black from six decades below on. The first remaining axis runs to the
-    right, the second upward.
+    Gray is log |F|: white at the maximum, black from six decades below on. The first remaining axis
+    runs to the right, the second upward.
     """
     half = count // 2
     size = np.abs(values).reshape((count,) * dimension)

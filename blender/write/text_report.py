@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A report that a person reads, in the order of CAD dialogs: verdict, mass, volume, center, principal axes, tensor.
+"""A report that a person reads, in the order of CAD dialogs: verdict, mass, volume, center,
+principal axes, tensor.
 
-It is made from a document (`documents.document`); results stored on objects become a document first.
+It is made from a document (`documents.document`); results stored on objects become a document
+first.
 """
 
 from __future__ import annotations
@@ -15,11 +17,11 @@ from ...core.inertia.plain_body import TENSOR, PlainBody, add_bodies, principal_
 from ...core.measurement.documents import document, plain
 from ...core.measurement.plain_text import visible
 from ...core.measurement.record import described
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.method import Method, Procedure
 from ...core.verdict.sentences import HEALTH, METHODS, method_key
 from ...core.wall.findings import WALL_MEASURED
+from ..scale import meters_per_unit
 from . import properties
 from .findings import NO_STORED_RESULTS, STALE_RESULTS
 from .units import INDENT, clean, report_line, report_number, report_vector, rounded_up
@@ -35,12 +37,13 @@ def stored_document(
     file: str | None = None,
     blender: str | None = None,
 ) -> dict[str, Any]:
-    """Return the document of the results stored on objects, in the scene's frame; their health is not stored.
+    """Return the document of the results stored on objects, in the scene's frame; their health is
+    not stored.
 
     outdated: names. caveats: about the total.
     """
     scene = context.scene
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     frame = scene.body_moments.frame.lower()
     entries = []
     bodies = []
@@ -171,7 +174,9 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
 
 
 def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any]:
-    """Return the record of an object's stored results, with an empty health, which is not stored."""
+    """Return the record of an object's stored results, with an empty health, which is not
+    stored.
+    """
     method = properties.method(obj)
     findings = properties.findings(obj)
     kinds = {Procedure.SHELL: "shell", Procedure.WIRE: "wire"}
@@ -209,7 +214,9 @@ def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any
 
 
 def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[PlainBody]) -> dict[str, Any]:
-    """Return the sum of stored results, world frame, without axes, whose signs need third moments."""
+    """Return the sum of stored results, world frame, without axes, whose signs need third
+    moments.
+    """
     total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
     whole = add_bodies(bodies)

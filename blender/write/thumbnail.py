@@ -31,8 +31,8 @@ def thumbnail(
 ) -> str:
     """Draw triangles from an oblique direction, and return a PNG as a data URL.
 
-    points (n, 3), the center of mass (3,) and the principal axes (3, 3) as columns share any one frame and unit.
-    triangles: (m, 3) integers.
+    points (n, 3), the center of mass (3,) and the principal axes (3, 3) as columns share any one
+    frame and unit. triangles: (m, 3) integers.
     """
     corners = np.asarray(points, np.float64)[triangles] @ _VIEW
     low = corners.reshape(-1, 3).min(axis=0)
@@ -54,7 +54,9 @@ def thumbnail(
 
 
 def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) -> None:
-    """Draw the triangles at the centers of pixels, the nearest in front, each shaded by its normal."""
+    """Draw the triangles at the centers of pixels, the nearest in front, each shaded by its
+    normal.
+    """
     owner, spots = _covered_pixels(corners)
     sampled, samples = _sample(corners, areas, _SAMPLES if len(owner) else _MANY_SAMPLES)
     owner = np.concatenate([sampled, owner])
@@ -69,7 +71,9 @@ def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) ->
 
 
 def _covered_pixels(corners: NDArray) -> tuple[NDArray, NDArray[np.float64]]:
-    """Return the (k,) triangles that cover centers of pixels, and these (k, 3) points; none if too many."""
+    """Return the (k,) triangles that cover centers of pixels, and these (k, 3) points; none if too
+    many.
+    """
     flat = corners[:, :, :2]
     first = np.ceil(flat.min(axis=1)).astype(int)
     last = np.floor(flat.max(axis=1)).astype(int)

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Other languages, by Blender's own mechanism: the text in the source is looked up, and then filled.
+"""Other languages, by Blender's own mechanism: the text in the source is looked up, and then
+filled.
 
-Blender looks up labels, tooltips and texts without placeholders; all others go through `localized` or
-`localized_sentence`, and are drawn with `translate=False`. Stored texts and records stay English. The translations are
-`locale/*.po`, by the English text; only the file of the interface's language is read.
+Blender looks up labels, tooltips and texts without placeholders; all others go through `localized`
+or `localized_sentence`, and are drawn with `translate=False`. Stored texts and records stay
+English. The translations are `locale/*.po`, by the English text; only the file of the interface's
+language is read.
 """
 
 from __future__ import annotations
@@ -26,16 +28,20 @@ from .units import Units
 
 ADDON_ID = __name__.removesuffix(".blender.write.translations")
 FOLDER = Path(sys.modules[ADDON_ID].__path__[0]) / "locale"
-# Words that mean something else in Blender's own translations, such as Frame and Order, are looked up under this.
+# Words that mean something else in Blender's own translations, such as Frame and Order, are looked
+# up under this.
 CONTEXT = "Body Moments"
 
-# A line of a .po file: a field with the first part of its text, or a further part of the text alone.
+# A line of a .po file: a field with the first part of its text, or a further part of the text
+# alone.
 _PART = r'(msgctxt|msgid|msgid_plural|msgstr(?:\[\d+\])?)?\s*(".*")\s*'
 _FUZZY = r"(?m)^#,.*\bfuzzy\b"  # a tool's guess that no translator has confirmed
 
 
 def read_po(path: Path) -> Iterator[tuple[str | None, str, str]]:
-    """Yield (context or None, English text, translation) of each translated singular and (last form) plural."""
+    """Yield (context or None, English text, translation) of each translated singular and (last
+    form) plural.
+    """
     for block in re.split(r"\n\s*\n", path.read_text(encoding="utf-8")):
         if re.search(_FUZZY, block):
             continue
@@ -52,7 +58,9 @@ def read_po(path: Path) -> Iterator[tuple[str | None, str, str]]:
 
 
 def read_translations(locale: str) -> dict[tuple[str, str], str]:
-    """Return translations by (context, English text), {} without a file; each context has those without context."""
+    """Return translations by (context, English text), {} without a file; each context has those
+    without context.
+    """
     contexts = bpy.app.translations.contexts
     everywhere = (contexts.default, contexts.operator_default, CONTEXT)
     paths = [FOLDER / f"{name}.po" for name in (locale, locale.partition("_")[0])]

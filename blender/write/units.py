@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """SI numbers in the scene's units, with their units, digits and grouping.
 
-Blender's own formatter has no density and no inertia, and shows a microgram as "0 kg". Areas, volumes and inertias
-follow the scene's length and mass unit; the numbers of a column share an adaptive unit and their decimals.
+Blender's own formatter has no density and no inertia, and shows a microgram as "0 kg". Areas,
+volumes and inertias follow the scene's length and mass unit; the numbers of a column share an
+adaptive unit and their decimals.
 """
 
 from __future__ import annotations
@@ -84,8 +85,8 @@ INDENT, REPORT_WIDTH = "  ", 22
 class Units(NamedTuple):
     """A scene's unit settings.
 
-    With system "NONE", lengths, areas and volumes are in the scene's own units, without a name; quantities with mass
-    are SI, with its name.
+    With system "NONE", lengths, areas and volumes are in the scene's own units, without a name;
+    quantities with mass are SI, with its name.
     """
 
     system: str
@@ -113,21 +114,26 @@ class Units(NamedTuple):
         )
 
     def text(self, quantity: str, value: float) -> str:
-        """Return one SI value as text: "1.5 kg", "12.3457 cm²"; a density in g/cm³ too where grams are shown."""
+        """Return one SI value as text: "1.5 kg", "12.3457 cm²"; a density in g/cm³ too where grams
+        are shown.
+        """
         text = self.texts(quantity, (value,))[0]
         if quantity == "density" and self.shows_grams and text.endswith(SI_UNITS["density"]):
             text += " ({:s} g/cm³)".format(number(1e-3 * value, self.digits, self.grouping))
         return text
 
     def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
-        """Return SI values of one quantity as a column of texts, in one unit and with equally many decimals.
+        """Return SI values of one quantity as a column of texts, in one unit and with equally many
+        decimals.
 
-        The largest value decides the unit. size: of the body that they belong to; rounding beside it is shown as 0.
+        The largest value decides the unit. size: of the body that they belong to; rounding beside
+        it is shown as 0.
         """
         largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
         noise = max(1e-12 * largest, 1e-7 * size)
         factor, name = self.unit(quantity, 0.0 if largest < noise else largest)
-        # Beside a largest value, what is left of a cancelled one is noise: 1e-17 kg·m² is shown as 0.
+        # Beside a largest value, what is left of a cancelled one is noise: 1e-17 kg·m² is shown as
+        # 0.
         shown = [0.0 if abs(value) < noise else value / factor for value in values]
         return [
             "{:s} {:s}".format(text, name).rstrip()
@@ -135,7 +141,9 @@ class Units(NamedTuple):
         ]
 
     def bound(self, quantity: str, bound: float, beside: float) -> str:
-        """Return an SI error bound, rounded up to two digits, in the unit of its value: "± 4.5e-15 m³"."""
+        """Return an SI error bound, rounded up to two digits, in the unit of its value: "± 4.5e-15
+        m³".
+        """
         factor, name = self.unit(quantity, abs(beside))
         return "± {:s} {:s}".format(
             number(rounded_up(bound / factor), 2, self.grouping), name
@@ -179,7 +187,9 @@ class Units(NamedTuple):
         table = MASSES[self.system]
         if self.shows_grams or self._has_default_mass:
             small = self.shows_grams or self.length == "ADAPTIVE" and 0.0 < value < 1.0
-            return table["TONNES" if value > HEAVY else "GRAMS" if small else "KILOGRAMS"]
+            if value > HEAVY:
+                return table["TONNES"]
+            return table["GRAMS" if small else "KILOGRAMS"]
         if self.mass != "ADAPTIVE":
             return table[self.mass]
         base = table[BASES[self.system][1]]
@@ -220,14 +230,18 @@ def rounded_up(bound: float) -> float:
 
 
 def number(value: float, digits: int = DIGITS, grouping: str = "SPACE") -> str:
-    """Return a readable number: `digits` significant digits, no trailing zeros, powers of ten only if needed."""
+    """Return a readable number: `digits` significant digits, no trailing zeros, powers of ten only
+    if needed.
+    """
     return column((value,), digits, grouping)[0]
 
 
 def column(values: Sequence[float], digits: int = DIGITS, grouping: str = "SPACE") -> list[str]:
-    """Return numbers as text for a column, with equally many decimals, and with the same power of ten if needed.
+    """Return numbers as text for a column, with equally many decimals, and with the same power of
+    ten if needed.
 
-    Common trailing zeros are left out. digits: significant digits of the largest number. grouping: one of `GROUPS`.
+    Common trailing zeros are left out. digits: significant digits of the largest number. grouping:
+    one of `GROUPS`.
     """
     largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
     if largest == 0.0:
@@ -272,7 +286,9 @@ def report_vector(values: Sequence[float | None], size: float = 0.0) -> str:
 
 
 def clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
-    """Return the values, with 0.0 for values within rounding of the largest one or of the body's size."""
+    """Return the values, with 0.0 for values within rounding of the largest one or of the body's
+    size.
+    """
     largest = max([size, *(abs(value) for value in values if value is not None)])
     return [
         0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value

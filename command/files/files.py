@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Opening of a user's file as the scene, which raises FileError with the reason if it fails.
 
-Every file starts from an empty scene of factory settings. Scripts inside .blend files never run. Files that Blender's
-importers accept silently are refused: a FIFO (it would block for ever), a file without objects.
+Every file starts from an empty scene of factory settings. Scripts inside .blend files never run.
+Files that Blender's importers accept silently are refused: a FIFO (it would block for ever), a file
+without objects.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from contextlib import suppress
 
 import bpy
 
-from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...core.files.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from ..supervisor.listing import BLEND, USD
@@ -34,12 +35,15 @@ _TRACEBACK = "Traceback (most recent call last)"
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 
 _IMPORTERS: dict[str, Callable[[str], object]] = {
-    **dict.fromkeys((".stl", ".ply"), import_mesh),
+    ".stl": import_mesh,
+    ".ply": import_mesh,
     ".obj": import_obj,
     ".fbx": lambda path: bpy.ops.wm.fbx_import(filepath=path),
     ".3mf": import_3mf,
-    **dict.fromkeys((".igs", ".iges"), import_iges),
-    **dict.fromkeys((".glb", ".gltf"), import_gltf),
+    ".igs": import_iges,
+    ".iges": import_iges,
+    ".glb": import_gltf,
+    ".gltf": import_gltf,
     **dict.fromkeys(USD, import_usd),
 }
 
@@ -96,7 +100,8 @@ def _open_blend(path: str) -> None:
 def _saved_by(path: str) -> tuple[int, int] | None:
     """Return the version of Blender in the header of a .blend file not compressed with zstd.
 
-    Return (0, 0) for big-endian numbers, (99, 0) for a file format of the future, and None if there is no such header.
+    Return (0, 0) for big-endian numbers, (99, 0) for a file format of the future, and None if there
+    is no such header.
     """
     with open(path, "rb") as file:
         head = file.read(20)
@@ -124,7 +129,8 @@ def newer_version() -> Iterator[Finding]:
 def reason(error: Exception) -> str:
     """Return an error of the system or of Blender as one line.
 
-    The line is the first of a report, or the exception of a traceback, which Blender may follow with its location.
+    The line is the first of a report, or the exception of a traceback, which Blender may follow
+    with its location.
     """
     if isinstance(error, OSError):
         return system_reason(error)

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Check for finite coordinates in a file, before Blender imports it.
 
-Blender's importers silently replace a coordinate that is no finite float32 by 0 or the vertex before: a wrong body
-would be measured as exact. Numbers that place no point may be NaN. Other damage is left to Blender, which reports it.
+Blender's importers silently replace a coordinate that is no finite float32 by 0 or the vertex
+before: a wrong body would be measured as exact. Numbers that place no point may be NaN. Other
+damage is left to Blender, which reports it.
 """
 
 from __future__ import annotations
@@ -22,9 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.cad.obj_text import check_obj_text
-from ...core.scans.findings import DAMAGE_SIZE, FILE_DAMAGED
-from ...core.streams.file_mesh import refuse_non_finite
-from ...core.streams.text_fields import (
+from ...core.files.damage import refuse_non_finite
+from ...core.files.findings import DAMAGE_SIZE, FILE_DAMAGED, MISSING_REFERENCES
+from ...core.files.text_fields import (
     BLOCK,
     MAX_FLOAT32,
     SHORT,
@@ -34,7 +35,6 @@ from ...core.streams.text_fields import (
     refuse_line,
 )
 from ...core.verdict.finding import FileError, finding
-from ..findings import MISSING_REFERENCES
 
 MALFORMED = (
     ValueError,
@@ -48,7 +48,8 @@ MALFORMED = (
 )
 _FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
 _FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
-# The end of a node's head: its name behind its length, and the type of its first property, an array.
+# The end of a node's head: its name behind its length, and the type of its first property, an
+# array.
 _FBX_VERTICES = re.compile(rb"\x08Vertices(?=[df])")
 _FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?")
 _FBX_NUMBERS = re.compile(rb"(?:[\s,]*+%b(?=[\s,}]|\Z))*+[\s,]*+" % SHORT)
@@ -59,7 +60,10 @@ _OF_NODES = ("matrix", "translation", "rotation", "scale")
 
 
 def check_numbers(path: str, kind: str) -> None:
-    """Raise FileError if a coordinate in the file is not a finite number. kind: the file's suffix. Raises OSError."""
+    """Raise FileError if a coordinate in the file is not a finite number. kind: the file's suffix.
+
+    Raises OSError.
+    """
     check = _CHECKS.get(kind)
     if check is not None:
         check(map_file(path), path)
@@ -131,7 +135,9 @@ def check_gltf(data: Data, path: str) -> None:
 
 
 def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
-    """Return the accessors that place points, each with its mesh's name: None for skins, animations and instances."""
+    """Return the accessors that place points, each with its mesh's name: None for skins, animations
+    and instances.
+    """
     found: dict[int, str | None] = {}
     for number, mesh in enumerate(document.get("meshes", [])):
         for primitive in mesh["primitives"]:
@@ -196,7 +202,9 @@ class Buffers:
         )
 
     def table(self, accessor: dict[str, Any]) -> NDArray:
-        """Return the (n, k) numbers of an accessor without sparse ones; none if an extension has compressed them."""
+        """Return the (n, k) numbers of an accessor without sparse ones; none if an extension has
+        compressed them.
+        """
         kind = np.dtype(_GLTF_TYPES[accessor["componentType"]])
         width = _GLTF_WIDTHS[accessor["type"]]
         view = (
@@ -214,7 +222,10 @@ class Buffers:
         return np.ndarray((accessor["count"], width), kind, data, start, (stride, kind.itemsize))
 
     def _buffer(self, number: int) -> tuple[Data, int]:
-        """Return the bytes that contain a buffer, and its start in them. FileError if it is missing or too short."""
+        """Return the bytes that contain a buffer, and its start in them.
+
+        FileError if it is missing or too short.
+        """
         if number in self.opened:
             return self.opened[number]
         buffer = self.document["buffers"][number]
@@ -244,7 +255,9 @@ class Buffers:
 
 
 def bad_in_table(rows: NDArray) -> tuple[int, int]:
-    """Return the count of numbers in (n, k) that are not finite in float32, and the first row with such a number."""
+    """Return the count of numbers in (n, k) that are not finite in float32, and the first row with
+    such a number.
+    """
     with np.errstate(over="ignore", invalid="ignore"):
         # The smallest and the largest are NaN if one of the numbers is.
         if (

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """USD files as objects of the open scene, corrected by the file's prims.
 
-Blender's importer makes polygons of round solids, drops the shear of a transform, and ignores visibility, purpose and
-subdivision. Its hook tells the object of each prim.
+Blender's importer makes polygons of round solids, drops the shear of a transform, and ignores
+visibility, purpose and subdivision. Its hook tells the object of each prim.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ...blender.scene.findings import SURFACES_ROUNDED
 from ...blender.scene.imports import surface_data
 from ...core.cad.obj import UPRIGHT
 from ...core.cad.surfaces import revolved_solid
-from ...core.streams.findings import FILE_UNREADABLE
+from ...core.files.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, USD_CAGE, USD_UNREAD
 from .references import Opened, reported_references
@@ -33,8 +33,9 @@ _SHEAR = 1e-6  # cosine of the angle between two axes; larger than the rounding 
 class _Prim(NamedTuple):
     """Facts about the prim of an object that Blender's importer drops.
 
-    hidden: the reason why a renderer does not show it. scheme: the subdivision of a mesh that is a cage. solid: the
-    arguments of `revolved_solid`. place: (4, 4) its matrix in the scene if that is sheared. is_member: of an instance.
+    hidden: the reason why a renderer does not show it. scheme: the subdivision of a mesh that is a
+    cage. solid: the arguments of `revolved_solid`. place: (4, 4) its matrix in the scene if that is
+    sheared. is_member: of an instance.
     """
 
     hidden: str | None
@@ -52,20 +53,27 @@ _PURPOSES = {
 
 
 def import_usd(path: str) -> Opened:
-    """Import a USD file: solids as exact surfaces, hidden prims as objects that are not rendered. Raise FileError."""
+    """Import a USD file: solids as exact surfaces, hidden prims as objects that are not rendered.
+
+    Raise FileError.
+    """
     prims, missing = _import(path)
     members = [prim for prim in prims.values() if prim.is_member]
     is_sheared = any(prim.place is not None for prim in prims.values())
     if members and (is_sheared or any(prim.hidden or prim.scheme for prim in members)):
-        # All instances show the same objects; objects of their own can be hidden, sheared and reported.
+        # All instances show the same objects; objects of their own can be hidden, sheared and
+        # reported.
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
         prims, _ = _import(path, support_scene_instancing=False)
     return _correct(prims, missing)
 
 
 def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding, ...]]:
-    """Run Blender's importer, and return the prims of objects by name, and a finding about missing references."""
-    # Objects left out by the importer would be missed in silence, and scaled ones have float32 matrices.
+    """Run Blender's importer, and return the prims of objects by name, and a finding about missing
+    references.
+    """
+    # Objects left out by the importer would be missed in silence, and scaled ones have float32
+    # matrices.
     options |= {"import_visible_only": False, "import_guide": True, "import_proxy": True}
     options["apply_unit_conversion_scale"] = False
     results: list[tuple[float, dict[str, _Prim], list[str]] | Exception] = []
@@ -104,7 +112,10 @@ def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding
 
 
 class _Stage:
-    """An open stage at the scene's frame, in meters per `unit`. It is gone when Blender's importer returns."""
+    """An open stage at the scene's frame, in meters per `unit`.
+
+    It is gone when Blender's importer returns.
+    """
 
     def __init__(self, stage: Any) -> None:
         # Blender has these modules, and exposes them on request.
@@ -118,7 +129,9 @@ class _Stage:
         )
 
     def prims(self, blocks: Mapping[str, list[bpy.types.ID]]) -> dict[str, _Prim]:
-        """Return the facts about the prims of objects, by name. blocks: Blender's data, by the prims' paths."""
+        """Return the facts about the prims of objects, by name. blocks: Blender's data, by the
+        prims' paths.
+        """
         objects = {obj.data: obj for obj in bpy.data.objects if obj.data is not None}
         pairs = [
             (self._stage.GetPrimAtPath(path), block)
@@ -182,7 +195,9 @@ class _Stage:
         return bottom, top, value("height", 0.0), value("axis", "Z"), kind in ("Sphere", "Capsule")
 
     def _is_sheared(self, prim: Any) -> bool:
-        """Return whether the transform of a prim, or of one above it, has axes that are not at right angles."""
+        """Return whether the transform of a prim, or of one above it, has axes that are not at
+        right angles.
+        """
         while not prim.IsPseudoRoot():
             axes = np.array(self._places.GetLocalTransformation(prim)[0])[:3, :3]
             lengths = np.linalg.norm(axes, axis=1)
@@ -224,7 +239,9 @@ def _correct(prims: Mapping[str, _Prim], missing: tuple[Finding, ...]) -> Opened
 
 
 def _shear(obj: Object, place: NDArray[np.float64]) -> NDArray | None:
-    """Return the (4, 4) map that the matrix of an object lacks, or None if it is flat and has no volume."""
+    """Return the (4, 4) map that the matrix of an object lacks, or None if it is flat and has no
+    volume.
+    """
     matrix = np.array(obj.matrix_world, np.float64)
     return np.linalg.solve(matrix, place) if np.linalg.det(matrix) else None
 

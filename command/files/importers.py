@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Importers of files that Blender's importers do not read, or not as they are.
 
-Blender has none for .3mf and IGES; that of .obj leaves out ``surf``, that of glTF ignores KHR_node_visibility.
+Blender has none for .3mf and IGES; that of .obj leaves out ``surf``, that of glTF ignores
+KHR_node_visibility.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from ...core.cad.findings import FACES_NOT_READ
 from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import SurfaceFile
-from ...core.scans.scan_files import scan_limits
+from ...core.files.limits import file_limits
 from ...core.streams.file_mesh import FileMesh, box_of_blocks
 from ...core.streams.measure import KINDS
 from ...core.streams.threemf import Placed, read_3mf
@@ -69,7 +70,7 @@ def blender_mesh(found: FileMesh) -> bpy.types.Mesh:
 
 def import_3mf(path: str) -> Opened:
     """Add the file's objects to the scene, and set its unit to the file's. Raises FileError."""
-    placed, unit = read_3mf(path, scan_limits())
+    placed, unit = read_3mf(path, file_limits())
     hidden: dict[str, Finding] = {}
     bpy.context.scene.unit_settings.scale_length = unit
     meshes: dict[tuple[str, str], bpy.types.Mesh] = {}
@@ -103,7 +104,7 @@ def _mesh(one: Placed) -> bpy.types.Mesh:
 
 def import_iges(path: str) -> Opened:
     """Add the surfaces of a file to the scene, in meters. Raises FileError and OSError."""
-    return _added(read_surfaces(path, scan_limits(), for_blender=False))
+    return _added(read_surfaces(path, file_limits(), for_blender=False))
 
 
 def import_obj(path: str) -> Opened:
@@ -117,7 +118,7 @@ def import_obj(path: str) -> Opened:
     with open(path, "rb") as file:
         has_faces = any(_OBJ_MESH.match(line) for line in file)
     try:
-        opened = _added(read_surfaces(path, scan_limits(), for_blender=False))
+        opened = _added(read_surfaces(path, file_limits(), for_blender=False))
     except FileError as error:
         if not has_faces:
             raise
@@ -164,7 +165,9 @@ def import_gltf(path: str) -> Opened:
 
 
 def _line_of(vnode: Any, gltf: Any) -> list[int]:
-    """Return the numbers of a node and of those above it. vnode: the importer's node; its own ones have no number."""
+    """Return the numbers of a node and of those above it. vnode: the importer's node; its own ones
+    have no number.
+    """
     line = [number for number, one in gltf.vnodes.items() if one is vnode]
     while vnode.parent is not None:
         line.append(vnode.parent)

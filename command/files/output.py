@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Output of the result: to a file, whole or not at all, or alone on the standard output; checks of its place.
+"""Output of the result: to a file, whole or not at all, or alone on the standard output; checks of
+its place.
 
-Blender and its importers print on the standard output from C. So `claim_stdout` keeps the original one for the result,
-and descriptor 1 becomes the standard error until the process ends, as C may print what it has buffered at any time.
+Blender and its importers print on the standard output from C. So `claim_stdout` keeps the original
+one for the result, and descriptor 1 becomes the standard error until the process ends, as C may
+print what it has buffered at any time.
 """
 
 from __future__ import annotations
@@ -19,11 +21,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
+from ...core.files.whole_file import whole_file
 from ...core.measurement.documents import FLAT_SPECTRUM_ARRAYS, SPECTRUM_ARRAYS, to_csv
 from ...core.measurement.plain_text import print_message
 from ...core.robots.write.marker import is_audit, is_ours
 from ...core.verdict.finding import system_reason
-from ...core.whole_file import whole_file
 from ..options.arguments import TARGETS
 from ..options.arguments import fail as fail_measure
 
@@ -40,7 +42,9 @@ Fail = Callable[[str], NoReturn]  # ends a command with the reason and its usage
 
 
 def claim_stdout() -> int:
-    """Return a descriptor of the standard output, unreachable to the rest of this process, or -1 if it is closed."""
+    """Return a descriptor of the standard output, unreachable to the rest of this process, or -1 if
+    it is closed.
+    """
     try:
         channel = os.dup(1)
     except OSError:
@@ -57,7 +61,9 @@ def is_stdout(path: Path) -> bool:
 
 
 def is_stream(path: Path | None) -> bool:
-    """Return whether a result goes to the standard output, a pipe or a device, beside which no file can stand."""
+    """Return whether a result goes to the standard output, a pipe or a device, beside which no file
+    can stand.
+    """
     return path is None or is_stdout(path) or path.exists() and not path.is_file()
 
 
@@ -67,11 +73,13 @@ def write_result(
     channel: int,
     check: Callable[[Path], None] | None = None,
 ) -> bool:
-    """Write a result to `path`, or to the descriptor `channel` if `path` is None, and return whether it succeeded.
+    """Write a result to `path`, or to the descriptor `channel` if `path` is None, and return
+    whether it succeeded.
 
     Print the reason for a failure to the standard error. check: as in `whole_file`.
     """
-    # A file name that is not UTF-8 holds lone surrogates. Escaped so, they are what JSON writes for them.
+    # A file name that is not UTF-8 holds lone surrogates. Escaped so, they are what JSON writes for
+    # them.
     pieces = (part.encode("utf-8", "backslashreplace") for part in parts)
     try:
         if path is None or is_stdout(path):
@@ -93,7 +101,8 @@ def _write_all(channel: int, data: bytes) -> None:
 
 
 def is_replaceable(path: Path) -> bool:
-    """Return whether a result may replace `path` without loss: nothing, no regular file, an empty file, or a result.
+    """Return whether a result may replace `path` without loss: nothing, no regular file, an empty
+    file, or a result.
 
     Raises OSError.
     """
@@ -114,7 +123,9 @@ def is_result(path: Path) -> bool:
 
 
 def guard(force: bool) -> Callable[[Path], None]:
-    """Return a check for `whole_file` that raises FileExistsError if a foreign file would be lost, unless `force`."""
+    """Return a check for `whole_file` that raises FileExistsError if a foreign file would be lost,
+    unless `force`.
+    """
 
     def check(path: Path) -> None:
         if not force and not is_replaceable(path):
@@ -142,7 +153,9 @@ def _is_spectrum(path: Path) -> bool:
 def check_targets(
     options: Namespace, read: Sequence[str | Path], fail: Fail = fail_measure
 ) -> None:
-    """Call `fail` with a message if a result cannot be written, or would replace an input or a foreign file."""
+    """Call `fail` with a message if a result cannot be written, or would replace an input or a
+    foreign file.
+    """
     for option in TARGETS:
         target = getattr(options, option, None)
         if target is None or is_stdout(target):
@@ -171,7 +184,6 @@ def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
     if target.exists() and any(os.path.exists(path) and target.samefile(path) for path in read):
         return "{} is a file that is read. Use another name".format(target)
     if not (force or is_replaceable(target)):
-        return "{} is not a result of body_moments and would be lost. Use another name, or --force".format(
-            target
-        )
+        lost = "{} is not a result of body_moments and would be lost. Use another name, or --force"
+        return lost.format(target)
     return ""

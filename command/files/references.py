@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings about an opened file and its missing references, which Blender does not report or only prints."""
+"""Findings about an opened file and its missing references, which Blender does not report or only
+prints.
+"""
 
 from __future__ import annotations
 
@@ -13,10 +15,12 @@ from dataclasses import dataclass, field
 
 import bpy
 
+from ...core.files.findings import MISSING_REFERENCES
 from ...core.verdict.finding import Finding, finding
-from ..findings import DRIVER_BLOCKED, MISSING_REFERENCES, SCRIPT_BLOCKED, SCRIPTS_ALLOWED
+from ..findings import DRIVER_BLOCKED, SCRIPT_BLOCKED, SCRIPTS_ALLOWED
 
-# An error of composing a stage, by stage.cpp: "… -- In </A>: Could not open asset @file@ for reference …".
+# An error of composing a stage, by stage.cpp: "… -- In </A>: Could not open asset @file@ for
+# reference …".
 _REPORT = re.compile(r"_ReportErrors at line \d+ of \S*stage\.cpp -- (.*)")
 _ASSET = re.compile(r"@([^@]+)@(<[^>]*>)?")
 _ALLOW = {"-y": True, "--enable-autoexec": True, "-Y": False, "--disable-autoexec": False}
@@ -26,8 +30,9 @@ _ALLOW = {"-y": True, "--enable-autoexec": True, "-Y": False, "--disable-autoexe
 class Opened:
     """Findings about an opened file.
 
-    errors: parts of the file, or references, that are missing now. notes: about the whole file. by_object: about one
-    object, by its name. hidden: the reasons why the file does not show objects, by their names.
+    errors: parts of the file, or references, that are missing now. notes: about the whole file.
+    by_object: about one object, by its name. hidden: the reasons why the file does not show
+    objects, by their names.
     """
 
     errors: tuple[Finding, ...] = ()
@@ -37,7 +42,8 @@ class Opened:
 
 
 def reported_references(import_file: Callable[[], object]) -> tuple[Finding, ...]:
-    """Run an import, and return an error about layers, references and payloads that USD reports as missing.
+    """Run an import, and return an error about layers, references and payloads that USD reports as
+    missing.
 
     Output to the standard error meanwhile appears there afterwards.
     """
@@ -67,7 +73,9 @@ def reported_references(import_file: Callable[[], object]) -> tuple[Finding, ...
 
 
 def missing_links() -> Iterator[Finding]:
-    """Yield a finding if Blender replaced missing links of the file by empty data, or lacks caches of modifiers."""
+    """Yield a finding if Blender replaced missing links of the file by empty data, or lacks caches
+    of modifiers.
+    """
     data = bpy.data
     groups = (data.objects, data.meshes, data.curves, data.metaballs, data.collections)
     missing = {
@@ -97,7 +105,9 @@ def _cache_paths() -> Iterator[str]:
 
 
 def blocked_scripts() -> Iterator[Finding]:
-    """Yield a finding if scripts of the open file did not run: drivers leave the saved value, or 0."""
+    """Yield a finding if scripts of the open file did not run: drivers leave the saved value,
+    or 0.
+    """
     if not bpy.app.autoexec_fail:
         return
     drivers = [
@@ -126,14 +136,18 @@ def scripts_of_open_file() -> Iterator[Finding]:
 
 
 def _are_allowed(words: Sequence[str]) -> bool:
-    """Return whether Blender's last command-line switch for scripts, or else its preferences, let files run scripts."""
+    """Return whether Blender's last command-line switch for scripts, or else its preferences, let
+    files run scripts.
+    """
     own = words[: words.index("--")] if "--" in words else words
     switches = [_ALLOW[word] for word in own if word in _ALLOW]
     return switches[-1] if switches else bpy.context.preferences.filepaths.use_scripts_auto_execute
 
 
 def _drivers(embedded: bool = False) -> Iterator[tuple[str, bpy.types.Driver]]:
-    """Yield the drivers of all data-blocks with their owners' names, also of embedded node trees if requested."""
+    """Yield the drivers of all data-blocks with their owners' names, also of embedded node trees if
+    requested.
+    """
     for prop in bpy.data.bl_rna.properties:
         if prop.type != "COLLECTION":
             continue

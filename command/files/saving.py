@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--write and --asset-metadata: saving into the opened .blend file, unless it has changed meanwhile, or beside it."""
+"""--write and --asset-metadata: saving into the opened .blend file, unless it has changed
+meanwhile, or beside it.
+"""
 
 from __future__ import annotations
 
@@ -15,9 +17,9 @@ import bpy
 from ...blender.read.assembly import Root
 from ...blender.settings.given import shows_collection
 from ...blender.write.findings import FILE_NOT_WRITTEN
+from ...core.files.whole_file import partial_file, replace
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import FileError, Finding, finding
-from ...core.whole_file import partial_file, replace
 from ..findings import ASSETS_NOT_MEASURED, FILE_CHANGED_MEANWHILE
 from ..supervisor.listing import COPY_SUFFIX
 from .files import reason
@@ -28,9 +30,11 @@ _WITH_GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT", "VOLUME"}
 
 @dataclass
 class Place:
-    """A .blend file that is going to take results: its path without symbolic links, and a digest of its content.
+    """A .blend file that is going to take results: its path without symbolic links, and a digest of
+    its content.
 
-    Its size and time may not change if two programs save within one tick of a file system's clock, hence the digest.
+    Its size and time may not change if two programs save within one tick of a file system's clock,
+    hence the digest.
     """
 
     path: Path
@@ -38,7 +42,10 @@ class Place:
 
     @classmethod
     def of_file(cls, path: str) -> Place:
-        """Return the present state of a file, before it is opened or right after. Raises FileError."""
+        """Return the present state of a file, before it is opened or right after.
+
+        Raises FileError.
+        """
         real = Path(os.path.realpath(path))
         try:
             return cls(real, _digest(real))
@@ -46,7 +53,10 @@ class Place:
             raise FileError(FILE_NOT_WRITTEN, file=real.name, error=reason(error)) from error
 
     def save(self) -> None:
-        """Save the open scene, whole or not at all. FileError if this fails, or the file has changed meanwhile."""
+        """Save the open scene, whole or not at all.
+
+        FileError if this fails, or the file has changed meanwhile.
+        """
         try:
             if not os.access(
                 self.path, os.W_OK
@@ -91,8 +101,8 @@ def write_assets(
 ) -> tuple[bool, list[Finding]]:
     """Store measurements in the metadata of the measured assets of the open file.
 
-    Return whether the file itself is to be saved, and findings about assets without numbers. where: "copy" saves a copy
-    beside the file. Raises FileError.
+    Return whether the file itself is to be saved, and findings about assets without numbers. where:
+    "copy" saves a copy beside the file. Raises FileError.
     """
     stored = [root for root in measured if root.asset_data is not None and root.library is None]
     for root in stored:
@@ -103,7 +113,9 @@ def write_assets(
 
 
 def _store(data: bpy.types.AssetMetaData, measurement: Measurement) -> None:
-    """Store a measurement as metadata, of an object in its own frame, of a collection in the scene's."""
+    """Store a measurement as metadata, of an object in its own frame, of a collection in the
+    scene's.
+    """
     properties = measurement.in_object_frame()
     data["body_mass"] = float(properties.mass)
     data["body_volume"] = float(measurement.volume)

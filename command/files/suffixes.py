@@ -8,10 +8,15 @@ import os
 import zipfile
 from pathlib import Path
 
+from ...core.files.damage import damaged
+from ...core.files.findings import (
+    DAMAGE_INCOMPLETE,
+    FILE_MISSING,
+    FILE_NOT_REGULAR,
+    FILE_TYPE,
+    FILE_UNREADABLE,
+)
 from ...core.scans import formats as scans
-from ...core.scans.findings import DAMAGE_INCOMPLETE, FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
-from ...core.scans.scan import damaged
-from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, system_reason
 from ..supervisor.listing import BLEND, IMPORTED
 
@@ -44,7 +49,9 @@ def check_file(path: str) -> None:
 
 
 def _check_usdz(path: Path) -> None:
-    """Raise FileError if the checksum of a stored entry is wrong, which Blender's reader ignores."""
+    """Raise FileError if the checksum of a stored entry is wrong, which Blender's reader
+    ignores.
+    """
     try:
         with zipfile.ZipFile(path) as archive:
             stored = [

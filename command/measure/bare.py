@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files that are measured without Blender, whether it is there or not: arrays and scans, and meshes.
+"""Files that are measured without Blender, whether it is there or not: arrays and scans, and
+meshes.
 
-An array, a scan, and a mesh that is read in blocks are one body, named after the file. An .obj file may have several.
+An array, a scan, and a mesh that is read in blocks are one body, named after the file. An .obj file
+may have several.
 """
 
 from __future__ import annotations
@@ -27,13 +29,13 @@ from ...core.bodies.findings import DENSITY_DEFAULTED, SHAPE_OF_GRID
 from ...core.bodies.reading import measure_reading
 from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_meshes
+from ...core.files.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import Settings
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.scans import formats as scans
 from ...core.streams.file_mesh import FileMesh
-from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import (
     FileError,
     Finding,
@@ -64,8 +66,8 @@ _NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
 class BareFile:
     """A file that is measured without Blender.
 
-    options: those of the command line. memory: bytes that measuring it may take, None for any. progress: returns a
-    counter of the samples or faces read from a file.
+    options: those of the command line. memory: bytes that measuring it may take, None for any.
+    progress: returns a counter of the samples or faces read from a file.
     """
 
     has_saved = False
@@ -161,9 +163,9 @@ class BareFile:
             self._measure_array(name, count) if is_scan else self._measure_stream(name, count)
         )
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
-        shapeless = (
-            unused(requested) if not is_scan else [finding(SHAPE_OF_GRID)] if requested else []
-        )
+        shapeless = unused(requested)
+        if is_scan:
+            shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
         more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
         self._add(contents, measurement, shapeless, more)
 
@@ -255,7 +257,9 @@ def _with_own_names(meshes: list[FileMesh]) -> list[FileMesh]:
 
 
 def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
-    """Return whether a file is measured without Blender. memory: bytes that measuring it may take, None for any."""
+    """Return whether a file is measured without Blender. memory: bytes that measuring it may take,
+    None for any.
+    """
     if scans.scan_suffix(path) or not has_blender():
         return True
     suffix = file_suffix(path)

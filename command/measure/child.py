@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A child of the supervisor: it measures the files that it is sent, one at a time, and answers with documents."""
+"""A child of the supervisor: it measures the files that it is sent, one at a time, and answers with
+documents.
+"""
 
 from __future__ import annotations
 
@@ -14,9 +16,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from ...core.files.limits import file_limits
+from ...core.files.text_fields import map_file
 from ...core.scans.nrrd import data_file, read_header
-from ...core.scans.scan_files import scan_limits
-from ...core.streams.text_fields import map_file
 from ...core.verdict.finding import MeasureError
 from ..files.finite import MALFORMED, Buffers, unquote
 from ..interruption import Progress
@@ -26,7 +28,8 @@ from ..supervisor.journal import state
 from ..supervisor.lifeline import Lifeline
 from .run import Run, blender_version
 
-# Errors about a file with an impossible name, unreadable or damaged, which counts as without references.
+# Errors about a file with an impossible name, unreadable or damaged, which counts as without
+# references.
 _UNREADABLE = (OSError, RuntimeError, MeasureError, *MALFORMED)
 _ASSET = re.compile(rb"@@@(.+?)@@@|@([^@\n]+)@")
 
@@ -72,7 +75,8 @@ def _measure(run: Run, path: str, line: Lifeline) -> None:
 def references(path: str, opened: Iterable[str] = ()) -> set[Path]:
     """Return the files, existing or not, that a file refers to directly or indirectly.
 
-    opened: the files that Blender has read with it. Layers in binary USD layers are not found, nor are missing tiles.
+    opened: the files that Blender has read with it. Layers in binary USD layers are not found, nor
+    are missing tiles.
     """
     waiting = [Path(path), *map(Path, opened)]
     known = set()
@@ -88,7 +92,7 @@ def references(path: str, opened: Iterable[str] = ()) -> set[Path]:
 
 
 def _of_nrrd(path: Path) -> Iterator[str]:
-    fields, _ = read_header(path, scan_limits())
+    fields, _ = read_header(path, file_limits())
     yield data_file(fields) or path.name
 
 
@@ -106,7 +110,10 @@ def _of_usd(path: Path) -> Iterator[str]:
 
 
 _NAMES: dict[str, Callable[[Path], Iterator[str]]] = {
-    **dict.fromkeys((".nrrd", ".nhdr"), _of_nrrd),
-    **dict.fromkeys((".gltf", ".glb"), _of_gltf),
-    **dict.fromkeys((".usd", ".usda"), _of_usd),
+    ".nrrd": _of_nrrd,
+    ".nhdr": _of_nrrd,
+    ".gltf": _of_gltf,
+    ".glb": _of_gltf,
+    ".usd": _of_usd,
+    ".usda": _of_usd,
 }

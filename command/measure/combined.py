@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of several bodies as one: assemblies and rigs of a file that have results or a given mass.
+"""Measurement of several bodies as one: assemblies and rigs of a file that have results or a given
+mass.
 
 With asset metadata, collections that are assets are included.
 """
@@ -64,7 +65,8 @@ class Combined:
 def measure_combined(options: MeasureOptions, contents: Contents, assets: bool) -> Combined:
     """Measure the assemblies and the rigs of the open scene that have results or a given mass.
 
-    `options` override the members' settings; `contents` gets the failures; `assets` adds assets that have a mass.
+    `options` override the members' settings; `contents` gets the failures; `assets` adds assets
+    that have a mass.
     """
     scene = bpy.context.scene
     found = Combined()

@@ -17,8 +17,8 @@ from ...core.verdict.finding import Finding, MeasureError, finding, unique
 class Contents:
     """Measured entries of a file's document.
 
-    internal: returns the entry about an unexpected error. measured: names, objects in Blender and measurements, in the
-    order of `objects`. caveats: about the total.
+    internal: returns the entry about an unexpected error. measured: names, objects in Blender and
+    measurements, in the order of `objects`. caveats: about the total.
     """
 
     internal: Callable[[str | None, Exception], dict[str, Any]]
@@ -46,7 +46,9 @@ def failure(name: str | None, reason: Finding) -> dict[str, Any]:
 
 
 def said_once(entries: Sequence[dict[str, Any]], code: str) -> Iterator[Finding]:
-    """Yield the finding with a code, to be said once of a file, if several records all have it; it leaves them."""
+    """Yield the finding with a code, to be said once of a file, if several records all have it; it
+    leaves them.
+    """
     found = [(entry, one) for entry in entries for one in entry["findings"] if one["code"] == code]
     if len(found) < len(entries) or len(entries) < 2:
         return

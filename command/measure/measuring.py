@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Selection of the objects to measure in the open scene, and their measurement.
 
-Omitted objects come with the reasons, and unknown names as errors. Bodies are measured together or one by one, with
-their shapes; flat shapes, Fourier transforms and pictures alone.
+Omitted objects come with the reasons, and unknown names as errors. Bodies are measured together or
+one by one, with their shapes; flat shapes, Fourier transforms and pictures alone.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ from ...blender.bodies.stacks.stack import Stacked
 from ...blender.read.assembly import left_out_reasons
 from ...blender.read.objects import read_object
 from ...blender.read.visibility import measurable, measurable_objects
+from ...blender.scale import meters_per_unit
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.settings.given import shows_collection
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import spectrum
 from ...blender.write.thumbnail import thumbnail
 from ...core.bodies.findings import SIGNATURE_NEEDS_POLYGONS
+from ...core.files.findings import OTHERS_LEFT_OUT
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.record import flat_record
 from ...core.moments.complex_form import flusser_invariants, hu_invariants, normalize
-from ...core.numerics.float32 import shortest_decimal
-from ...core.scans.findings import OTHERS_LEFT_OUT
 from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
 from ...core.verdict.method import Source
 from ..files.output import guard
@@ -52,7 +52,8 @@ HU_ORDER = 3  # order for Hu's invariants
 def measured_together(
     objects: Sequence[bpy.types.Object], options: Namespace, measure_options: MeasureOptions
 ) -> Callable[[bpy.types.Object], Measured | Stacked] | None:
-    """Return a function that measures objects in batches, or None if they have to be measured one by one.
+    """Return a function that measures objects in batches, or None if they have to be measured one
+    by one.
 
     That is the case if an object needs settings or results of its own besides mass properties.
     """
@@ -70,7 +71,8 @@ def measured_together(
 def measure_shape(
     obj: bpy.types.Object, options: Namespace, measure_options: MeasureOptions
 ) -> tuple[Measurement, dict[str, Any], tuple[Finding, ...]]:
-    """Return an object's measurement, its pose and signature if requested, and findings about these.
+    """Return an object's measurement, its pose and signature if requested, and findings about
+    these.
 
     Pose and signature are None for objects without a shape of their own, which are still measured.
     """
@@ -100,7 +102,7 @@ def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | 
     unit: meters per unit, else the scene's.
     """
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    unit = unit or meters_per_unit(depsgraph.scene)
     try:
         surface = read_object(obj, depsgraph, edges=False).join()
     except MeasureError:  # such as a grid of densities
@@ -120,7 +122,10 @@ def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | 
 def write_transform(
     obj: bpy.types.Object, options: Namespace, measure_options: MeasureOptions
 ) -> tuple[Finding, ...]:
-    """Write an object's Fourier transform to a file, and return findings. Raises MeasureError and OSError."""
+    """Write an object's Fourier transform to a file, and return findings.
+
+    Raises MeasureError and OSError.
+    """
     depsgraph = bpy.context.evaluated_depsgraph_get()
     if options.flat:
         unit = measure_options.unit_scale
@@ -190,10 +195,12 @@ def objects_to_measure(
 ) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]], list[dict[str, Any]]]:
     """Return the objects to measure, the objects left out, and the errors.
 
-    The objects to measure come with unique names, the objects left out with a reason; each unknown name is an error.
-    everything: True to leave out nothing. hidden: the reasons why the file does not show objects, by their names.
+    The objects to measure come with unique names, the objects left out with a reason; each unknown
+    name is an error. everything: True to leave out nothing. hidden: the reasons why the file does
+    not show objects, by their names.
 
-    Objects that the view layer excludes are included if another one renders them: reading them reports the reason.
+    Objects that the view layer excludes are included if another one renders them: reading them
+    reports the reason.
     """
     scene = bpy.context.scene
     layer = bpy.context.view_layer
@@ -247,7 +254,9 @@ def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
 
 
 def set_density(obj: bpy.types.Object, options: Namespace) -> None:
-    """Set the source of the object's density and the threshold of its grid, if given. Raises MeasureError.
+    """Set the source of the object's density and the threshold of its grid, if given.
+
+    Raises MeasureError.
 
     The object's settings change in memory. Only --write saves them, together with the results.
     """

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--format urdf, sdf, mjcf, usd and gltf: the measured objects of a file as a robot, whose text its document holds.
+"""--format urdf, sdf, mjcf, usd and gltf: the measured objects of a file as a robot, whose text its
+document holds.
 
-The process that measures makes the text, because that needs numpy; the process that gathers documents only copies it.
+The process that measures makes the text, because that needs numpy; the process that gathers
+documents only copies it.
 """
 
 from __future__ import annotations
@@ -48,10 +50,11 @@ def complete(
     *,
     is_opened: bool,
 ) -> dict[str, Any]:
-    """Return a document with the text of its links as `robot`, or unchanged if no format of robots is requested.
+    """Return a document with the text of its links as `robot`, or unchanged if no format of robots
+    is requested.
 
-    Writes the meshes, and prints the format's findings. measure_options: the options of the measurements.
-    is_opened: whether the file is the open scene, with its collections and bones.
+    Writes the meshes, and prints the format's findings. measure_options: the options of the
+    measurements. is_opened: whether the file is the open scene, with its collections and bones.
     """
     if options.format not in FORMATS:
         return document
@@ -88,7 +91,7 @@ def complete(
     for one in findings:
         print_message(sentence(one))
     refused = [failure(None, one) for one in findings if severity(one) == Severity.ERROR]
-    return {**document, "robot": text, "errors": [*document["errors"], *refused]}
+    return document | {"robot": text, "errors": [*document["errors"], *refused]}
 
 
 def _by_object(
@@ -109,7 +112,9 @@ def _of_scene(
     links: str,
     measure_options: MeasureOptions,
 ) -> SceneLinks:
-    """Return the scene's collections or bones as links; if they are refused, no links and the finding."""
+    """Return the scene's collections or bones as links; if they are refused, no links and the
+    finding.
+    """
     name = robot_name(document["file"])
     context = bpy.context
     given = replace(measure_options, order=None)

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Production of a file's document, by Blender or without it.
 
-Every failure is an entry in `errors` and stops nothing else; an unexpected one prints its traceback, too.
+Every failure is an entry in `errors` and stops nothing else; an unexpected one prints its
+traceback, too.
 """
 
 from __future__ import annotations
@@ -15,10 +16,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ...core.bodies.findings import DENSITY_DEFAULTED
+from ...core.files.findings import FILE_MISSING
 from ...core.measurement import record
 from ...core.measurement.documents import document
 from ...core.measurement.plain_text import print_message
-from ...core.scans.findings import FILE_MISSING
 from ...core.verdict import internal_error
 from ...core.verdict.finding import MeasureError
 from .. import measure
@@ -45,10 +46,10 @@ def blender_version() -> str | None:
 class Run:
     """The execution of a command line in this process.
 
-    threads: count for a measurement. memory: bytes that one file may take, None for any. progress: returns a counter
-    of the samples or faces read from a file. documents: one for each file, in order. internal_errors: count of the
-    errors that are faults of the program. has_saved: whether the last file was saved in place. opened: the files that
-    Blender has read with it.
+    threads: count for a measurement. memory: bytes that one file may take, None for any. progress:
+    returns a counter of the samples or faces read from a file. documents: one for each file, in
+    order. internal_errors: count of the errors that are faults of the program. has_saved: whether
+    the last file was saved in place. opened: the files that Blender has read with it.
     """
 
     options: Namespace

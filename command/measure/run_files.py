@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`measure` over files in children; with --resume it asks the journal's entries which files to measure again.
+"""`measure` over files in children; with --resume it asks the journal's entries which files to
+measure again.
 
-Standard library only: it runs in Blender, in a Python with the bpy module, and in any other with --blender PATH.
+Standard library only: it runs in Blender, in a Python with the bpy module, and in any other with
+--blender PATH.
 """
 
 from __future__ import annotations
@@ -21,11 +23,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ...core.files.whole_file import hidden_path
 from ...core.measurement.documents import failed_document
 from ...core.measurement.plain_text import PROGRAM, counted, print_message
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.verdict.finding import Finding, finding, system_reason
-from ...core.whole_file import hidden_path
 from ..files import output
 from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
 from ..options.arguments import (
@@ -49,7 +51,8 @@ from ..supervisor.progress import Progress
 
 
 def measure(options: Namespace, channel: int, opened: str | None) -> int:
-    """Measure the files, and return the exit code. opened: the file that this process has open, if any.
+    """Measure the files, and return the exit code. opened: the file that this process has open, if
+    any.
 
     Raises SystemExit if the options are wrong, and KeyboardInterrupt.
     """
@@ -76,13 +79,18 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
         except KeyboardInterrupt:
             if not places.journal_is_kept:
                 raise
-            text = "interrupted after {} of {} files; the result was not written. Run the same with --resume to go on"
+            text = (
+                "interrupted after {} of {} files; the result was not written. Run the same with "
+                "--resume to go on"
+            )
             print_message(text.format(run.done, len(run.tasks)))
             return 3
 
 
 def files_of(options: Namespace) -> list[str]:
-    """Return the requested range of the files that are named, in named folders, or in the manifest."""
+    """Return the requested range of the files that are named, in named folders, or in the
+    manifest.
+    """
     try:
         paths = [*listing.expand(options.files)]
         if options.manifest is not None:
@@ -102,7 +110,9 @@ def files_of(options: Namespace) -> list[str]:
 
 
 def _blender(options: Namespace) -> str | None:
-    """Return the Blender to start: the one named by --blender, or the one of this process; None for the bpy module."""
+    """Return the Blender to start: the one named by --blender, or the one of this process; None for
+    the bpy module.
+    """
     bpy = sys.modules.get("bpy")
     if options.blender is not None or bpy is None or bpy.app.module:
         return options.blender
@@ -110,9 +120,11 @@ def _blender(options: Namespace) -> str | None:
 
 
 class _Places:
-    """Paths of the files of an unfinished run, beside its output, which is locked until `ends` is closed.
+    """Paths of the files of an unfinished run, beside its output, which is locked until `ends` is
+    closed.
 
-    work: a folder that does not exist yet. journal_is_kept: whether the journal stays if the run is interrupted.
+    work: a folder that does not exist yet. journal_is_kept: whether the journal stays if the run is
+    interrupted.
     """
 
     def __init__(self, options: Namespace, ends: ExitStack) -> None:
@@ -138,9 +150,8 @@ class _Places:
             for path in kept:
                 if not (options.force or output.is_replaceable(path)):
                     fail(
-                        "argument --output: {} is in the way, and no result. Move it, or use --force".format(
-                            path
-                        )
+                        "argument --output: {} is in the way, and no result. Move it, or use "
+                        "--force".format(path)
                     )
         except BlockingIOError:
             fail(
@@ -163,7 +174,9 @@ def _old(path: Path) -> Path:
 
 
 class _Supervised:
-    """A run over files by children. tasks: the files, each once. done: count of the recorded files."""
+    """A run over files by children. tasks: the files, each once. done: count of the recorded
+    files.
+    """
 
     def __init__(
         self, options: Namespace, paths: list[str], command: list[str], places: _Places
@@ -253,7 +266,9 @@ class _Supervised:
         progress.finish()
 
     def _recorded(self, outcome: TaskOutcome, blender: str) -> tuple[str, Finding | None, bytes]:
-        """Return a file's status, the reason for a missing answer or None, and the document, which always exists."""
+        """Return a file's status, the reason for a missing answer or None, and the document, which
+        always exists.
+        """
         if outcome.status == "answered":
             with suppress(ValueError, KeyError, TypeError):
                 return json.loads(outcome.data)["status"], None, outcome.data
@@ -295,7 +310,9 @@ class _Supervised:
 
 @dataclass
 class _Documents:
-    """The documents of the files in order, read from the journal one by one, so that they need not fit into memory."""
+    """The documents of the files in order, read from the journal one by one, so that they need not
+    fit into memory.
+    """
 
     journal: Journal
     paths: list[str]
@@ -313,7 +330,9 @@ def _report_reuse(reasons: dict[str, str | None]) -> None:
 
 
 def _digest(options: Namespace) -> str:
-    """Return a digest of the options, positions and limits, which influence the numbers besides the file."""
+    """Return a digest of the options, positions and limits, which influence the numbers besides the
+    file.
+    """
     positions = [state(path) for _, path in options.positions or ()]
     text = json.dumps(
         [of_numbers(options), positions, os.environ.get("BODY_MOMENTS_LIMITS", "")], sort_keys=True

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A .blend file, or a file that Blender imports, as the open scene: measurement of its objects, storage of results."""
+"""A .blend file, or a file that Blender imports, as the open scene: measurement of its objects,
+storage of results.
+"""
 
 from __future__ import annotations
 
@@ -26,9 +28,9 @@ from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...blender.write.properties import store
 from ...core.bodies.findings import DENSITY_DEFAULTED
+from ...core.files.findings import FILE_UNREADABLE
 from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
-from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ...core.verdict.verdict import open_body_caveats
 from ..files.files import newer_version, open_file, requested_file
@@ -60,7 +62,9 @@ from .measuring import (
 
 
 def open_name() -> str | None:
-    """Return the name of the open file, or of the file that Blender was started with and could not open."""
+    """Return the name of the open file, or of the file that Blender was started with and could not
+    open.
+    """
     return bpy.data.filepath or requested_file()
 
 
@@ -81,7 +85,8 @@ def measure_options(options: Namespace, threads: int) -> MeasureOptions:
 class Scene:
     """The file at a path, once it is open, or the open file if there is no path.
 
-    has_opened, has_saved: whether the file has become the open scene, and whether it was saved in place.
+    has_opened, has_saved: whether the file has become the open scene, and whether it was saved in
+    place.
     """
 
     def __init__(self, path: str | None, options: Namespace, threads: int) -> None:
@@ -143,7 +148,9 @@ class Scene:
             self.has_saved = True
 
     def complete(self, document: dict[str, Any], contents: Contents) -> dict[str, Any]:
-        """Return a document with the scene's assemblies, bones and flat shapes, and its text as a robot."""
+        """Return a document with the scene's assemblies, bones and flat shapes, and its text as a
+        robot.
+        """
         document |= self._combined.records(self.options.frame)
         document |= {"flat": contents.flats} if self.options.flat else {}
         return robots.complete(
@@ -155,7 +162,10 @@ class Scene:
         return bpy.utils.blend_paths(absolute=True, packed=False) if self.has_opened else []
 
     def _place_of_results(self) -> Place | None:
-        """Return the .blend file in which results will be saved, None if there is none. Raises FileError."""
+        """Return the .blend file in which results will be saved, None if there is none.
+
+        Raises FileError.
+        """
         is_saved = self.options.write or self.options.asset_metadata == "file"
         is_blend = self._path is None or file_suffix(self._path) == BLEND
         target = self._path or bpy.data.filepath
@@ -191,9 +201,9 @@ class Scene:
     ) -> None:
         """Add an object's measurement and its record, or the record of a flat shape.
 
-        A body with a mass but without moments of the requested order gets a record without them, and an error is added.
-        in_turn: measures the objects together; None if each has to be measured by itself. findings: about the object's
-        file.
+        A body with a mass but without moments of the requested order gets a record without them,
+        and an error is added. in_turn: measures the objects together; None if each has to be
+        measured by itself. findings: about the object's file.
         """
         order = self.options.order
         set_density(obj, self.options)
@@ -253,7 +263,10 @@ class Scene:
             )
 
     def _open(self) -> Opened:
-        """Open the path, if there is one, and return the findings. FileError if Blender has not loaded its file."""
+        """Open the path, if there is one, and return the findings.
+
+        FileError if Blender has not loaded its file.
+        """
         if self._path is not None:
             opened = open_file(self._path)
             self.has_opened = True
@@ -265,7 +278,9 @@ class Scene:
     def _fourier(
         self, chosen: list[tuple[str, bpy.types.Object]], contents: Contents
     ) -> Iterator[dict[str, Any]]:
-        """Write the Fourier transform of the one measured object, and add the findings to its record."""
+        """Write the Fourier transform of the one measured object, and add the findings to its
+        record.
+        """
         if len(chosen) != 1:
             yield failure(None, finding(FOURIER_OBJECT_COUNT, count=len(chosen)))
             return
@@ -286,7 +301,8 @@ class Scene:
     def _store(self, contents: Contents) -> None:
         """Store the results of all objects.
 
-        It follows all measurements, as drivers may read results. Given settings are stored too, so that results fit.
+        It follows all measurements, as drivers may read results. Given settings are stored too, so
+        that results fit.
         """
         if not bpy.data.filepath or self._path is not None and file_suffix(self._path) != BLEND:
             raise FileError(RESULTS_NEED_BLEND)

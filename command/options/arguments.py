@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The options of `measure`, and checks of their combination: invalid ones end with exit code 2.
 
-Standard library only: the process that supervises others may have neither numpy nor Blender. Options that need these
-are checked in `checks.py`, by the process that measures.
+Standard library only: the process that supervises others may have neither numpy nor Blender.
+Options that need these are checked in `checks.py`, by the process that measures.
 """
 
 from __future__ import annotations
@@ -50,7 +50,8 @@ _OF_OBJECTS = ("polynomial", "density_from", "fourier", "flat", "pose", "signatu
 
 
 def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
-    """Parse the options of `measure`, and keep the words for children. file_needed: True if no file can be open.
+    """Parse the options of `measure`, and keep the words for children. file_needed: True if no file
+    can be open.
 
     Raises SystemExit(2) after a message on the standard error, or HelpRequested.
     """
@@ -120,7 +121,9 @@ def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def run_of(options: argparse.Namespace) -> dict[str, Any]:
-    """Return the entry `run` of documents: the add-on's version and the given options that influence records."""
+    """Return the entry `run` of documents: the add-on's version and the given options that
+    influence records.
+    """
     given = {
         name: value for name, value in of_numbers(options).items() if value != _defaults()[name]
     }
@@ -149,7 +152,9 @@ def version() -> str:
 def files_of_options(
     options: argparse.Namespace, files: Iterable[str], opened: str | None
 ) -> list[str | Path]:
-    """Return the files that a run reads: measured files, the open file, and files that options name."""
+    """Return the files that a run reads: measured files, the open file, and files that options
+    name.
+    """
     positions = (path for _, path in options.positions or ())
     return [path for path in (*files, opened, options.q, *positions) if path]
 
@@ -182,7 +187,9 @@ def _check_fourier(options: argparse.Namespace) -> None:
 
 
 def join_negative_values(argv: list[str]) -> list[str]:
-    """Join `--origin -1,2,3` into `--origin=-1,2,3`: the parser would take a value with a minus for an option."""
+    """Join `--origin -1,2,3` into `--origin=-1,2,3`: the parser would take a value with a minus for
+    an option.
+    """
     joined: list[str] = []
     for word in argv:
         if (

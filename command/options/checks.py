@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks before a process measures: options with files as values, and limits; findings about units and unused options.
+"""Checks before a process measures: options with files as values, and limits; findings about units
+and unused options.
 
 A failed check ends like wrong usage, with SystemExit(2) and a message.
 """
@@ -17,10 +18,10 @@ from numpy.typing import NDArray
 
 from ...core.density.materials import BY_NAME
 from ...core.density.polynomial import parse_polynomial
+from ...core.files.limits import file_limits
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
 from ...core.measurement.measurement import Measurement
 from ...core.scans.numpy_files import map_array
-from ...core.scans.scan_files import scan_limits
 from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
 from ..files.suffixes import file_suffix
 from ..findings import OPTIONS_UNUSED, UNIT_ASSUMED
@@ -34,7 +35,9 @@ OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale", "positions")
 
 
 def prepare(options: Namespace) -> None:
-    """Prepare a measurement: set `options.limits` of scans, and `options.waves`, the wave vectors of the transform."""
+    """Prepare a measurement: set `options.limits` of scans, and `options.waves`, the wave vectors
+    of the transform.
+    """
     try:
         if options.material is not None and options.material not in BY_NAME:
             known = ", ".join(sorted(BY_NAME))
@@ -43,7 +46,7 @@ def prepare(options: Namespace) -> None:
             )
         if options.polynomial is not None:
             parse_polynomial(options.polynomial)
-        options.limits = replace(scan_limits(), allow_outside=options.allow_outside)
+        options.limits = replace(file_limits(), allow_outside=options.allow_outside)
     except (MeasureError, UsageError) as error:
         fail(str(error))
     try:
@@ -53,7 +56,10 @@ def prepare(options: Namespace) -> None:
 
 
 def wave_vectors_of(options: Namespace) -> FrequencyGrid | NDArray[np.float64] | None:
-    """Return the requested wave vectors, of a grid or a .npy file, or None. Raises MeasureError and UsageError."""
+    """Return the requested wave vectors, of a grid or a .npy file, or None.
+
+    Raises MeasureError and UsageError.
+    """
     dimension = 2 if options.flat else 3
     path = options.q
     if options.fourier is None:
@@ -87,7 +93,9 @@ def unused(names: Iterable[str]) -> Iterator[Finding]:
 
 
 def file_findings(path: str | None, options: Namespace) -> Iterator[Finding]:
-    """Yield findings if the unit of a mesh file was assumed, or options for other kinds of files are unused."""
+    """Yield findings if the unit of a mesh file was assumed, or options for other kinds of files
+    are unused.
+    """
     names = OF_ARRAYS if is_unitless(path) else (*OF_ARRAYS, "unit_scale")
     if is_unitless(path) and options.unit_scale is None:
         yield finding(UNIT_ASSUMED)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of `measure`, with their help. They are a public contract; unknown options end with exit code 2.
+"""The options of `measure`, with their help.
+
+They are a public contract; unknown options end with exit code 2.
 
 Standard library only, as the process that supervises others may have neither numpy nor Blender.
 """
@@ -20,10 +22,10 @@ DEFAULT_ORDER = 2  # For --surface-moments without --order: the order that inert
 DEFAULT_TIMEOUT = 1800.0  # seconds for one file
 
 _EPILOG = """\
-FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz, .fbx, .3mf, .igs or .iges, or an
-array or scan of densities: .npy, .npz, .nrrd, .nhdr, .nii, .nii.gz, or .raw if called NAME_XxYxZ_TYPE.raw;
-or a folder, whose files of these kinds are measured, those in its folders too. Without one, the file
-that Blender has open is measured. All numbers are SI: kilograms and meters.
+FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz, .fbx, .3mf, .igs or
+.iges, or an array or scan of densities: .npy, .npz, .nrrd, .nhdr, .nii, .nii.gz, or .raw if called
+NAME_XxYxZ_TYPE.raw; or a folder, whose files of these kinds are measured, those in its folders too.
+Without one, the file that Blender has open is measured. All numbers are SI: kilograms and meters.
 Files are measured by child processes, so that none of them can end the others: what crashes, hangs
 or takes too much memory has a record that says so.
 Other commands take the place of `measure`: --help without a command lists them.
@@ -58,24 +60,28 @@ def _add_settings(parser: Parser) -> None:
         "--object",
         str,
         "NAME",
-        "only this object; repeatable (every measurable object that the file renders; lights, cameras, empties that "
+        "only this object; repeatable (every measurable object that the file renders; lights, "
+        "cameras, empties that "
         "instance nothing and curves that show no surface are left out unless they are named)",
         action="append",
     )
     parser.flag(
         "--all",
-        "also what is not rendered, and what is only an operand of Boolean modifiers, displayed as wire or bounds "
+        "also what is not rendered, and what is only an operand of Boolean modifiers, displayed as "
+        "wire or bounds "
         "(left out, and listed in left_out)",
     )
     parser.choice("--kind", ("solid", "shell", "wire"), "(each object's setting, or solid)")
     parser.flag(
         "--flat",
-        "what is flat and has no volume (faces, 2D curves, text) is measured as a shape in its plane, under flat",
+        "what is flat and has no volume (faces, 2D curves, text) is measured as a shape in its "
+        "plane, under flat",
     )
     parser.choice(
         "--wall",
         ("thin", "inward", "outward", "centered"),
-        "of a shell: without or with real thickness, to which side of the surface (each object's setting)",
+        "of a shell: without or with real thickness, to which side of the surface (each object's "
+        "setting)",
     )
     parser.value(
         "--thickness", types.positive, "T", "of a shell, in meters (each object's setting)"
@@ -98,7 +104,8 @@ def _add_settings(parser: Parser) -> None:
     parser.choice(
         "--overlap",
         ("signed", "union"),
-        "overlapping or nested outward shells: counted as often as they cover a place, or once (signed, with a "
+        "overlapping or nested outward shells: counted as often as they cover a place, or once "
+        "(signed, with a "
         "warning)",
     )
 
@@ -123,7 +130,8 @@ def _add_of_files(parser: Parser) -> None:
         "--positions",
         types.positions,
         "AXIS=FILE.npy",
-        "arrays: where the samples stand along x, y or z, ascending, where they are not equally far apart; repeatable "
+        "arrays: where the samples stand along x, y or z, ascending, where they are not equally "
+        "far apart; repeatable "
         "(in place of the spacing and the origin of that axis)",
         action="append",
     )
@@ -131,20 +139,23 @@ def _add_of_files(parser: Parser) -> None:
         "--spline-order",
         types.spline_order,
         "K",
-        "arrays: the samples are the coefficients of a spline of this order: 1 voxels, 2 trilinear, 4 cubic (1)",
+        "arrays: the samples are the coefficients of a spline of this order: 1 voxels, 2 "
+        "trilinear, 4 cubic (1)",
     )
     parser.value("--density-scale", types.positive, "S", "arrays: kg/m³ where a sample is 1 (1)")
     parser.value(
         "--threshold",
         types.number,
         "T",
-        "arrays, scans and Volume objects: the body in which values are at least T, filled with --density or "
+        "arrays, scans and Volume objects: the body in which values are at least T, filled with "
+        "--density or "
         "--material, or with the values' own density (all of the grid)",
     )
     parser.choice(
         "--stream",
         ("auto", "always", "never"),
-        ".stl and .ply: in blocks, without importing or repairing them; auto: where an import may take more memory "
+        ".stl and .ply: in blocks, without importing or repairing them; auto: where an import may "
+        "take more memory "
         "than one file may (auto)",
         default="auto",
     )
@@ -163,7 +174,8 @@ def _add_results(parser: Parser) -> None:
         "--about",
         types.about,
         "POINT",
-        "add inertia_about, and take moments about this point: center (of mass), origin (the object's), world, or "
+        "add inertia_about, and take moments about this point: center (of mass), origin (the "
+        "object's), world, or "
         "X,Y,Z in the frame (moments about the frame's origin)",
     )
     parser.value(
@@ -179,7 +191,8 @@ def _add_results(parser: Parser) -> None:
         "--fourier",
         Path,
         "OUT.npz",
-        "write the Fourier transform of the one object: q, and F = ∫exp(-i q·x)dV in m³, in the frame",
+        "write the Fourier transform of the one object: q, and F = ∫exp(-i q·x)dV in m³, in the "
+        "frame",
     )
     parser.value(
         "--q", Path, "Q.npy", "at these wave vectors: rows of 3 numbers, with --flat 2, in rad/m"
@@ -188,7 +201,8 @@ def _add_results(parser: Parser) -> None:
         "--grid",
         types.frequencies,
         "N",
-        "or on a grid of N³ of them, with --flat N²: (j - h) Q / h along each axis, h = N // 2, j from 0 to N - 1",
+        "or on a grid of N³ of them, with --flat N²: (j - h) Q / h along each axis, h = N // 2, j "
+        "from 0 to N - 1",
     )
     parser.value("--qmax", types.positive, "Q", "the largest along each axis of the grid, in rad/m")
     parser.flag("--pose", "add the pose that is the body's own, and its symmetry")
@@ -209,7 +223,8 @@ def _add_results(parser: Parser) -> None:
     parser.flag(
         "--no-meshes",
         robots
-        + "leave geometry out (with --output: meshes in a folder beside it, of usd and gltf in the file itself)",
+        + "leave geometry out (with --output: meshes in a folder beside it, of usd and gltf in the "
+        "file itself)",
     )
     text = robots + "links collide as they look, or not at all (visual)"
     parser.choice("--collision", ("visual", "none"), text, default="visual")
@@ -220,17 +235,20 @@ def _add_results(parser: Parser) -> None:
     parser.value("--output", Path, "PATH", "(standard output)")
     parser.flag(
         "--force",
-        "--output, its meshes and --fourier may replace any file that is not read (only results of body_moments; an "
+        "--output, its meshes and --fourier may replace any file that is not read (only results of "
+        "body_moments; an "
         "older result at --output is kept as PATH.old)",
     )
     parser.flag(
         "--write",
-        "store the results on the objects and save the .blend file, unless something else has saved it meanwhile",
+        "store the results on the objects and save the .blend file, unless something else has "
+        "saved it meanwhile",
     )
     parser.choice(
         "--asset-metadata",
         ("copy", "file"),
-        "put mass, volume, center and more into the metadata of the objects and collections that are assets, and save "
+        "put mass, volume, center and more into the metadata of the objects and collections that "
+        "are assets, and save "
         "copies beside the files, as NAME.body_moments.blend, or the files themselves",
     )
 
@@ -258,13 +276,15 @@ def _add_supervision(parser: Parser) -> None:
     parser.value("--memory-mb", types.positive, "M", text)
     parser.flag(
         "--resume",
-        "go on with an earlier run of the same --output: files that are recorded in its journal and unchanged are not "
+        "go on with an earlier run of the same --output: files that are recorded in its journal "
+        "and unchanged are not "
         "measured again",
     )
     parser.flag("--retry-failed", "as --resume, and measure again what failed")
     parser.flag(
         "--errors-exit-0",
-        "exit with 0 where something is listed under errors too: for engines that give up a job for a bad file",
+        "exit with 0 where something is listed under errors too: for engines that give up a job "
+        "for a bad file",
     )
     parser.value(
         "--blender", str, "PATH", "the Blender that measures (this one, or the bpy module)"

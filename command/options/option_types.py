@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Types of option values on the command line, with the messages for invalid ones. Standard library only."""
+"""Types of option values on the command line, with the messages for invalid ones.
+
+Standard library only.
+"""
 
 from __future__ import annotations
 
@@ -9,12 +12,13 @@ from argparse import ArgumentTypeError
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
+from ...core.files.number_text import parse_number, parse_whole
 from ...core.measurement import documents
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
-from ...core.verdict.number_text import parse_number, parse_whole
 from ..parser import COMMANDS
 
-# Equal to the values in the core, which needs numpy: the process that supervises others may have none.
+# Equal to the values in the core, which needs numpy: the process that supervises others may have
+# none.
 MAX_ORDER = 30
 MAX_SPLINE_ORDER = 16
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
@@ -33,7 +37,7 @@ def _to_robot(file_documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 # Functions from documents, which may be iterated twice, to pieces of text.
-FORMATS = {**documents.FORMATS, **dict.fromkeys(ROBOT_FORMATS, _to_robot)}
+FORMATS = documents.FORMATS | dict.fromkeys(ROBOT_FORMATS, _to_robot)
 
 
 def command(text: str) -> str:
@@ -52,7 +56,9 @@ def _float(text: str) -> float:
 
 
 def _bounded(name: str, least: int, most: int) -> Callable[[str], int]:
-    """Return a function that parses a whole number within limits. name: the number, as messages name it."""
+    """Return a function that parses a whole number within limits. name: the number, as messages
+    name it.
+    """
 
     def parse(text: str) -> int:
         try:
@@ -131,7 +137,9 @@ def split_source(text: str) -> tuple[str, str]:
 
 
 def source(text: str) -> str:
-    """Return `value`, `materials`, `attribute:NAME` or `volume:NAME`; raise ArgumentTypeError for other texts."""
+    """Return `value`, `materials`, `attribute:NAME` or `volume:NAME`; raise ArgumentTypeError for
+    other texts.
+    """
     word, name = split_source(text)
     if _NAMED.get(word) is not bool(name):
         raise ArgumentTypeError(
@@ -141,7 +149,9 @@ def source(text: str) -> str:
 
 
 def file_range(text: str) -> tuple[int, int | None]:
-    """Return A and B of A:B, the files from number A up to B - 1, counted from 0; 0 and None if left out."""
+    """Return A and B of A:B, the files from number A up to B - 1, counted from 0; 0 and None if
+    left out.
+    """
     begin, colon, end = text.partition(":")
     if not colon or not all(
         part.isascii() and (part.isdecimal() or not part) for part in (begin, end)

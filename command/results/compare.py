@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`compare`: the numbers of two results, body by body, against the bounds of both. Standard library only."""
+"""`compare`: the numbers of two results, body by body, against the bounds of both.
+
+Standard library only.
+"""
 
 from __future__ import annotations
 
@@ -23,9 +26,10 @@ def differences(
 ) -> tuple[list[str], bool]:
     """Return the lines to print, and whether a number differs by more than allowed.
 
-    A number may differ by the bounds of both, and by the tolerance times its size: the largest entry of a vector, a
-    tensor or the moments of one degree, for a center the radius of gyration. align: compare centers and tensors in each
-    body's own pose, and skip numbers about a point that did not move with the body.
+    A number may differ by the bounds of both, and by the tolerance times its size: the largest
+    entry of a vector, a tensor or the moments of one degree, for a center the radius of gyration.
+    align: compare centers and tensors in each body's own pose, and skip numbers about a point that
+    did not move with the body.
     """
     others = {document["file"]: document for document in second}
     rows: list[tuple[str, bool]] = []  # lines, and whether they pass
@@ -59,7 +63,9 @@ def differences(
 
 
 def _bodies(document: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """Return a document's records by name: objects, assemblies, flat shapes, and bones with their armatures."""
+    """Return a document's records by name: objects, assemblies, flat shapes, and bones with their
+    armatures.
+    """
     found = {entry["name"]: entry for entry in document["objects"]}
     found |= {
         "assembly {}".format(entry["name"]): entry for entry in document.get("assemblies", ())

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands that prepare and gather the results of many files: `manifest`, `merge`, `to-csv`, `summary` and `report`.
+"""Commands that prepare and gather the results of many files: `manifest`, `merge`, `to-csv`,
+`summary` and `report`.
 
 Results are files of `measure` as json or jsonl, and journals. Standard library only.
 """
@@ -38,7 +39,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
         prog="body_moments",
         usage="body_moments {} [options] {} [{} ...]".format(command, names, names),
         description=COMMANDS[command],
-        epilog="exit code: 0 done, 1 {}the result cannot be written, 2 wrong usage or no results".format(
+        epilog="exit code: 0 done, 1 {}the result cannot be written, 2 wrong usage or no "
+        "results".format(
             "numbers differ by more than they may, or " if command == "compare" else ""
         ),
         allow_abbrev=False,
@@ -51,7 +53,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
         parts = "divide the list into this many parts, for `measure --part K` (1)"
         parser.value("--parts", count, "N", parts, default=1)
     if command == "merge":
-        whole = "refuse results in which a file of this list is missing or has two documents, or with other files"
+        whole = (
+            "refuse results in which a file of this list is missing or has two documents, or with "
+            "other files"
+        )
         parser.value("--manifest", Path, "LIST", whole)
     if command == "compare":
         parser.flag("--quiet", "print only what differs by more than it may")
@@ -68,7 +73,9 @@ def answer(options: argparse.Namespace) -> tuple[Iterable[str], int]:
 
 
 def _read(paths: Iterable[str]) -> list[Entry]:
-    """Return the documents of files of results, in order; a later document replaces one about the same file."""
+    """Return the documents of files of results, in order; a later document replaces one about the
+    same file.
+    """
     entries: dict[str | None, Entry] = {}
     for path in paths:
         entries.update(
@@ -82,7 +89,9 @@ def _documents(options: argparse.Namespace) -> list[dict[str, Any]]:
 
 
 def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
-    """Return the documents of results of one run; a later document replaces one about the same file."""
+    """Return the documents of results of one run; a later document replaces one about the same
+    file.
+    """
     documents: dict[str | None, dict[str, Any]] = {}
     counts: Counter[str] = Counter()
     first: tuple[str, dict[str, Any]] | None = None
@@ -93,7 +102,7 @@ def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
             if given != first[1]:
                 text = "{} was made with other options than {}: {}. Merge results of one run"
                 names = {
-                    name for name in {**given, **first[1]} if given.get(name) != first[1].get(name)
+                    name for name in (given | first[1]) if given.get(name) != first[1].get(name)
                 }
                 raise UsageError(text.format(path, first[0], ", ".join(sorted(names))))
             documents[document["file"]] = document
@@ -116,7 +125,10 @@ def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
 
 
 def _read_file(path: str) -> Iterator[Entry]:
-    """Yield the documents of one file: a JSON object, an array, or one object on each line. Raises UsageError."""
+    """Yield the documents of one file: a JSON object, an array, or one object on each line.
+
+    Raises UsageError.
+    """
     try:
         with open(path, encoding="utf-8-sig", errors="surrogateescape") as file:
             begin = file.read(2)
@@ -139,7 +151,10 @@ def _read_file(path: str) -> Iterator[Entry]:
 
 
 def _entry(record: Any, place: str) -> Entry:
-    """Return the document of a record, and what a journal adds. ValueError, with the place, if it is neither."""
+    """Return the document of a record, and what a journal adds.
+
+    ValueError, with the place, if it is neither.
+    """
     is_line = isinstance(record, dict) and record.get("schema") == journal.SCHEMA
     try:
         (check_journal_line if is_line else check_document)(record)
@@ -161,7 +176,9 @@ def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], int]:
 
 
 def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
-    """Return lines with counts by status and method, findings, slowest files and widest bounds; and exit code 0."""
+    """Return lines with counts by status and method, findings, slowest files and widest bounds; and
+    exit code 0.
+    """
     statuses: Counter[str] = Counter()
     methods: Counter[str] = Counter()
     codes: Counter[tuple[str, str]] = Counter()

@@ -22,9 +22,11 @@ def parse(argv: list[str]) -> argparse.Namespace:
     parser = Parser(
         prog="body_moments",
         usage="body_moments similar LIBRARY [LIBRARY ...] --to NAME [options]",
-        description="The bodies of a library that are most like one of them. A library is what `measure --signature "
+        description="The bodies of a library that are most like one of them. A library is what "
+        "`measure --signature "
         "--format jsonl` writes.",
-        epilog="exit code: 0 compared, 1 some records have no signature, 2 wrong usage, 3 interrupted",
+        epilog="exit code: 0 compared, 1 some records have no signature, 2 wrong usage, 3 "
+        "interrupted",
         allow_abbrev=False,
     )
     parser.add_argument("command", metavar="similar")
@@ -38,7 +40,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 
 def answer(options: argparse.Namespace) -> tuple[list[str], int]:
-    """Return the table, and the exit code: 1 if some records could not be compared. Raises UsageError."""
+    """Return the table, and the exit code: 1 if some records could not be compared.
+
+    Raises UsageError.
+    """
     entries, failures = [], []
     for path in options.libraries:
         try:

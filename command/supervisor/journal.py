@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The journal of a run, JSON lines; `Entry.reason_to_measure` decides whether --resume measures a file again.
+"""The journal of a run, JSON lines; `Entry.reason_to_measure` decides whether --resume measures a
+file again.
 
-A line has the file's key (path, size, time of its last change, digest of the options, versions of the add-on and of
-Blender), its status, the attempts and seconds it took, sizes and times of the files that it refers to, and its
-document. Torn and damaged lines are ignored; the last line of a path counts.
+A line has the file's key (path, size, time of its last change, digest of the options, versions of
+the add-on and of Blender), its status, the attempts and seconds it took, sizes and times of the
+files that it refers to, and its document. Torn and damaged lines are ignored; the last line of a
+path counts.
 """
 
 from __future__ import annotations
@@ -35,7 +37,8 @@ _LIMITED = ("timeout", "memory")  # statuses that other limits may change
 
 @dataclass(frozen=True)
 class Entry:
-    """One file's line. offset, length: its position. options: of the earlier run that has written it.
+    """One file's line. offset, length: its position. options: of the earlier run that has written
+    it.
 
     is_damaged: True if that run's document cannot be used.
     """
@@ -58,12 +61,14 @@ class Entry:
         limits: dict[str, Any],
         retry_failed: bool = False,
     ) -> str | None:
-        """Return the reason for measuring the file again, as a part of a sentence, or None if there is none."""
+        """Return the reason for measuring the file again, as a part of a sentence, or None if there
+        is none.
+        """
         changed = {name for name in key if self.head["key"].get(name) != key[name]}
         if "options" in changed:
             names = [
                 name
-                for name in {**self.options, **options}
+                for name in (self.options | options)
                 if self.options.get(name) != options.get(name)
             ]
             return ": ".join(
@@ -84,7 +89,10 @@ class Entry:
 
 
 class Journal:
-    """An open journal, to which lines are appended. entries: the last line of each path. Raises OSError."""
+    """An open journal, to which lines are appended. entries: the last line of each path.
+
+    Raises OSError.
+    """
 
     def __init__(self, path: Path) -> None:
         self.entries: dict[str, Entry] = {}
@@ -109,8 +117,8 @@ class Journal:
     def append(self, head: dict[str, Any], document: bytes) -> None:
         """Append the line of a finished file.
 
-        head: its key, status, attempts, seconds, limits, and `reads`, the files that it refers to, each with its
-        `state`. document: JSON on one line. Raises OSError.
+        head: its key, status, attempts, seconds, limits, and `reads`, the files that it refers to,
+        each with its `state`. document: JSON on one line. Raises OSError.
         """
         record = {"schema": SCHEMA, **head}
         line = json.dumps(record)[:-1].encode() + b', "document": ' + document.strip() + b"}\n"
@@ -150,7 +158,9 @@ def _read_back(document: dict[str, Any]) -> dict[str, Any]:
 
 
 def state(path: str) -> dict[str, int | None]:
-    """Return the size and modification time of a file, by which it is recognized; None for each if it is missing."""
+    """Return the size and modification time of a file, by which it is recognized; None for each if
+    it is missing.
+    """
     try:
         status = os.stat(path)
     except (OSError, ValueError):
@@ -162,8 +172,9 @@ def state(path: str) -> dict[str, int | None]:
 def locked(folder: Path) -> Iterator[None]:
     """Create and lock a folder for the files of one run within the block, and remove it afterwards.
 
-    The operating system holds the lock, and releases it when the process ends for any reason. A file system without
-    locks is used without one. Raises BlockingIOError if another run has the folder, and OSError.
+    The operating system holds the lock, and releases it when the process ends for any reason. A
+    file system without locks is used without one. Raises BlockingIOError if another run has the
+    folder, and OSError.
     """
     folder.mkdir(exist_ok=True)
     with open(folder / "lock", "wb") as file:

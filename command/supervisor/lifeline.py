@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A child's end of the pipes to its supervisor.
 
-The child ends when the supervisor ends for any reason. On Linux the system itself kills it, even if Blender hangs on a
-file. Elsewhere a thread waits for the end of the pipe.
+The child ends when the supervisor ends for any reason. On Linux the system itself kills it, even if
+Blender hangs on a file. Elsewhere a thread waits for the end of the pipe.
 """
 
 from __future__ import annotations
@@ -25,7 +25,9 @@ _PR_SET_PDEATHSIG = 1  # Linux: sets the signal that a process gets when its par
 
 
 def end_with_parent(number: int) -> None:
-    """Request a signal to this process for the end of its parent; without effect on other systems than Linux."""
+    """Request a signal to this process for the end of its parent; without effect on other systems
+    than Linux.
+    """
     if sys.platform.startswith("linux"):
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, number)
 
@@ -59,8 +61,10 @@ class Lifeline:
         os._exit(0)
 
     def answer(self, head: dict[str, Any], data: bytes = b"") -> None:
-        """Send a line of JSON. If there are data, the line states their length as "bytes", and they follow it."""
-        head = {**head, "bytes": len(data)} if data else head
+        """Send a line of JSON. If there are data, the line states their length as "bytes", and they
+        follow it.
+        """
+        head = (head | {"bytes": len(data)}) if data else head
         view = memoryview(MARK + json.dumps(head).encode() + b"\n" + data)
         while view:
             view = view[os.write(self._channel, view) :]

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The files of a run: named files, files in folders, and files of a list (a manifest).
 
-A manifest is a text of JSON lines: {"schema": "body-moments-manifest/1", "files": N}, then {"path": "…"} for each file.
-The first line has "parts", too, if the files are to be measured in several parts, which are then as even as possible.
-A name may hold any character, a line break too.
+A manifest is a text of JSON lines: {"schema": "body-moments-manifest/1", "files": N}, then {"path":
+"…"} for each file. The first line has "parts", too, if the files are to be measured in several
+parts, which are then as even as possible. A name may hold any character, a line break too.
 """
 
 from __future__ import annotations
@@ -33,7 +33,10 @@ _RAW = re.compile(
 
 
 def expand(names: Iterable[str]) -> Iterator[str]:
-    """Yield the names, with each folder replaced by its measurable files, sorted. Raises OSError if it has none."""
+    """Yield the names, with each folder replaced by its measurable files, sorted.
+
+    Raises OSError if it has none.
+    """
     for name in names:
         if not os.path.isdir(name):
             yield name
@@ -47,7 +50,8 @@ def expand(names: Iterable[str]) -> Iterator[str]:
 def _walk(top: str) -> Iterator[str]:
     """Yield the measurable files in a folder and its subfolders.
 
-    Each folder counts once, so that links in a circle end. Hidden entries and unreadable folders are left out.
+    Each folder counts once, so that links in a circle end. Hidden entries and unreadable folders
+    are left out.
     """
     known: set[tuple[int, int]] = set()
     for folder, folders, files in os.walk(top, followlinks=True):
@@ -68,7 +72,9 @@ def _is_measurable(path: str) -> bool:
 
 
 def write_lines(paths: Iterable[str], parts: int = 1) -> Iterator[str]:
-    """Yield the text of a manifest of these files, in pieces. parts: how many of its parts are measured apart."""
+    """Yield the text of a manifest of these files, in pieces. parts: how many of its parts are
+    measured apart.
+    """
     paths = list(paths)
     divided = {"parts": parts} if parts > 1 else {}
     yield json.dumps({"schema": SCHEMA, "files": len(paths), **divided}) + "\n"
@@ -77,7 +83,9 @@ def write_lines(paths: Iterable[str], parts: int = 1) -> Iterator[str]:
 
 
 def read(path: Path, part: int | None = None) -> list[str]:
-    """Return the files that a manifest lists; relative names start from its folder. Raises UsageError.
+    """Return the files that a manifest lists; relative names start from its folder.
+
+    Raises UsageError.
 
     part: the number of one of its parts, from 1; None for all files.
     """

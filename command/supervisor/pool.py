@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Children that measure one file each at a time, so that a crash, a hang or too much memory blames only that file."""
+"""Children that measure one file each at a time, so that a crash, a hang or too much memory blames
+only that file.
+"""
 
 from __future__ import annotations
 
@@ -52,8 +54,9 @@ class Limits:
 class TaskOutcome:
     """Outcome of a task.
 
-    status: "answered", "crashed", "timeout" or "memory". head, data: the answer. how: the signal or exit code of a
-    crash. attempts: their count. seconds: their total time. said: the child's output on its standard error.
+    status: "answered", "crashed", "timeout" or "memory". head, data: the answer. how: the signal or
+    exit code of a crash. attempts: their count. seconds: their total time. said: the child's output
+    on its standard error.
     """
 
     task: str
@@ -70,9 +73,9 @@ class TaskOutcome:
 class _Child:
     """A child process.
 
-    requests, answers: the streams to and from it. started: time of its start, or of its task's. deadline: time by which
-    it must be ready, or its task done. task: its current file. is_fresh: True before its first file. doomed: the reason
-    if we ended it.
+    requests, answers: the streams to and from it. started: time of its start, or of its task's.
+    deadline: time by which it must be ready, or its task done. task: its current file. is_fresh:
+    True before its first file. doomed: the reason if we ended it.
     """
 
     process: subprocess.Popen[bytes]
@@ -91,9 +94,9 @@ class _Child:
 class Pool:
     """A pool of child processes that work on tasks, which are names of files.
 
-    command: starts a child. count: their largest number. setup: the first message to each. work: a folder for all
-    their files, which must not exist, and is removed in the end. Use it as a context manager; its end kills the
-    children.
+    command: starts a child. count: their largest number. setup: the first message to each. work: a
+    folder for all their files, which must not exist, and is removed in the end. Use it as a context
+    manager; its end kills the children.
     """
 
     def __init__(

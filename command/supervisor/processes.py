@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Child processes: their start, memory and end; a whole run in a process of its own, for a window."""
+"""Child processes: their start, memory and end; a whole run in a process of its own, for a
+window.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,8 @@ _MEMORY_SHARE = 0.8  # share of the machine's memory, for all processes that mea
 _END = 5.0  # seconds that a killed process may take to be gone
 _TOOL = 5.0  # seconds that a tool of the system may take to answer
 _GRACE = 0.4  # seconds to clean up in, for a child that is asked to end
-# Blender without a window, of factory settings, that runs no script of a file and reaches no network.
+# Blender without a window, of factory settings, that runs no script of a file and reaches no
+# network.
 _SWITCHES = (
     "-b",
     "--factory-startup",
@@ -43,7 +46,9 @@ _Size = ctypes.c_size_t
 
 
 def run_command(blender: str | None, words: Sequence[str]) -> list[str]:
-    """Return the command that runs our command line with these words in a Blender, else in this Python."""
+    """Return the command that runs our command line with these words in a Blender, else in this
+    Python.
+    """
     batch = importlib.util.find_spec("...operators.batch", __package__)
     assert batch is not None and batch.origin is not None
     script = str(Path(batch.origin).resolve())
@@ -98,7 +103,9 @@ def kill(processes: Sequence[subprocess.Popen[bytes]], *, gently: bool = False) 
 
 
 def _signal(process: subprocess.Popen[bytes], number: int) -> None:
-    """Send a signal to the process group that a child leads, unless the child has ended and been waited for."""
+    """Send a signal to the process group that a child leads, unless the child has ended and been
+    waited for.
+    """
     if process.returncode is None:
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(process.pid, number)
@@ -136,7 +143,9 @@ def memory_of(pid: int) -> int | None:
 
 
 def _memory_by_tool(pid: int) -> int | None:
-    """Return the resident bytes of a process according to `ps`, a tool of macOS and BSD, or None if unknown."""
+    """Return the resident bytes of a process according to `ps`, a tool of macOS and BSD, or None if
+    unknown.
+    """
     words = ["ps", "-o", "rss=", "-p", str(pid)]
     try:
         answer = subprocess.run(words, capture_output=True, timeout=_TOOL).stdout
@@ -156,7 +165,9 @@ def memory_of_machine() -> int | None:
 
 
 def memory_share(count: int = 1) -> int | None:
-    """Return the bytes that each of `count` processes may take, or None if the machine's memory is unknown."""
+    """Return the bytes that each of `count` processes may take, or None if the machine's memory is
+    unknown.
+    """
     machine = memory_of_machine()
     return None if machine is None else int(_MEMORY_SHARE * machine / count)
 
@@ -172,7 +183,8 @@ def cores() -> int:
 class WholeRun:
     """A running `measure` with the given words.
 
-    output: its result. blender: the Blender to start; None for this Python, if it has the bpy module. Raises OSError.
+    output: its result. blender: the Blender to start; None for this Python, if it has the bpy
+    module. Raises OSError.
     """
 
     def __init__(self, words: Sequence[str], output: Path, blender: str | None) -> None:
@@ -180,7 +192,7 @@ class WholeRun:
         self._journal = output.with_name(output.name + ".journal")
         self._place, self._lines = 0, 0
         nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
-        environment = {**os.environ, WINDOW: "1"}
+        environment = os.environ | {WINDOW: "1"}
         self._process = subprocess.Popen(
             command, env=environment, creationflags=_NEW_GROUP, **nowhere
         )

@@ -15,7 +15,9 @@ PERIOD = 5.0  # seconds between lines
 
 
 class Progress:
-    """The counts of a run. total: count of its files. known: statuses of the files that an earlier run has recorded."""
+    """The counts of a run. total: count of its files. known: statuses of the files that an earlier
+    run has recorded.
+    """
 
     def __init__(self, total: int, known: Sequence[str] = ()) -> None:
         self.counts: Counter[str] = Counter()

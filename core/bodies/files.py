@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies in files without any object: meshes, read as a whole or in blocks; scans and arrays of densities."""
+"""Bodies in files without any object: meshes, read as a whole or in blocks; scans and arrays of
+densities.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +15,7 @@ from numpy.typing import NDArray
 
 from ..density.findings import POSITIONS_ONLY_AS_DENSITY
 from ..density.grid_options import GridOptions
+from ..files.limits import DEFAULT_LIMITS, Limits
 from ..measurement.findings import NO_VOLUME
 from ..measurement.measurement import Body, Measurement
 from ..measurement.settings import Settings
@@ -22,7 +25,6 @@ from ..moments.moments import Moments
 from ..scans import Scan, read_scan, sample_matrix
 from ..scans.findings import SCAN_UNSTATED
 from ..scans.formats import place_samples, read_all_positions
-from ..scans.scan_files import DEFAULT_LIMITS, Limits
 from ..solid.findings import INVERTED_COMPONENTS
 from ..streams.file_mesh import FileMesh, box_of_blocks
 from ..streams.measure import MeshFile, StreamIntegrals, measure_stream, open_mesh_file
@@ -96,7 +98,9 @@ class StreamBody(Body):
     threads: int = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments to an order; an order above the stored moments' reads the file again."""
+        """Return the moments to an order; an order above the stored moments' reads the file
+        again.
+        """
         if order <= self.volume.order and (not area or order <= self.area.order):
             return self.volume.truncate(order), self.area.truncate(order) if area else None
         found = measure_stream(self.mesh, order, order if area else 0, self.threads)
@@ -111,7 +115,9 @@ def measure_mesh_file(
     findings: tuple[Finding, ...] = (),
     progress: Callable[[int], None] | None = None,
 ) -> Measurement:
-    """Return the mass properties of an .stl or .ply file as one body; `progress` gets the number of faces just read."""
+    """Return the mass properties of an .stl or .ply file as one body; `progress` gets the number of
+    faces just read.
+    """
     kind, unit = settings.kind, settings.unit
     order = max(settings.order or KNOWN_ORDER, KNOWN_ORDER)
     area_order = order if kind == "shell" or settings.surface else 0
@@ -133,7 +139,8 @@ def measure_mesh_file(
             StreamHealth(closed=found.closed),
             Method(verdict),
             tuple(notes),
-            face_count=found.face_count,  # axes of many faces come from third order, without reading them again
+            # axes of many faces come from third order, without reading them again
+            face_count=found.face_count,
             mesh=mesh,
             unit=unit,
             threads=settings.threads,
@@ -145,7 +152,9 @@ def measure_mesh_file(
 
 
 def _in_meters(found: StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
-    """Return the moments of volume and area, in SI units; a negative volume is reversed, as if faces were outward."""
+    """Return the moments of volume and area, in SI units; a negative volume is reversed, as if
+    faces were outward.
+    """
     matrix = np.diag([unit, unit, unit, 1.0])
     volume = found.volume * -1.0 if found.volume.total < 0.0 else found.volume
     return volume.transform(matrix), found.area.transform(matrix)
@@ -155,9 +164,10 @@ def _in_meters(found: StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
 class ArrayOptions:
     """Options of a measured array file.
 
-    spacing, origin: (x, y, z) in place of the file's own; unit_scale: meters per unit if the file has none;
-    density_scale: kg/m³ that a sample of 1 stands for; threshold: smallest value inside the body, None for all; limits:
-    of the file's size; positions: paths of files with the samples' positions, by axis, in units of unit_scale.
+    spacing, origin: (x, y, z) in place of the file's own; unit_scale: meters per unit if the file
+    has none; density_scale: kg/m³ that a sample of 1 stands for; threshold: smallest value inside
+    the body, None for all; limits: of the file's size; positions: paths of files with the samples'
+    positions, by axis, in units of unit_scale.
     """
 
     spacing: Sequence[float] | None = None
@@ -177,7 +187,9 @@ def measure_array(
     settings: Settings,
     progress: Callable[[int], None] = lambda samples: None,
 ) -> Measurement:
-    """Return the mass properties of the samples in a file; `progress` gets the number of samples just read."""
+    """Return the mass properties of the samples in a file; `progress` gets the number of samples
+    just read.
+    """
     if settings.kind == "shell":
         raise ReadError(GRID_AS_SHELL, subject=name)
     with about_file(name):
@@ -221,7 +233,9 @@ def _threshold_body(
     findings: tuple[Finding, ...],
     progress: Callable[[int], None],
 ) -> Body:
-    """Return the body at or above a threshold, filled with the given density, else with the samples as densities."""
+    """Return the body at or above a threshold, filled with the given density, else with the samples
+    as densities.
+    """
     if array.positions:
         raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=name)
     filled = settings.density is None

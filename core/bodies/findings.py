@@ -6,7 +6,8 @@ from ..verdict.finding import error, note, warning
 
 NON_PLANAR_FACES_OF_DISPLAY_MESH = note(
     "non_planar_faces_of_display_mesh",
-    "Non-planar faces of the display mesh: their triangulation can change the volume by up to {share:percent}.",
+    "Non-planar faces of the display mesh: their triangulation can change the volume by up to "
+    "{share:percent}.",
 )
 FLAT_SURFACES = warning(
     "flat_surfaces",
@@ -15,16 +16,19 @@ FLAT_SURFACES = warning(
 )
 INSTANCE_OVERLAP_UNCHECKED = warning(
     "instance_overlap_unchecked",
-    "Overlap was not checked between instances whose bounding boxes overlap. Use Object > Apply > Make Instances Real "
+    "Overlap was not checked between instances whose bounding boxes overlap. Use Object > Apply > "
+    "Make Instances Real "
     "and join them.",
 )
 WALL_UNORIENTED = warning(
     "wall_unoriented",
-    "The surface is not closed; “inward” is behind its faces as they are. Use Mesh > Normals > Flip to change sides.",
+    "The surface is not closed; “inward” is behind its faces as they are. Use Mesh > Normals > "
+    "Flip to change sides.",
 )
 WALL_THICKNESS_VARIES = warning(
     "wall_thickness_varies",
-    "At corners of more than three planes the wall is {minimum:.6g} to {maximum:.6g} times as thick.",
+    "At corners of more than three planes the wall is {minimum:.6g} to {maximum:.6g} times as "
+    "thick.",
 )
 WALL_FACES_WITHOUT_AREA = warning(
     "wall_faces_without_area",
@@ -41,7 +45,8 @@ WALLS_OVERLAP = warning(
 )
 WALL_FOLDS = error(
     "wall_folds",
-    "A wall of {thickness:length} ({side:word}) folds over itself near {point:point}; the largest is "
+    "A wall of {thickness:length} ({side:word}) folds over itself near {point:point}; the largest "
+    "is "
     "{largest:length}. Reduce Thickness, change Wall, or set Wall to Thin.",
 )
 MASS_OVERFLOW = error("mass_overflow", "The densities are too large. Lower them.")
@@ -54,7 +59,8 @@ GRID_WITHOUT_SURFACE = note(
 )
 GRID_IS_LEVEL_SET = error(
     "grid_is_level_set",
-    "The grid “{grid}” is a level set of distances, not densities. Set Measure As to Solid, or choose another grid.",
+    "The grid “{grid}” is a level set of distances, not densities. Set Measure As to Solid, or "
+    "choose another grid.",
 )
 GRID_EMPTY = error(
     "grid_empty",
@@ -62,20 +68,24 @@ GRID_EMPTY = error(
 )
 THRESHOLD_MEASURED = note(
     "threshold_measured",
-    "The body where the grid “{grid}” is at least {threshold}, by its interpolant. Its surface passes through "
+    "The body where the grid “{grid}” is at least {threshold}, by its interpolant. Its surface "
+    "passes through "
     "{cells} cells.",
 )
 THRESHOLD_CLIPPED = warning(
     "threshold_clipped",
-    "The body reaches the edge of the grid “{grid}” and is cut off there. Raise Threshold, or enlarge the grid.",
+    "The body reaches the edge of the grid “{grid}” and is cut off there. Raise Threshold, or "
+    "enlarge the grid.",
 )
 THRESHOLD_NOT_REACHED = error(
     "threshold_not_reached",
-    "No value of the grid “{grid}” reaches the threshold {threshold}; the largest is {largest}. Lower Threshold.",
+    "No value of the grid “{grid}” reaches the threshold {threshold}; the largest is {largest}. "
+    "Lower Threshold.",
 )
 THRESHOLD_NEEDS_FACTOR = error(
     "threshold_needs_factor",
-    "Within a threshold, values become densities by a factor alone. Set Values to Factor, or Filled With to Material.",
+    "Within a threshold, values become densities by a factor alone. Set Values to Factor, or "
+    "Filled With to Material.",
 )
 GRID_AS_SHELL = error(
     "grid_as_shell", "A grid holds densities inside a solid only. Set Kind to Solid."
@@ -95,7 +105,8 @@ WIRE_UNSUPPORTED = error(
 )
 SHAPE_OF_OPEN_SURFACE = error(
     "shape_of_open_surface",
-    "Pose and signature depend on the reference point, as the surface is open. Close it, or set Kind to Shell.",
+    "Pose and signature depend on the reference point, as the surface is open. Close it, or set "
+    "Kind to Shell.",
 )
 SHAPE_FAR_FROM_ORIGIN = error(
     "shape_far_from_origin",
@@ -106,19 +117,23 @@ SIGNATURE_NEEDS_POLYGONS = error(
 )
 MESH_STREAMED = warning(
     "mesh_streamed",
-    "{count} face was read in blocks, without repair: self-intersection, nested and inside-out components were not "
+    "{count} face was read in blocks, without repair: self-intersection, nested and inside-out "
+    "components were not "
     "looked for. Use --stream never where memory allows it.",
-    "{count} faces were read in blocks, without repair: self-intersection, nested and inside-out components were "
+    "{count} faces were read in blocks, without repair: self-intersection, nested and inside-out "
+    "components were "
     "not looked for. Use --stream never where memory allows it.",
 )
 STREAMED_OPEN = warning(
     "streamed_open",
-    "The surface is not closed, or its faces disagree: the volume depends on the reference point. Repair the mesh, "
+    "The surface is not closed, or its faces disagree: the volume depends on the reference point. "
+    "Repair the mesh, "
     "or use --stream never.",
 )
 DRAWN_AS_POLYGONS = note(
     "drawn_as_polygons",
-    "The round shape was measured as drawn polygons. Doubling the resolution makes the error four times smaller.",
+    "The round shape was measured as drawn polygons. Doubling the resolution makes the error four "
+    "times smaller.",
 )
 GRID_TOO_LARGE = error(
     "grid_too_large",

@@ -43,10 +43,12 @@ TRILINEAR = 2
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Samples of a density at matrix @ (i, j, k, 1), in meters, that stand for slope · value + intercept.
+    """Samples of a density at matrix @ (i, j, k, 1), in meters, that stand for slope · value +
+    intercept.
 
-    values: one array, or (offset, array) block by block. shape: (3,) shape of the box that holds them. background: a
-    value that counts as empty. positions: of the samples along each axis, None for 0, 1, 2, …
+    values: one array, or (offset, array) block by block. shape: (3,) shape of the box that holds
+    them. background: a value that counts as empty. positions: of the samples along each axis, None
+    for 0, 1, 2, …
     """
 
     values: Blocks | NDArray
@@ -106,7 +108,8 @@ def density_body(
     progress: Callable[[int], None] = lambda samples: None,
     order: int = KNOWN_ORDER,
 ) -> GridBody:
-    """Return the body of samples, with its mass moments to an order, or raise ReadError if they are empty.
+    """Return the body of samples, with its mass moments to an order, or raise ReadError if they are
+    empty.
 
     progress: called with the number of samples about to be read.
     """
@@ -209,7 +212,9 @@ class ThresholdGridBody(Body):
     options: GridOptions = GridOptions()
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments of the body, and of the surface on which the values are the threshold."""
+        """Return the moments of the body, and of the surface on which the values are the
+        threshold.
+        """
         above = self.grid.set_above(self.options._replace(filled=False), order)
         return above.volume, above.area if area else None
 
@@ -217,7 +222,9 @@ class ThresholdGridBody(Body):
 def threshold_grid_body(
     grid: ThresholdGrid, options: GridOptions, preview: bool = False, order: int = KNOWN_ORDER
 ) -> ThresholdGridBody:
-    """Return the body of grid values at or above a threshold, with mass moments to `order`, or raise MeasureError."""
+    """Return the body of grid values at or above a threshold, with mass moments to `order`, or
+    raise MeasureError.
+    """
     if options.filled and options.table:
         raise ReadError(THRESHOLD_NEEDS_FACTOR)
     above = grid.set_above(options, KNOWN_ORDER, preview)

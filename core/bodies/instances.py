@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Instances of one surface: mapped areas, overlaps, the health and findings of all together.
 
-Each solid is measured by itself, with its own cavities. A volume common to two counts twice, and is reported.
+Each solid is measured by itself, with its own cavities. A volume common to two counts twice, and is
+reported.
 """
 
 from __future__ import annotations
@@ -38,7 +39,9 @@ def singular_instances_message(reading: Reading) -> Finding:
 
 
 def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
-    """Return findings of parts, (object's name, findings), with equal ones joined, and those of `whole` as they are."""
+    """Return findings of parts, (object's name, findings), with equal ones joined, and those of
+    `whole` as they are.
+    """
     parts = list(parts)
     if len(parts) == 1 and parts[0][0] in ("", whole):
         return each_once(parts[0][1])
@@ -61,12 +64,13 @@ def _identity(result: Finding) -> tuple[Finding, object]:
 
 @dataclass(frozen=True, eq=False)
 class PlaceComparison:
-    """Solids inside other ones, or overlapping them: (k, 2) [solid, component], once for each place.
+    """Solids inside other ones, or overlapping them: (k, 2) [solid, component], once for each
+    place.
 
-    `nested`: components in the material of others. `overlapping`: components that share a part of their interiors.
-    `undecided_pairs`: number of pairs that would have been too much work.
-    `nested_slightly`, `overlapping_slightly`: True if the nested components, or the smaller components of the
-    overlapping pairs, are too small to matter.
+    `nested`: components in the material of others. `overlapping`: components that share a part of
+    their interiors. `undecided_pairs`: number of pairs that would have been too much work.
+    `nested_slightly`, `overlapping_slightly`: True if the nested components, or the smaller
+    components of the overlapping pairs, are too small to matter.
     """
 
     nested: NDArray[np.intp]
@@ -77,7 +81,9 @@ class PlaceComparison:
 
 
 def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]]) -> PlaceComparison:
-    """Find solids that overlap or contain each other in their places, given by (k, 4, 4) maps for each solid."""
+    """Find solids that overlap or contain each other in their places, given by (k, 4, 4) maps for
+    each solid.
+    """
     points = []
     triangles = []
     component = []
@@ -149,7 +155,9 @@ def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]])
 def overlap_findings(
     reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison
 ) -> list[Finding]:
-    """Return findings about places that overlap or contain each other, with [face, source name] as elements."""
+    """Return findings about places that overlap or contain each other, with [face, source name] as
+    elements.
+    """
     findings = []
     for code, components, slight in (
         (COMPONENTS_NESTED, comparison.nested, comparison.nested_slightly),
@@ -195,7 +203,9 @@ def area_of_instances(
     matrices: NDArray,
     measured: Callable[[Surface], Moments] | None,
 ) -> Iterator[Moments]:
-    """Yield the area moments of a surface's images, `measured` once for each uneven map, or None for totals alone."""
+    """Yield the area moments of a surface's images, `measured` once for each uneven map, or None
+    for totals alone.
+    """
     if measured is None:
         even = are_similarities(matrices[:, :3, :3])
         if even.any():
@@ -210,7 +220,9 @@ def area_of_instances(
 def group_by_similarity(
     surface: Surface, matrices: NDArray
 ) -> Iterator[tuple[Surface, NDArray, NDArray]]:
-    """Yield (surface, (j, 4, 4) similarities, (j,) rows of `matrices`), with a mapped surface for each uneven map."""
+    """Yield (surface, (j, 4, 4) similarities, (j,) rows of `matrices`), with a mapped surface for
+    each uneven map.
+    """
     for rows, is_even in similarity_groups(matrices):
         if is_even:
             yield surface, matrices[rows], rows
@@ -223,7 +235,9 @@ def group_by_similarity(
 
 
 def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
-    """Return the summed health of parts (health, instances, area); only a single part keeps its faulty elements."""
+    """Return the summed health of parts (health, instances, area); only a single part keeps its
+    faulty elements.
+    """
     healths = list(healths)
     first, copies, _ = healths[0]
     if len(healths) == 1 and copies == 1:

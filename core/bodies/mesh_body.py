@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies bounded by polygons, with all their instances: each surface is measured once and mapped to its places."""
+"""Bodies bounded by polygons, with all their instances: each surface is measured once and mapped to
+its places.
+"""
 
 from __future__ import annotations
 
@@ -60,7 +62,9 @@ class MeshBody(Body):
     _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments of volume and area (None without `area`) to an order, measured once for each part."""
+        """Return the moments of volume and area (None without `area`) to an order, measured once
+        for each part.
+        """
         if (order, area) not in self._known:  # the frame and the shape ask for the same order
             self._known[order, area] = self._to_order(order, area)
         return self._known[order, area]
@@ -99,7 +103,9 @@ class MeshBody(Body):
         return sum_moments(volumes), sum_moments(areas) if area else None
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments from which axes are found, in the surface's own coordinates for one similar image."""
+        """Return the moments from which axes are found, in the surface's own coordinates for one
+        similar image.
+        """
         if len(self.solids) == 1 and len(self.solids[0][1]) == 1:
             solid, matrices = self.solids[0]
             if are_similarities(matrices[:, :3, :3])[0]:
@@ -123,14 +129,18 @@ class MeshBody(Body):
         )
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
-        """Yield the surfaces in world coordinates, repaired, or with `sheets` as they were before repair."""
+        """Yield the surfaces in world coordinates, repaired, or with `sheets` as they were before
+        repair.
+        """
         for solid, matrices in self.solids:
             piece = solid.given_surface if sheets else solid.repaired_surface
             yield from (piece.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
 
 
 def with_known(moments: Moments, known: Moments) -> Moments:
-    """Return moments with the lower orders and bounds of `known`, if both are about the same point."""
+    """Return moments with the lower orders and bounds of `known`, if both are about the same
+    point.
+    """
     if not np.array_equal(moments.about, known.about):
         return moments
     names = "raw", "rounding_error", "input_error"
@@ -145,7 +155,9 @@ def with_known(moments: Moments, known: Moments) -> Moments:
 
 
 def with_input_error(moments: Moments, known: Moments) -> Moments:
-    """Return moments with input bounds no larger than those of `known`, if both are about the same point."""
+    """Return moments with input bounds no larger than those of `known`, if both are about the same
+    point.
+    """
     if not np.array_equal(moments.about, known.about):
         return moments
     error = moments.input_error.copy()
@@ -154,14 +166,18 @@ def with_input_error(moments: Moments, known: Moments) -> Moments:
 
 
 def extend_input_error(moments: Moments, known: Moments) -> Moments:
-    """Return moments with input bounds of every order: the bound of the `known` total times powers of the reach."""
+    """Return moments with input bounds of every order: the bound of the `known` total times powers
+    of the reach.
+    """
     swept, further = known.input_error[:2].tolist()
     reach = further / swept if swept > 0.0 else 0.0
     return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
 
 
 def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:
-    """Return the moments, in own coordinates, of m images of `shapes` (`which`) under (m, 3, 3) linear maps."""
+    """Return the moments, in own coordinates, of m images of `shapes` (`which`) under (m, 3, 3)
+    linear maps.
+    """
     is_mirrored = np.linalg.det(linear) < 0.0
     is_even = are_similarities(linear)
     rotation = np.eye(3)[None].repeat(len(which), 0)
@@ -187,7 +203,9 @@ def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDAr
 
 
 def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
-    """Return the sum of all parts, each measured once in its own coordinates, and mapped to its places."""
+    """Return the sum of all parts, each measured once in its own coordinates, and mapped to its
+    places.
+    """
     volumes = []
     areas = []
     healths = []
@@ -284,7 +302,9 @@ def drawn_names(reading: Reading) -> set[str]:
 
 
 def of_drawn(findings: Iterable[Finding], parts: Iterable[Part], drawn: set[str]) -> list[Finding]:
-    """Return the findings; if all parts are drawn round shapes, non-planar faces are ascribed to the display mesh."""
+    """Return the findings; if all parts are drawn round shapes, non-planar faces are ascribed to
+    the display mesh.
+    """
     if not drawn.issuperset([part.source_object_name for part in parts]):
         return list(findings)
     of_display_mesh = NON_PLANAR_FACES_OF_DISPLAY_MESH

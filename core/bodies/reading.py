@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The result of reading an object: surfaces, their places, a finding for each decision; the measurement of its body."""
+"""The result of reading an object: surfaces, their places, a finding for each decision; the
+measurement of its body.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +13,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..files.findings import FILE_UNREADABLE
 from ..measurement.builder import measure_body
 from ..measurement.measurement import Body, Measurement
 from ..measurement.settings import Settings, fingerprint
 from ..mesh.surface import Surface, join_surfaces
 from ..moments.affine_maps import are_singular
 from ..nurbs.splines import Curve, Face
-from ..streams.findings import FILE_UNREADABLE
 from ..verdict.finding import Finding, MeasureError, ReadError, system_reason
 
 NO_SLOTS = np.empty(0, np.intp)
@@ -28,8 +30,9 @@ NO_VALUES = np.empty(0)
 class FaceAttributes:
     """Attributes of the faces and vertices of a surface.
 
-    materials: the original materials of its slots, None for empty ones. face_slots: (f,) the slot of each
-    mesh face, -1 if there are no slots. vertex_values: (n,) values of the requested attribute, else none.
+    materials: the original materials of its slots, None for empty ones. face_slots: (f,) the slot
+    of each mesh face, -1 if there are no slots. vertex_values: (n,) values of the requested
+    attribute, else none.
     """
 
     materials: tuple = ()
@@ -41,8 +44,8 @@ class FaceAttributes:
 class SplineReading:
     """Faces of a surface object.
 
-    patches: of the splines that show a surface, each facing as Blender's faces do, or faces of a file. stored: largest
-    effect of rounding in storage on their points. findings: the decisions.
+    patches: of the splines that show a surface, each facing as Blender's faces do, or faces of a
+    file. stored: largest effect of rounding in storage on their points. findings: the decisions.
     """
 
     patches: tuple[Face, ...]
@@ -54,10 +57,10 @@ class SplineReading:
 class Part:
     """One surface and its places.
 
-    matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column vectors.
-    attributes: of its faces and vertices, if requested.
-    source_object_name: the name of the object with this surface, or with its nodes; empty for the object that was read.
-    splines: B-spline patches, if `surface` is but their display mesh.
+    matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column
+    vectors. attributes: of its faces and vertices, if requested. source_object_name: the name of
+    the object with this surface, or with its nodes; empty for the object that was read. splines:
+    B-spline patches, if `surface` is but their display mesh.
     """
 
     surface: Surface
@@ -76,9 +79,9 @@ class Reading:
     rotation: (3, 3), orthonormal to float64, and location: (3,), Blender units, as
         `matrix_world.decompose()` gives them: the object frame.
     curves: of a curve object that is read as lines, in its own coordinates; else none.
-    singular_instance_count: number of places with a matrix that flattens the surface, so that it encloses nothing.
-    all_singular: all places have such a matrix. instance_count: number of places of all surfaces.
-    findings: one for each decision.
+    singular_instance_count: number of places with a matrix that flattens the surface, so that it
+    encloses nothing. all_singular: all places have such a matrix. instance_count: number of places
+    of all surfaces. findings: one for each decision.
     """
 
     name: str
@@ -124,7 +127,9 @@ class Reading:
 
 
 def attribute_to_source(result: Finding, source: str, whole: str) -> Finding:
-    """Return a finding about a surface of the object `whole`, naming the surface's own object if it is different."""
+    """Return a finding about a surface of the object `whole`, naming the surface's own object if it
+    is different.
+    """
     return result if source in ("", whole) else result.of_sources([source])
 
 
@@ -143,7 +148,8 @@ def float64_matrix(matrix) -> NDArray[np.float64]:
 def measure_reading(
     reading: Reading, body: Body, settings: Settings, transform: str = ""
 ) -> Measurement:
-    """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown moments.
+    """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown
+    moments.
 
     transform: the key of the object's transform in the fingerprint.
     """
@@ -167,7 +173,9 @@ def measure_reading(
 
 
 def bare_reading(name: str, kind: str) -> Reading:
-    """Return the frame of a file: the world's origin and axes; `kind` is its type in the records."""
+    """Return the frame of a file: the world's origin and axes; `kind` is its type in the
+    records.
+    """
     return Reading(name, kind, np.eye(4), np.eye(3), np.zeros(3))
 
 

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shells of real thickness: the material between a surface and its offset, of any thickness at once.
+"""Shells of real thickness: the material between a surface and its offset, of any thickness at
+once.
 
-Thickness is a length in the world. A similarity maps an offset surface to an offset surface, so that a surface and its
-similar instances share one polynomial; for any other map the surface is mapped to the world first.
+Thickness is a length in the world. A similarity maps an offset surface to an offset surface, so
+that a surface and its similar instances share one polynomial; for any other map the surface is
+mapped to the world first.
 """
 
 from __future__ import annotations
@@ -53,7 +55,9 @@ SAME_SCALE_RTOL = 1e-6  # equal scales in float32 matrices differ by up to this 
 
 @dataclass(frozen=True)
 class WallPiece:
-    """The offset polynomials of a surface, its scale in m per unit of the surface, and (k, 4, 4) maps to its places."""
+    """The offset polynomials of a surface, its scale in m per unit of the surface, and (k, 4, 4)
+    maps to its places.
+    """
 
     offset: OffsetSolid
     scale: float
@@ -64,7 +68,9 @@ class WallPiece:
         return self.offset.max_thickness(side) * self.scale
 
     def folds(self, side: str, thickness: float) -> bool:
-        """Return whether the wall folds over, with the same rounding of the thickness as in `moments`."""
+        """Return whether the wall folds over, with the same rounding of the thickness as in
+        `moments`.
+        """
         return not thickness / self.scale < self.offset.max_thickness(side)
 
     def moments(self, side: str, thickness: float, order: int = KNOWN_ORDER) -> Moments:
@@ -87,7 +93,9 @@ class WallPiece:
         return self.offset.self_intersects(*split_thickness(side, thickness / self.scale))
 
     def boxes(self, side: str, thickness: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return (k, 3) middles and (k, 3) half sides of boxes around the wall in its places, in m."""
+        """Return (k, 3) middles and (k, 3) half sides of boxes around the wall in its places,
+        in m.
+        """
         return placed_boxes(
             self.offset.box(*split_thickness(side, thickness / self.scale)), self.matrices
         )
@@ -97,7 +105,8 @@ class WallPiece:
 class Walls:
     """The walls of one object, SI units, world axes.
 
-    thin: the body as a thin shell. side: "inward", "outward" or "centered". findings: the decisions about the sides.
+    thin: the body as a thin shell. side: "inward", "outward" or "centered". findings: the decisions
+    about the sides.
     """
 
     thin: Body
@@ -111,7 +120,9 @@ class Walls:
         return min(piece.max_thickness(self.side) for piece in self.pieces)
 
     def body(self, thickness: float, check_overlap: bool = True) -> WallBody:
-        """Return the body with walls of a thickness, m, or raise ReadError; `check_overlap` takes time."""
+        """Return the body with walls of a thickness, m, or raise ReadError; `check_overlap` takes
+        time.
+        """
         if not thickness > 0.0:
             raise ReadError(ZERO_QUANTITY, quantity="thickness")
         if any(piece.folds(self.side, thickness) for piece in self.pieces):
@@ -186,7 +197,9 @@ class Walls:
         return findings
 
     def _unevenness(self) -> float:
-        """Return the largest relative difference of moments (order 0 to 2) between a very thin wall and the surface."""
+        """Return the largest relative difference of moments (order 0 to 2) between a very thin wall
+        and the surface.
+        """
         surface = self.thin.area
         center = surface.center
         degree = monomials(2).sum(axis=1)
@@ -220,7 +233,9 @@ class WallBody(Body):
 
 
 def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
-    """Return the walls of an object measured as a thin shell, or raise MeasureError if a surface has no sides."""
+    """Return the walls of an object measured as a thin shell, or raise MeasureError if a surface
+    has no sides.
+    """
     if body.mass is not None:
         raise ReadError(WALL_UNSUPPORTED, quantity="A varying density")
     pieces, findings = [], []
@@ -256,7 +271,9 @@ def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Find
 
 
 def _round_down(length: float) -> float:
-    """Return the length rounded down to four digits, so that a wall of the rounded length does not fold."""
+    """Return the length rounded down to four digits, so that a wall of the rounded length does not
+    fold.
+    """
     if not isfinite(length):
         return inf
     unit = 10.0 ** (floor(log10(length)) - 3)

@@ -9,7 +9,8 @@ IGES_NOT_ASCII = error(
 )
 IGES_DAMAGED = error(
     "iges_damaged",
-    "The IGES file is damaged: its {section:word} has “{text}”, which is not complete or not possible. Export it "
+    "The IGES file is damaged: its {section:word} has “{text}”, which is not complete or not "
+    "possible. Export it "
     "again.",
 )
 IGES_UNIT = error(
@@ -22,26 +23,33 @@ NO_SURFACE_KEPT = error("no_surface_kept", "No surface of the file can be kept: 
 SURFACE_TRIMMED = warning(
     "surface_trimmed",
     "Not imported, because it is trimmed: {kind} {names}. Untrim it, or export a mesh.",
-    "Not imported, because they are trimmed: {count} of the kind {kind}: {names}. Untrim them, or export a mesh.",
+    "Not imported, because they are trimmed: {count} of the kind {kind}: {names}. Untrim them, or "
+    "export a mesh.",
 )
 SURFACE_UNSUPPORTED = warning(
     "surface_unsupported",
-    "Not imported, because Blender's surfaces cannot be “{base}”: {kind} {names}. Convert it to a B-spline "
+    "Not imported, because Blender's surfaces cannot be “{base}”: {kind} {names}. Convert it to a "
+    "B-spline "
     "surface, or export a mesh.",
-    "Not imported, because Blender's surfaces cannot be “{base}”: {count} of the kind {kind}: {names}. Convert "
+    "Not imported, because Blender's surfaces cannot be “{base}”: {count} of the kind {kind}: "
+    "{names}. Convert "
     "them to B-spline surfaces, or export a mesh.",
 )
 SURFACE_ORDER = warning(
     "surface_order",
-    "Not imported, because its order is {order}, and {limit} is the highest: {kind} {names}. Lower its degree, or "
+    "Not imported, because its order is {order}, and {limit} is the highest: {kind} {names}. Lower "
+    "its degree, or "
     "export a mesh.",
-    "Not imported, because their order is {order}, and {limit} is the highest: {count} of the kind {kind}: "
+    "Not imported, because their order is {order}, and {limit} is the highest: {count} of the kind "
+    "{kind}: "
     "{names}. Lower their degree, or export a mesh.",
 )
 SURFACE_TOO_LARGE = warning(
     "surface_too_large",
-    "Not imported, because it needs {points} control points, and {limit} is the limit: {kind} {names}. Split it.",
-    "Not imported, because they need {points} control points each, and {limit} is the limit: {count} of the kind "
+    "Not imported, because it needs {points} control points, and {limit} is the limit: {kind} "
+    "{names}. Split it.",
+    "Not imported, because they need {points} control points each, and {limit} is the limit: "
+    "{count} of the kind "
     "{kind}: {names}. Split them.",
 )
 SURFACE_POINTS = warning(
@@ -52,12 +60,15 @@ SURFACE_POINTS = warning(
 SURFACE_DAMAGED = warning(
     "surface_damaged",
     "Not imported, because of {fault:word}: {kind} {names}. Export it again.",
-    "Not imported, because of {fault:word}: {count} of the kind {kind}: {names}. Export them again.",
+    "Not imported, because of {fault:word}: {count} of the kind {kind}: {names}. Export them "
+    "again.",
 )
 FACES_NOT_READ = warning(
     "faces_not_read",
-    "{count} face was not read, so the body is not the whole of the file; the file's errors name it.",
-    "{count} faces were not read, so the body is not the whole of the file; the file's errors name them.",
+    "{count} face was not read, so the body is not the whole of the file; the file's errors name "
+    "it.",
+    "{count} faces were not read, so the body is not the whole of the file; the file's errors name "
+    "them.",
 )
 SURFACES_HIDDEN = note(
     "surfaces_hidden",

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces of an IGES file, Initial Graphics Exchange Specification 5.3: B-spline surfaces (128) and trimmed planes.
+"""Faces of an IGES file, Initial Graphics Exchange Specification 5.3: B-spline surfaces (128) and
+trimmed planes.
 
-They stand alone, in trimmed surfaces (144), in solids (186) of shells (514) of faces (510), or in subfigures (308,
-408).
-Planes may be trimmed, other surfaces only along their own boundary. Transformations (124) and the unit of the global
-section are applied. Other surfaces and solids are refused by name; curves, points and annotation bound nothing and are
-left out.
+They stand alone, in trimmed surfaces (144), in solids (186) of shells (514) of faces (510), or in
+subfigures (308, 408). Planes may be trimmed, other surfaces only along their own boundary.
+Transformations (124) and the unit of the global section are applied. Other surfaces and solids are
+refused by name; curves, points and annotation bound nothing and are left out.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.findings import FILE_TOO_LARGE
 from ..nurbs.flat_face import FlatFace
 from ..nurbs.splines import Curve, Face, Patch, patches_size
-from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, finding
 from .findings import (
     CURVES_LEFT_OUT,
@@ -64,52 +64,45 @@ LOOP = 508
 FACE = 510
 SHELL = 514
 RECURSION = "references to itself, or nested too deeply"
-# Surfaces and solids that Blender's surfaces cannot represent, by the names of the specification. All other types
-# are curves, points, annotation or structure.
+# Surfaces and solids that Blender's surfaces cannot represent, by the names of the specification.
+# All other types are curves, points, annotation or structure.
 REFUSED = {
-    **{
-        108: "Plane",
-        114: "Parametric Spline Surface",
-        118: "Ruled Surface",
-        120: "Surface of Revolution",
-    },
-    **{
-        122: "Tabulated Cylinder",
-        140: "Offset Surface",
-        143: "Bounded Surface",
-        150: "Block",
-        152: "Wedge",
-    },
-    **{
-        154: "Cylinder",
-        156: "Cone Frustum",
-        158: "Sphere",
-        160: "Torus",
-        162: "Solid of Revolution",
-    },
-    **{
-        164: "Solid of Linear Extrusion",
-        168: "Ellipsoid",
-        180: "Boolean Tree",
-        184: "Solid Assembly",
-    },
-    **{190: "Plane Surface", 192: "Cylindrical Surface", 194: "Conical Surface"},
-    **{
-        196: "Spherical Surface",
-        198: "Toroidal Surface",
-        412: "Rectangular Array",
-        414: "Circular Array",
-    },
-    **{416: "External Reference", 430: "Solid Instance"},
+    108: "Plane",
+    114: "Parametric Spline Surface",
+    118: "Ruled Surface",
+    120: "Surface of Revolution",
+    122: "Tabulated Cylinder",
+    140: "Offset Surface",
+    143: "Bounded Surface",
+    150: "Block",
+    152: "Wedge",
+    154: "Cylinder",
+    156: "Cone Frustum",
+    158: "Sphere",
+    160: "Torus",
+    162: "Solid of Revolution",
+    164: "Solid of Linear Extrusion",
+    168: "Ellipsoid",
+    180: "Boolean Tree",
+    184: "Solid Assembly",
+    190: "Plane Surface",
+    192: "Cylindrical Surface",
+    194: "Conical Surface",
+    196: "Spherical Surface",
+    198: "Toroidal Surface",
+    412: "Rectangular Array",
+    414: "Circular Array",
+    416: "External Reference",
+    430: "Solid Instance",
 }
 PARTS = {FACE: "Face", SHELL: "Shell"}  # A solid or a file has them.
 NAMES = {
-    **{
-        SURFACE: "Rational B-Spline Surface",
-        TRIMMED: "Trimmed Surface",
-        INSTANCE: "Subfigure Instance",
-    },
-    **{SOLID: "Manifold Solid B-Rep", **PARTS, **REFUSED},
+    SURFACE: "Rational B-Spline Surface",
+    TRIMMED: "Trimmed Surface",
+    INSTANCE: "Subfigure Instance",
+    SOLID: "Manifold Solid B-Rep",
+    **PARTS,
+    **REFUSED,
 }
 # Index of the parameter that points to the surface or solid which an entity refers to.
 REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, FACE: 0}
@@ -161,7 +154,9 @@ class IgesReader:
         )
 
     def _references(self) -> Iterator[int]:
-        """Yield the numbers of entities that are parts of other entities, and so are not placed by themselves."""
+        """Yield the numbers of entities that are parts of other entities, and so are not placed by
+        themselves.
+        """
         for entry in self._entries.values():
             try:
                 if entry.type == DEFINITION:
@@ -176,12 +171,16 @@ class IgesReader:
 
     @staticmethod
     def _members(fields: list[str]) -> list[int]:
-        """Return the pointers to a subfigure's members, which follow its depth, its name and the member count."""
+        """Return the pointers to a subfigure's members, which follow its depth, its name and the
+        member count.
+        """
         (count,) = integers(fields[2:], 1)
         return integers(fields[3:], count)
 
     def _parts(self, entry: Entry, kind: int) -> list[tuple[Entry, bool]]:
-        """Return a solid's shells or a shell's faces, each with True if it faces as the part itself does."""
+        """Return a solid's shells or a shell's faces, each with True if it faces as the part itself
+        does.
+        """
         fields = self._text.fields(entry)
         if entry.type == SOLID:
             *first, count = integers(fields, 3)
@@ -196,7 +195,9 @@ class IgesReader:
         ]
 
     def _place(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Face]:
-        """Return an entity's faces in place. above, path: (4, 4) matrix and pointers of the subfigures around it."""
+        """Return an entity's faces in place. above, path: (4, 4) matrix and pointers of the
+        subfigures around it.
+        """
         kind = NAMES[entry.type]
         name = entry.label or "D{}".format(entry.number)
         if entry.type in REFUSED:
@@ -222,7 +223,9 @@ class IgesReader:
         return self._refusals.keep("{} ({})".format(kind, entry.type), name, make)
 
     def _shells(self, entry: Entry, above: NDArray) -> list[Face]:
-        """Return the faces of a solid or a shell, turned outward if a flag says that they face inward."""
+        """Return the faces of a solid or a shell, turned outward if a flag says that they face
+        inward.
+        """
         matrix = above @ self._matrix(entry)
         kind = SHELL if entry.type == SOLID else FACE
         faces: list[Face] = []
@@ -255,7 +258,9 @@ class IgesReader:
         return entry
 
     def _matrix(self, entry: Entry) -> NDArray[np.float64]:
-        """Return the (4, 4) matrix of an entity: its transformation, followed by the ones that this refers to."""
+        """Return the (4, 4) matrix of an entity: its transformation, followed by the ones that this
+        refers to.
+        """
         chain = []
         pointer = entry.matrix
         while pointer not in self._matrices and len(chain) < MAX_DEPTH:
@@ -286,7 +291,9 @@ class IgesReader:
         return self._within(base, matrix @ self._matrix(base), boundaries, bool(has_outer))
 
     def _boundary(self, pointer: int, base: Entry, matrix: NDArray) -> Boundary:
-        """Return the boundary given by a curve on a surface (142), unknown if the curve lies on another surface."""
+        """Return the boundary given by a curve on a surface (142), unknown if the curve lies on
+        another surface.
+        """
         try:
             entry = self._entry(pointer, PARAMETER_CURVE)
         except (ValueError, LookupError):
@@ -308,7 +315,9 @@ class IgesReader:
         )
 
     def _loop(self, pointer: int, matrix: NDArray) -> Boundary:
-        """Return a boundary of edges; edges that are a vertex, such as a pole, have no curve in space."""
+        """Return a boundary of edges; edges that are a vertex, such as a pole, have no curve in
+        space.
+        """
         entry = self._entry(pointer, LOOP)
         fields = self._text.fields(entry)
         matrix = matrix @ self._matrix(entry)
@@ -338,7 +347,9 @@ class IgesReader:
     def _within(
         self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary], has_outer: bool
     ) -> list[Face]:
-        """Return the faces of a surface within boundaries. matrix: (4, 4), of the surface and all that is around it."""
+        """Return the faces of a surface within boundaries. matrix: (4, 4), of the surface and all
+        that is around it.
+        """
         if base.type in (PLANE, PLANE_SURFACE):
             loops = [boundary.curves for boundary in boundaries] if has_outer else []
             faces: list[Face] = [first_region([loops], self._plane_normal(base, matrix))]
@@ -364,7 +375,9 @@ class IgesReader:
         return faces
 
     def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> float:
-        """Note and return the uncertainty of a surface's points by the decimals of its points and weights."""
+        """Note and return the uncertainty of a surface's points by the decimals of its points and
+        weights.
+        """
         count = surface.points.size // 3
         start = 9 + sum(len(space.knots) for space in surface.spaces)
         moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(
@@ -397,7 +410,9 @@ def _joined(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:
 def _spline(
     fields: list[str],
 ) -> tuple[Pair[list[float]], Pair[int], NDArray, NDArray, Pair[Pair[float]]]:
-    """Return knots, orders, (count_s, count_t, 3) points, (count_s, count_t) weights and domain of a surface."""
+    """Return knots, orders, (count_s, count_t, 3) points, (count_s, count_t) weights and domain of
+    a surface.
+    """
     last_s, last_t, degree_s, degree_t = integers(fields, 4)
     counts = (last_s + 1, last_t + 1)
     degrees = (degree_s, degree_t)

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entities of IGES files in fixed ASCII form: their parameters as numbers, and curves as B-spline curves.
+"""Entities of IGES files in fixed ASCII form: their parameters as numbers, and curves as B-spline
+curves.
 
-Initial Graphics Exchange Specification 5.3, sections 2.2.1 to 2.2.4. Pointers and counts of a file are not trusted, but
-compared with its length. Lines (110), arcs (100), B-splines (126) and chains of them (102) bound faces, in space or in
-the parameters of a surface, whose third coordinate is zero.
+Initial Graphics Exchange Specification 5.3, sections 2.2.1 to 2.2.4. Pointers and counts of a file
+are not trusted, but compared with its length. Lines (110), arcs (100), B-splines (126) and chains
+of them (102) bound faces, in space or in the parameters of a surface, whose third coordinate is
+zero.
 """
 
 from __future__ import annotations
@@ -18,10 +20,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.findings import FILE_UNRECOGNIZED
 from ..numerics.bspline import SplineSpace, clamped_space
 from ..nurbs.blender_knots import bezier_curves
 from ..nurbs.splines import Curve
-from ..scans.findings import FILE_UNRECOGNIZED
 from ..verdict.finding import FileError
 from .findings import IGES_DAMAGED, IGES_NOT_ASCII, IGES_UNIT
 
@@ -30,12 +32,29 @@ COLUMNS = 80  # columns
 SECTION = 72  # Column of the letter that names a line's section.
 PARAMETERS = 64  # columns that parameters may take
 UNITS = {
-    **{1: 0.0254, 2: 1e-3, 4: 0.3048, 5: 1609.344, 6: 1.0, 7: 1e3},
-    **{8: 2.54e-5, 9: 1e-6, 10: 1e-2, 11: 2.54e-8},
+    1: 0.0254,
+    2: 1e-3,
+    4: 0.3048,
+    5: 1609.344,
+    6: 1.0,
+    7: 1e3,
+    8: 2.54e-5,
+    9: 1e-6,
+    10: 1e-2,
+    11: 2.54e-8,
 }
 UNIT_NAMES = {
-    **{"IN": 0.0254, "INCH": 0.0254, "MM": 1e-3, "FT": 0.3048, "MI": 1609.344, "M": 1.0, "KM": 1e3},
-    **{"MIL": 2.54e-5, "UM": 1e-6, "CM": 1e-2, "UIN": 2.54e-8},
+    "IN": 0.0254,
+    "INCH": 0.0254,
+    "MM": 1e-3,
+    "FT": 0.3048,
+    "MI": 1609.344,
+    "M": 1.0,
+    "KM": 1e3,
+    "MIL": 2.54e-5,
+    "UM": 1e-6,
+    "CM": 1e-2,
+    "UIN": 2.54e-8,
 }
 UNIT_BY_NAME = 3
 MANY_DIGITS = 8  # Numbers with fewer significant digits are taken as exact.
@@ -57,8 +76,8 @@ _STRING = re.compile(r"\s*(\d{1,9})H")
 class Entry:
     """An entity in the directory.
 
-    number: number of its first line, which pointers hold. parameters: first line and count of lines. matrix: pointer to
-    a transformation, or 0. hidden, dependent: flags of its status number.
+    number: number of its first line, which pointers hold. parameters: first line and count of
+    lines. matrix: pointer to a transformation, or 0. hidden, dependent: flags of its status number.
     """
 
     number: int
@@ -71,7 +90,10 @@ class Entry:
 
 
 class IgesText:
-    """An IGES file. unit: m per unit. entries: entities by number. FileError if it is damaged, or no IGES file."""
+    """An IGES file. unit: m per unit. entries: entities by number.
+
+    FileError if it is damaged, or no IGES file.
+    """
 
     def __init__(self, path: Path) -> None:
         lines = _lines(path.read_bytes().decode("latin-1"))
@@ -95,7 +117,10 @@ class IgesText:
         self.entries = _directory(sections["D"])
 
     def fields(self, entry: Entry) -> list[str]:
-        """Return an entity's parameters without its type. ValueError if they are cut short or of another entity."""
+        """Return an entity's parameters without its type.
+
+        ValueError if they are cut short or of another entity.
+        """
         first, count = entry.parameters
         start = first - 1
         end = first - 1 + count
@@ -109,7 +134,9 @@ class IgesText:
 
 
 def _lines(text: str) -> list[str]:
-    """Return the lines of a text: split at line breaks, else after every 80 columns; blank lines are left out."""
+    """Return the lines of a text: split at line breaks, else after every 80 columns; blank lines
+    are left out.
+    """
     # Not splitlines: of Latin-1 it also cuts at \x85, which is half of an “Å” in UTF-8.
     cut = [text[start : start + COLUMNS] for start in range(0, len(text), COLUMNS)]
     lines = re.split(r"\r\n|\r|\n", text) if re.match(r"[^\r\n]{0,80}[\r\n]", text) else cut
@@ -117,7 +144,10 @@ def _lines(text: str) -> list[str]:
 
 
 def _global_fields(text: str) -> tuple[str, str, list[str]]:
-    """Return the delimiter of parameters, the end mark, and the parameters from the third on. ValueError if damaged."""
+    """Return the delimiter of parameters, the end mark, and the parameters from the third on.
+
+    ValueError if damaged.
+    """
     delimiter, rest = (text[2:3], text[3:]) if text.startswith("1H") else (",", text)
     if not rest.startswith(delimiter):
         raise ValueError("no delimiter")
@@ -129,7 +159,10 @@ def _global_fields(text: str) -> tuple[str, str, list[str]]:
 
 
 def _unit(fields: list[str]) -> float:
-    """Return the meters per unit of the model. FileError if the unit is unknown, ValueError if a field is wrong."""
+    """Return the meters per unit of the model.
+
+    FileError if the unit is unknown, ValueError if a field is wrong.
+    """
     scale_word, flag_word, name = padded(fields[10:], 3)
     scale = float(numbers([scale_word])[0]) or 1.0
     flag = _integer(flag_word) or 1
@@ -167,7 +200,10 @@ def _directory(lines: list[str]) -> dict[int, Entry]:
 
 
 def _split(text: str, delimiter: str, end: str) -> list[str]:
-    """Return the fields of a record, strings without their lengths. ValueError if it has no end mark."""
+    """Return the fields of a record, strings without their lengths.
+
+    ValueError if it has no end mark.
+    """
     if "H" not in text:
         record, found, _ = text.partition(end)
         if not found:
@@ -198,7 +234,10 @@ def _integer(word: str) -> int:
 
 
 def integers(fields: list[str], count: int) -> list[int]:
-    """Return the first `count` fields as whole numbers. ValueError if there are fewer, or one is no whole number."""
+    """Return the first `count` fields as whole numbers.
+
+    ValueError if there are fewer, or one is no whole number.
+    """
     if not 0 <= count <= len(fields):
         raise ValueError("too few parameters")
     return [_integer(word) for word in fields[:count]]
@@ -210,7 +249,9 @@ def padded(fields: list[str], count: int) -> list[str]:
 
 
 def decimal_rounding(fields: list[str]) -> float:
-    """Return half a unit of the last digit in numbers with many digits, the largest of these; 0 if there are none."""
+    """Return half a unit of the last digit in numbers with many digits, the largest of these; 0 if
+    there are none.
+    """
     last_digits = {
         int(exponent or 0) - len(decimals)
         for whole, decimals, exponent in _DECIMALS.findall("\n".join(fields))
@@ -220,7 +261,10 @@ def decimal_rounding(fields: list[str]) -> float:
 
 
 def numbers(fields: list[str]) -> NDArray[np.float64]:
-    """Return the real numbers of fields, with Fortran's exponents, 0 for blank ones. ValueError if one is no number."""
+    """Return the real numbers of fields, with Fortran's exponents, 0 for blank ones.
+
+    ValueError if one is no number.
+    """
     text = "\n".join(fields)
     if not _NUMBERS.fullmatch(text):
         raise ValueError("not a number")
@@ -245,10 +289,12 @@ class CurveReader:
         depth: int = 0,
         left: Iterator[int] | None = None,
     ) -> list[Curve] | None:
-        """Return a curve as Bézier splines end to end; None if a part is of another kind, too deep, or has weights ≤ 0.
+        """Return a curve as Bézier splines end to end; None if a part is of another kind, too deep,
+        or has weights ≤ 0.
 
-        matrix: (4, 4), of the entities around the curve; None in the parameters of a surface, where nothing is moved.
-        depth, left: chains around it, and an item for each further piece that is allowed. ValueError if it is damaged.
+        matrix: (4, 4), of the entities around the curve; None in the parameters of a surface, where
+        nothing is moved. depth, left: chains around it, and an item for each further piece that is
+        allowed. ValueError if it is damaged.
         """
         left = iter(range(MAX_PIECES)) if left is None else left
         entry = self._entries.get(pointer)
@@ -282,7 +328,9 @@ def _line(fields: list[str]) -> list[Curve]:
 
 
 def _arc(fields: list[str]) -> list[Curve]:
-    """Return an arc, counter-clockwise, or a full circle if its ends coincide, as quadratic pieces with weights."""
+    """Return an arc, counter-clockwise, or a full circle if its ends coincide, as quadratic pieces
+    with weights.
+    """
     z, *plane = numbers(fields[:7]).tolist()
     center, begin, end = np.array(plane).reshape(3, 2)
     arms = begin - center, end - center

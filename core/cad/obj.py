@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Wavefront .obj files: free-form surfaces, ``surf`` of B-splines and Bézier patches, rational or not; and faces.
+"""Wavefront .obj files: free-form surfaces, ``surf`` of B-splines and Bézier patches, rational or
+not; and faces.
 
-Advanced Visualizer, Appendix B1, Object Files (.obj), version 3.0. Each ``o`` makes a body or begins a mesh. As in
-Blender's importer, Y up becomes Z up. Lines, curves, groups, normals and textures are not read.
+Advanced Visualizer, Appendix B1, Object Files (.obj), version 3.0. Each ``o`` makes a body or
+begins a mesh. As in Blender's importer, Y up becomes Z up. Lines, curves, groups, normals and
+textures are not read.
 """
 
 from __future__ import annotations
@@ -12,17 +14,18 @@ import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.findings import FILE_TOO_LARGE
+from ..files.number_text import parse_number, parse_whole
+from ..files.text_fields import map_file, parse_decimals
 from ..nurbs.splines import Face
 from ..streams.file_mesh import FileMesh, name_of_file, without_repeats
-from ..streams.findings import FILE_TOO_LARGE
-from ..streams.text_fields import map_file, parse_decimals
 from ..verdict.finding import FileError
-from ..verdict.number_text import parse_number, parse_whole
 from .findings import OBJ_CALL, SURFACE_ORDER, SURFACE_TRIMMED, SURFACE_UNSUPPORTED
 from .obj_text import Lines, blocks, check_obj_text
 from .surfaces import (
@@ -103,9 +106,8 @@ class ObjReader:
         points, weights = self._points()
         bodies: dict[str, list[Face]] = {}
         for element in self._elements:
-            made = self._refusals.keep(
-                KIND, element.name, lambda: _faces(element, points, weights, self._for_blender)
-            )  # noqa: B023
+            make = partial(_faces, element, points, weights, self._for_blender)
+            made = self._refusals.keep(KIND, element.name, make)
             bodies.setdefault(element.body, []).extend(made)
         return self._refusals.file(
             [SurfaceBody(name, tuple(patches)) for name, patches in bodies.items()]
@@ -158,7 +160,9 @@ class ObjReader:
                     yield word, line.partition("#")[0].split()[1:]
 
     def _points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the (n, 3) vertices and their (n,) weights, NaN for a vertex with a word that is no number."""
+        """Return the (n, 3) vertices and their (n,) weights, NaN for a vertex with a word that is
+        no number.
+        """
         table = np.full((len(self._vertices), 4), 1.0)
         for row, words in zip(table, self._vertices):
             count = 4 if len(words) in (4, 5) else 3  # with six and more, colors follow
@@ -177,7 +181,10 @@ def _number(word: str) -> float:
 
 
 def _faces(element: _Element, points: NDArray, weights: NDArray, for_blender: bool) -> list[Face]:
-    """Return the patches of one surface. ValueError, IndexError or SurfaceRefusedError if it cannot be kept."""
+    """Return the patches of one surface.
+
+    ValueError, IndexError or SurfaceRefusedError if it cannot be kept.
+    """
     if element.trimmed:
         raise SurfaceRefusedError(SURFACE_TRIMMED)
     if element.type not in ("bspline", "bezier"):
@@ -210,7 +217,9 @@ def _faces(element: _Element, points: NDArray, weights: NDArray, for_blender: bo
 
 
 def _indices(words: list[str], count: int) -> NDArray[np.int64]:
-    """Convert vertex references to indices from 0, or raise ValueError. count: vertices so far, for negative ones."""
+    """Convert vertex references to indices from 0, or raise ValueError. count: vertices so far, for
+    negative ones.
+    """
     numbers = np.array([parse_whole(word.partition("/")[0]) for word in words], np.int64)
     numbers = np.where(numbers > 0, numbers - 1, numbers + count)
     if (numbers < 0).any() or (numbers >= count).any():
@@ -221,7 +230,9 @@ def _indices(words: list[str], count: int) -> NDArray[np.int64]:
 def read_obj_faces(
     path: Path,
 ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], list]:
-    """Return (n, 3) points, (k,) corners and (m,) sides of faces; of objects the first face, first vertex and name."""
+    """Return (n, 3) points, (k,) corners and (m,) sides of faces; of objects the first face, first
+    vertex and name.
+    """
     data = map_file(path) if path.stat().st_size else b""
     check_obj_text(data)
     points = [np.zeros((0, 3))]
@@ -258,7 +269,9 @@ def _read_points(lines: Lines) -> NDArray[np.float64]:
 
 
 def _read_faces(lines: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.intp]]:
-    """Return the (k,) vertices of the faces of a block, the (m,) counts of their corners, and their lines' offsets."""
+    """Return the (k,) vertices of the faces of a block, the (m,) counts of their corners, and their
+    lines' offsets.
+    """
     is_face = lines.has_kind("f")
     at, role, value = lines.indices(is_face)
     at, value = at[role == 0], value[role == 0]

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks of the numbers in .obj files: vertices and their indices, parameters of free-form curves and surfaces.
+"""Checks of the numbers in .obj files: vertices and their indices, parameters of free-form curves
+and surfaces.
 
-Blender reads a missing or wrong number as 0, leaves out faces with a wrong index, and does not read the statement
-after a byte order mark.
+Blender reads a missing or wrong number as 0, leaves out faces with a wrong index, and does not read
+the statement after a byte order mark.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from ..streams.text_fields import (
+from ..files.text_fields import (
     BLOCK,
     MARK,
     SHORT,
@@ -50,7 +51,7 @@ _FIELDS = {
 }
 _LINES = re.compile(
     rb"(?:(?:v(?:%(n)b{3,}+|t%(m)b++|n%(m)b{3,}+)|f%(i)b{3,}+|l%(i)b{2,}+|p%(i)b++)[ \r\v]*+\n"
-    rb"|[ \r\v]*+(?!(?:%(kinds)b)(?!\S))[^\n]*+\n)*+" % {**_FIELDS, b"kinds": _KINDS}
+    rb"|[ \r\v]*+(?!(?:%(kinds)b)(?!\S))[^\n]*+\n)*+" % (_FIELDS | {b"kinds": _KINDS})
 )
 
 
@@ -71,7 +72,9 @@ def check_obj_text(data: Data) -> None:
 
 
 def blocks(data: Data) -> Iterator[tuple[int, bytes]]:
-    """Yield the offset and the text of blocks of whole statements, continued lines joined to one."""
+    """Yield the offset and the text of blocks of whole statements, continued lines joined to
+    one.
+    """
     start = 0
     while start < len(data):
         end = (
@@ -87,8 +90,8 @@ def blocks(data: Data) -> Iterator[tuple[int, bytes]]:
 class Lines:
     """The statements of a block of text. counts: of v, vt and vn before the block.
 
-    starts, ends: (n,) offsets. kinds: (3, n) whether a line is v, vt or vn. before: (3, n) their counts before a line.
-    after: (3,) the counts after the block.
+    starts, ends: (n,) offsets. kinds: (3, n) whether a line is v, vt or vn. before: (3, n) their
+    counts before a line. after: (3,) the counts after the block.
     """
 
     def __init__(self, text: bytes, counts: NDArray[np.int64]) -> None:
@@ -123,7 +126,9 @@ class Lines:
         return np.where(inside, self.letters[:-3], np.uint8(ord(" "))).tobytes()
 
     def indices(self, is_indexed: NDArray[np.bool_]) -> tuple[NDArray, NDArray, NDArray]:
-        """Return (n,) offsets of indices in lines, their kinds (0, 1, 2 for v, vt, vn), and their absolute values."""
+        """Return (n,) offsets of indices in lines, their kinds (0, 1, 2 for v, vt, vn), and their
+        absolute values.
+        """
         letters = self.letters[:-3]
         is_part = (letters - ord("0") < 10) | (letters == ord("-")) | (letters == ord("+"))
         is_part &= np.repeat(is_indexed, self.ends - self.starts + 1)
@@ -136,7 +141,9 @@ class Lines:
 
 
 def _find_suspects(lines: Lines) -> list[tuple[int, NDArray]]:
-    """Return offsets of possibly wrong statements, each with the counts of v, vt and vn before it."""
+    """Return offsets of possibly wrong statements, each with the counts of v, vt and vn before
+    it.
+    """
     is_odd = np.zeros(len(lines.starts), bool)
     at = 0
     while (at := _LINES.match(lines.text, at).end()) < len(lines.text):  # type: ignore[union-attr]
@@ -157,7 +164,8 @@ def _find_suspects(lines: Lines) -> list[tuple[int, NDArray]]:
 def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Fault | None:
     """Return the part that an importer would misread, or None. before: counts of v, vt and vn."""
     kind = line.split(None, 1)[0]
-    # Without a space before it, a comment is a part of an index; 1.#IND is a number without a comment.
+    # Without a space before it, a comment is a part of an index; 1.#IND is a number without a
+    # comment.
     words = re.split(rb"\s#" if kind in INDICES else rb"(?<!\.)#", line)[0].split()[1:]
     faults: Iterable[Fault | None]
     if kind in VERTICES:
@@ -184,7 +192,10 @@ def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Fault | None:
 
 
 def _find_index_fault(word: bytes, before: Sequence[int] | NDArray) -> Fault | None:
-    """Return the fault of a word that is no index of v, vt and vn, or None. Indices of absent vt or vn are ignored."""
+    """Return the fault of a word that is no index of v, vt and vn, or None.
+
+    Indices of absent vt or vn are ignored.
+    """
     if not re.fullmatch(_ANY_INDEX, word):
         return shorten(word), WHOLE
     for role, (number, count) in enumerate(zip(word.split(b"/"), before)):

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scans.findings import FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
-from ..scans.scan_files import DEFAULT_LIMITS, Limits
+from ..files.findings import FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
+from ..files.limits import DEFAULT_LIMITS, Limits
 from ..streams.file_mesh import FileMesh, box_of_blocks
 from ..streams.measure import KINDS
 from ..verdict.finding import FileError
@@ -26,7 +26,9 @@ SUFFIXES = tuple(_READERS)
 def read_surfaces(
     path: str | Path, limits: Limits = DEFAULT_LIMITS, for_blender: bool = True
 ) -> SurfaceFile:
-    """Return the B-spline surfaces of an IGES or .obj file of up to `limits.text_bytes`. Raise FileError or OSError.
+    """Return the B-spline surfaces of an IGES or .obj file of up to `limits.text_bytes`.
+
+    Raise FileError or OSError.
 
     for_blender: only surfaces that Blender can represent.
     """
@@ -38,8 +40,8 @@ def read_surfaces(
 def read_meshes(path: str | Path) -> tuple[list[FileMesh], NDArray[np.float64]]:
     """Return the meshes of an .stl, .ply or .obj file, in its unit, and (4, 4) the map to z up.
 
-    Names and places are those of Blender's importers. Of the formats, only .obj can hold several meshes, and has y up.
-    Raise FileError or OSError.
+    Names and places are those of Blender's importers. Of the formats, only .obj can hold several
+    meshes, and has y up. Raise FileError or OSError.
     """
     path, suffix = _existing_file(path, (*KINDS, ".obj"))
     if suffix == ".obj":
@@ -54,7 +56,9 @@ def read_meshes(path: str | Path) -> tuple[list[FileMesh], NDArray[np.float64]]:
 
 
 def _existing_file(path: str | Path, suffixes: Sequence[str]) -> tuple[Path, str]:
-    """Return a path and its suffix in lower case, or raise FileError if it is no file of these kinds."""
+    """Return a path and its suffix in lower case, or raise FileError if it is no file of these
+    kinds.
+    """
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix not in suffixes:

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The contents of a file of surfaces: bodies of patches, and the names of refused surfaces; surfaces of revolution."""
+"""The contents of a file of surfaces: bodies of patches, and the names of refused surfaces;
+surfaces of revolution.
+"""
 
 from __future__ import annotations
 
@@ -11,11 +13,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..files.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
 from ..numerics.bspline import SplineSpace
 from ..nurbs.blender_knots import bezier_patches, bezier_space
 from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 from ..nurbs.splines import Face, Patch
-from ..streams.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
 from .findings import (
     NO_SURFACE_KEPT,
@@ -41,7 +43,8 @@ _WEIGHTS = np.array([1.0, 1.0, 2.0, 1.0, 1.0, 1.0, 2.0, 1.0, 1.0])
 
 @dataclass(frozen=True, eq=False)
 class SurfaceBody:
-    """Faces of one object in a file, in the file's unit; patches for Blender's flags *Bézier* and *Endpoint*.
+    """Faces of one object in a file, in the file's unit; patches for Blender's flags *Bézier* and
+    *Endpoint*.
 
     rounding: largest effect of the file's decimals on a point.
     """
@@ -53,7 +56,8 @@ class SurfaceBody:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceFile:
-    """The surfaces of a file. unit: m, None if it is not stated. refused: the reasons, with the names of surfaces.
+    """The surfaces of a file. unit: m, None if it is not stated. refused: the reasons, with the
+    names of surfaces.
 
     unread: the number of surfaces that could not be kept.
     """
@@ -77,7 +81,9 @@ class Refusals:
     points: int = 0  # points of all patches that were kept
 
     def keep(self, kind: str, name: str, make: Callable[[], list[Face]]) -> list[Face]:
-        """Return the patches of a surface; note a refusal, and return no patches then. kind, name: for messages."""
+        """Return the patches of a surface; note a refusal, and return no patches then. kind, name:
+        for messages.
+        """
         before = self.points
         try:
             patches = make()
@@ -99,7 +105,9 @@ class Refusals:
         return []
 
     def add(self, code: str, kind: str, name: str, **values: object) -> None:
-        """Note that one surface, or another entity, was refused, with the finding's code and values."""
+        """Note that one surface, or another entity, was refused, with the finding's code and
+        values.
+        """
         self.names.setdefault((code, kind, tuple(values.items())), []).append(name)
 
     def file(
@@ -108,7 +116,10 @@ class Refusals:
         unit: float | None = None,
         notes: Sequence[Finding] = (),
     ) -> SurfaceFile:
-        """Return the file's bodies with patches, and its refusals. FileError if no body has patches."""
+        """Return the file's bodies with patches, and its refusals.
+
+        FileError if no body has patches.
+        """
         refused = []
         kept = tuple(body for body in bodies if body.patches)
         for (
@@ -141,8 +152,8 @@ def placed_surface(
 ) -> Patch:
     """Return a surface with any knots; ValueError if its data are inconsistent.
 
-    points: (count_s, count_t, 3), weights: (count_s, count_t) or None, matrix: (4, 4) from the points to the file's
-    coordinates.
+    points: (count_s, count_t, 3), weights: (count_s, count_t) or None, matrix: (4, 4) from the
+    points to the file's coordinates.
     """
     points = np.asarray(points, np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     if not (np.abs(points) < MAX_COORDINATE).all():
@@ -159,7 +170,9 @@ def bezier_surface(
     domain: tuple[tuple[float, float] | None, tuple[float, float] | None],
     for_blender: bool,
 ) -> list[Patch]:
-    """Return a part of a surface as Bézier patches. for_blender: refuse patches that Blender cannot hold."""
+    """Return a part of a surface as Bézier patches. for_blender: refuse patches that Blender cannot
+    hold.
+    """
     order = max(space.order for space in surface.spaces)
     if for_blender and order > MAX_ORDER:
         raise SurfaceRefusedError(SURFACE_ORDER, order=order, limit=MAX_ORDER)
@@ -180,10 +193,12 @@ def is_storable(patch: Patch) -> bool:
 def revolved_solid(
     bottom: float, top: float, height: float, axis: str, is_round: bool
 ) -> Patch | None:
-    """Return a solid's surface about an axis "X", "Y" or "Z", facing outward, or None if it has no volume.
+    """Return a solid's surface about an axis "X", "Y" or "Z", facing outward, or None if it has no
+    volume.
 
-    bottom, top: the radii at the ends of its straight part, which is `height` long; with a negative height the ends
-    change places. is_round: whether half balls close it, not disks. Other axes are taken as Z.
+    bottom, top: the radii at the ends of its straight part, which is `height` long; with a negative
+    height the ends change places. is_round: whether half balls close it, not disks. Other axes are
+    taken as Z.
     """
     bottom, top = (abs(top), abs(bottom)) if height < 0.0 else (abs(bottom), abs(top))
     half = abs(height) / 2.0
@@ -208,13 +223,17 @@ def revolved_solid(
 
 
 class _Profile:
-    """Control points (radius, height, weight) of quadratic arcs and lines from one end of the axis to the other."""
+    """Control points (radius, height, weight) of quadratic arcs and lines from one end of the axis
+    to the other.
+    """
 
     def __init__(self, radius: float, height: float) -> None:
         self.rows = [(radius, height, 1.0)]
 
     def extend(self, radius: float, height: float, bend: bool = False) -> None:
-        """Add a line, or with `bend` a quarter of a circle, to a point, unless it is the last point already."""
+        """Add a line, or with `bend` a quarter of a circle, to a point, unless it is the last point
+        already.
+        """
         last_radius, last_height, weight = self.rows[-1]
         if (radius, height) == (last_radius, last_height):
             return

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faces: surfaces with the curves that bound them.
 
-A boundary that follows that of the surface trims nothing. A plane is a flat face, whatever bounds it. Other surfaces
-cannot be trimmed.
+A boundary that follows that of the surface trims nothing. A plane is a flat face, whatever bounds
+it. Other surfaces cannot be trimmed.
 """
 
 from __future__ import annotations
@@ -33,7 +33,9 @@ TRIM_RTOL = 1e-7  # float32 rounding: distance of the curve from the sides, rela
 
 @dataclass(frozen=True, eq=False)
 class Boundary:
-    """A closed boundary of a face: its curves in space, and in the surface's parameters; None if they are unknown."""
+    """A closed boundary of a face: its curves in space, and in the surface's parameters; None if
+    they are unknown.
+    """
 
     curves: list[Curve] | None
     parameters: list[Curve] | None
@@ -48,10 +50,12 @@ def trimmed_faces(
     has_outer: bool,
     rounding: float = 0.0,
 ) -> list[Face]:
-    """Return the faces of a surface within boundaries; SurfaceRefusedError if a curved surface is trimmed.
+    """Return the faces of a surface within boundaries; SurfaceRefusedError if a curved surface is
+    trimmed.
 
-    domain: the used part of the surface. patches: that part, in one piece unless the surface may be torn. has_outer:
-    False if the outer boundary is that of the surface. rounding: largest effect of the file's decimals on a point.
+    domain: the used part of the surface. patches: that part, in one piece unless the surface may be
+    torn. has_outer: False if the outer boundary is that of the surface. rounding: largest effect of
+    the file's decimals on a point.
     """
     if not boundaries:
         return [*patches]
@@ -69,7 +73,10 @@ def trimmed_faces(
 
 
 def first_region(choices: Sequence[Sequence[list[Curve] | None]], normal: NDArray) -> FlatFace:
-    """Return the first of several choices of loops that bound a region. SurfaceRefusedError if none does."""
+    """Return the first of several choices of loops that bound a region.
+
+    SurfaceRefusedError if none does.
+    """
     for loops in choices:
         known = [loop for loop in loops if loop]
         if known and len(known) == len(loops):
@@ -92,7 +99,9 @@ def _flat_face(
     boundaries: Sequence[Boundary],
     tolerance: float,
 ) -> FlatFace:
-    """Return the region of a flat surface within boundaries; SurfaceRefusedError if they do not bound one."""
+    """Return the region of a flat surface within boundaries; SurfaceRefusedError if they do not
+    bound one.
+    """
     s, t = (np.linspace(*ends, 7) for ends in domain)
     grid = surface.evaluate_grid(s, t)
     steps = [
@@ -123,7 +132,9 @@ def _follow_sides(
     domain: tuple[tuple[float, float], tuple[float, float]],
     boundaries: Sequence[Boundary],
 ) -> bool:
-    """Return whether boundaries follow a patch's boundary, in its parameters, or in space if these are unknown."""
+    """Return whether boundaries follow a patch's boundary, in its parameters, or in space if these
+    are unknown.
+    """
     tolerance = WELDING_RTOL * patches_size([patch])
     sides = [[patch.side(axis, end) for end in (0, 1)] for axis in (0, 1)]
     samples = [
@@ -136,7 +147,9 @@ def _follow_sides(
     closed = tuple(bool(np.abs(first - last).max() <= tolerance) for first, last in samples)
 
     def along_sides(points: NDArray) -> Piece | None:
-        """Return the run of points along a side, in its parameters from 0 to 1; None if they are on no side."""
+        """Return the run of points along a side, in its parameters from 0 to 1; None if they are on
+        no side.
+        """
         for axis, end in ((0, 0), (0, 1), (1, 0), (1, 1)):
             if poles[axis][end]:
                 continue
@@ -181,7 +194,9 @@ def _is_point(points: NDArray, tolerance: float) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A piece of a curve with (n, 2) control points. straight: True if they are the corners of a polygonal line."""
+    """A piece of a curve with (n, 2) control points. straight: True if they are the corners of a
+    polygonal line.
+    """
 
     points: NDArray[np.float64]
     straight: bool
@@ -193,10 +208,12 @@ def trims_nothing(
     closed: Sequence[bool] = (False, False),
     poles: Sequence[Sequence[bool]] = ((False, False), (False, False)),
 ) -> bool:
-    """Return whether the pieces run along the whole boundary once, always in the same sense of rotation.
+    """Return whether the pieces run along the whole boundary once, always in the same sense of
+    rotation.
 
-    Sides that are one point may be left out; a seam is run once in each direction. closed: whether the surface closes
-    along each direction. poles: whether its side at the least and the largest value of each parameter is a point.
+    Sides that are one point may be left out; a seam is run once in each direction. closed: whether
+    the surface closes along each direction. poles: whether its side at the least and the largest
+    value of each parameter is a point.
     """
     low, high = np.array(domain).T
     if not pieces or not (high > low).all():
@@ -236,7 +253,8 @@ def trims_nothing(
 def _runs(
     pieces: Sequence[tuple[NDArray, bool]], closed: Sequence[bool]
 ) -> list[tuple[int, float, float, float]] | None:
-    """Return runs along the directions of the unit square: the changing parameter, the other one, begin and end.
+    """Return runs along the directions of the unit square: the changing parameter, the other one,
+    begin and end.
 
     pieces: control points, and True if they are corners. None if a piece runs across.
     """
@@ -259,7 +277,9 @@ def _runs(
 
 
 def _traversals(runs: Sequence[tuple[float, float]], closed: bool) -> tuple[NDArray, NDArray]:
-    """Return for each piece of a line the counts of runs along it: the difference of both directions, and the sum."""
+    """Return for each piece of a line the counts of runs along it: the difference of both
+    directions, and the sum.
+    """
     marks = [0.0, 1.0]
     changes = []
     for begin, end in runs:

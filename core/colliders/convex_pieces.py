@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Division of a body into nearly convex pieces, by planes that reduce the volume of the pieces' hulls most.
+"""Division of a body into nearly convex pieces, by planes that reduce the volume of the pieces'
+hulls most.
 
-Each step divides the piece whose best plane gains most. Candidates for planes contain a concave edge, or divide the
-piece evenly; all of them are compared at once on a coarse copy of the piece. More pieces than wanted are made; those
-whose common hull costs least are merged afterwards.
+Each step divides the piece whose best plane gains most. Candidates for planes contain a concave
+edge, or divide the piece evenly; all of them are compared at once on a coarse copy of the piece.
+More pieces than wanted are made; those whose common hull costs least are merged afterwards.
 """
 
 from __future__ import annotations
@@ -44,8 +45,8 @@ def cut_into_pieces(
 ) -> Generator[float, None, list[ConvexHull]]:
     """Divide a closed body into convex hulls, in steps that yield the completed share.
 
-    surface: closed and outward. outward: m; a piece is not divided if its hull is nowhere seen farther from it.
-    pieces: at most so many. corners: of each hull, at most.
+    surface: closed and outward. outward: m; a piece is not divided if its hull is nowhere seen
+    farther from it. pieces: at most so many. corners: of each hull, at most.
     """
     body = [*connected_parts(piece_from_surface(surface))]
     volume = sum(piece.volume() for piece in body)
@@ -68,9 +69,11 @@ def cut_into_pieces(
 
 
 def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, NDArray[np.float64]]:
-    """Return the largest reduction of hulls by a plane, on a coarse copy of the piece, and the (4,) plane.
+    """Return the largest reduction of hulls by a plane, on a coarse copy of the piece, and the (4,)
+    plane.
 
-    No single plane reduces the hulls of a ring or a cup: then planes through the middle are followed by another one.
+    No single plane reduces the hulls of a ring or a cup: then planes through the middle are
+    followed by another one.
     """
     coarse = _coarse(piece)
     if outward > 0.0 and _is_near_hull(coarse, outward):
@@ -83,7 +86,8 @@ def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, NDA
         return gain, best
     middle = _even_planes(coarse.points, np.array([0.5]))
     gains = [sum(_best_of(part, part)[0] for part in cut(coarse, plane)) for plane in middle]
-    # The hulls of a spiral's halves overlap: nothing gains until it is cut often, and most is merged again.
+    # The hulls of a spiral's halves overlap: nothing gains until it is cut often, and most is
+    # merged again.
     return max(*gains, HOPE * excess), middle[int(np.argmax(gains))]
 
 
@@ -105,7 +109,9 @@ def _best_of(coarse: Piece, piece: Piece) -> tuple[float, NDArray[np.float64]]:
 
 
 def _is_near_hull(piece: Piece, limit: float) -> bool:
-    """Return whether places on the hull's faces and edges, of the largest faces first, are all this near to a piece."""
+    """Return whether places on the hull's faces and edges, of the largest faces first, are all this
+    near to a piece.
+    """
     hull = convex_hull(piece.points, SEARCH_RTOL, 64)
     largest = np.argsort(-triangle_areas(hull.points, hull.triangles), kind="stable")
     corners = hull.points[hull.triangles[largest]]
@@ -128,7 +134,9 @@ def distances_from_triangles(
 
 
 def _coarse(piece: Piece) -> Piece:
-    """Return a copy of a piece with at most some points: one for each cell of a grid, the farthest from the middle."""
+    """Return a copy of a piece with at most some points: one for each cell of a grid, the farthest
+    from the middle.
+    """
     points = piece.points
     cells = 16
     if len(points) <= COARSE_POINTS:
@@ -156,7 +164,9 @@ def _coarse(piece: Piece) -> Piece:
 
 
 def _concave_planes(piece: Piece, size: float) -> NDArray[np.float64]:
-    """Return (k, 4) planes through concave edges: in either face, and halfway between; the most important ones."""
+    """Return (k, 4) planes through concave edges: in either face, and halfway between; the most
+    important ones.
+    """
     count = len(piece.points)
     key = np.minimum(piece.start, piece.end) * count + np.maximum(piece.start, piece.end)
     order = np.lexsort((piece.start > piece.end, key))
@@ -196,7 +206,9 @@ def _concave_planes(piece: Piece, size: float) -> NDArray[np.float64]:
 
 
 def _even_planes(points: NDArray[np.float64], shares: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return (k, 4) planes that divide the extents along the principal axes of the points and along x, y and z."""
+    """Return (k, 4) planes that divide the extents along the principal axes of the points and along
+    x, y and z.
+    """
     offsets = points - points.mean(axis=0)
     axes = np.concatenate([np.linalg.eigh(offsets.T @ offsets)[1].T, np.eye(3)])
     along = points @ axes.T
@@ -210,7 +222,9 @@ def _gains(
     planes: NDArray[np.float64],
     measure: Callable[..., NDArray[np.float64]] = hull_volumes,
 ) -> NDArray[np.float64]:
-    """Return by how much each plane reduces the volume of the hulls of connected parts, for each part it adds."""
+    """Return by how much each plane reduces the volume of the hulls of connected parts, for each
+    part it adds.
+    """
     points = piece.points
     edges = np.unique(np.sort(np.stack([piece.start, piece.end], axis=1), axis=1), axis=0)
     height = points @ planes[:, :3].T - planes[:, 3]  # (n, k)
@@ -274,7 +288,9 @@ def _directions() -> ConvexHull:
 def _rough_volumes(
     points: NDArray[np.float64], starts: NDArray[np.intp], _: float
 ) -> NDArray[np.float64]:
-    """Return about the volumes of hulls: those of polyhedra of the farthest points in some directions."""
+    """Return about the volumes of hulls: those of polyhedra of the farthest points in some
+    directions.
+    """
     ball = _directions()
     sizes = np.diff(np.append(starts, len(points)))
     reach = points @ ball.points.T
@@ -289,7 +305,9 @@ def _rough_volumes(
 def _face_inward(
     points: NDArray, out: NDArray, label: NDArray[np.intp], parts: int
 ) -> NDArray[np.bool_]:
-    """Return a (parts,) mask of the parts whose faces look at the middle: walls of holes. out: (n, 3) normals."""
+    """Return a (parts,) mask of the parts whose faces look at the middle: walls of holes. out: (n,
+    3) normals.
+    """
     count = np.bincount(label, minlength=parts)
     flux = np.bincount(label, np.einsum("ij,ij->i", points, out), parts)
     for place, normal in zip(points.T, out.T):
@@ -304,7 +322,9 @@ def _face_inward(
 def _boxes_around(
     points: NDArray, starts: NDArray[np.intp], plane: NDArray[np.intp], inward: NDArray[np.bool_]
 ) -> NDArray[np.intp]:
-    """Return, for each set of points, itself, or of walls of a hole the set of the same plane around its box."""
+    """Return, for each set of points, itself, or of walls of a hole the set of the same plane
+    around its box.
+    """
     low = np.minimum.reduceat(points, starts)
     high = np.maximum.reduceat(points, starts)
     size = (high - low).sum(axis=1)
@@ -323,7 +343,8 @@ def _boxes_around(
 
 
 def _merge(sets: list[NDArray[np.float64]], most: int, volume: float) -> list[NDArray[np.float64]]:
-    """Merge sets of points, each time the pair whose common hull adds least, until at most so many are left.
+    """Merge sets of points, each time the pair whose common hull adds least, until at most so many
+    are left.
 
     Merges that add nothing go on. The hulls that are compared have few corners.
     """

@@ -1,20 +1,24 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The effect of colliders on a body's physics, and masses of colliders, or moves of their corners, that take it away.
+"""The effect of colliders on a body's physics, and masses of colliders, or moves of their corners,
+that take it away.
 
-An engine without an explicit inertial sums up its colliders, overlaps counted twice. The sum is linear in the masses m
-of the colliders: ten rows of mass, first and second moments, each divided by the collider's mass. The corrected masses
-lie nearest to uniform density, by Σ (m - u)² / u with the masses u of uniform density: the least change of the density
-in the mean over the volume. If no masses ≥ 0 have all ten sums, the mass is kept, then the center comes as near as it
-can, then the inertia.
+An engine without an explicit inertial sums up its colliders, overlaps counted twice. The sum is
+linear in the masses m of the colliders: ten rows of mass, first and second moments, each divided by
+the collider's mass. The corrected masses lie nearest to uniform density, by Σ (m - u)² / u with the
+masses u of uniform density: the least change of the density in the mean over the volume. If no
+masses ≥ 0 have all ten sums, the mass is kept, then the center comes as near as it can, then the
+inertia.
 
-The volume and the first and second moments of hulls together are ten functions of their corners, with exact
-derivatives. No known convex body has a greater determinant of the covariance, at its volume, than a tetrahedron, so no
-hull comes near to a chair. Then the volume is given up and the nine ratios to it remain, which an affine map alone can
-meet. Engines are told the mass. The moves of the corners have the least Σ area |move|², each corner standing for an
-equal share of its faces' areas, and each at most the limit. They are found by Gauss and Newton's method with a trust
-region for every corner. Each step takes the hulls of the moved corners anew, so that they stay convex: a face that
-folds one way has other derivatives than if it folds the other way, so after a failed step the mean of both is tried.
+The volume and the first and second moments of hulls together are ten functions of their corners,
+with exact derivatives. No known convex body has a greater determinant of the covariance, at its
+volume, than a tetrahedron, so no hull comes near to a chair. Then the volume is given up and the
+nine ratios to it remain, which an affine map alone can meet. Engines are told the mass. The moves
+of the corners have the least Σ area |move|², each corner standing for an equal share of its faces'
+areas, and each at most the limit. They are found by Gauss and Newton's method with a trust region
+for every corner. Each step takes the hulls of the moved corners anew, so that they stay convex: a
+face that folds one way has other derivatives than if it folds the other way, so after a failed step
+the mean of both is tried.
 """
 
 from __future__ import annotations
@@ -59,7 +63,8 @@ MAX_STEPS, MAX_MULTIPLIER_STEPS = 60, 60
 FIRST_RADIUS = 0.1
 LEAST_RADIUS = 1e-6
 MIN_AREA = 1e-3  # of the largest share: corners with less move as if they had so much
-SLACK = 1e-9  # of the effect of all moves: how far sums that cannot be reached may be from the nearest ones
+# of the effect of all moves: how far sums that cannot be reached may be from the nearest ones
+SLACK = 1e-9
 TINY = float(np.finfo(np.float64).tiny)
 
 
@@ -86,7 +91,8 @@ def uniform_masses(density: float, shapes: Sequence[Shape]) -> list[float]:
 
 
 def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]:
-    """Return the masses ≥ 0 nearest to uniform density with the body's mass, center and inertia, or near to them.
+    """Return the masses ≥ 0 nearest to uniform density with the body's mass, center and inertia, or
+    near to them.
 
     MeasureError if the colliders have no volume, or the body has no mass.
     """
@@ -116,7 +122,9 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
 def _ten_sums(
     body: MassProperties, shapes: Sequence[Shape]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (n,) volumes of colliders, and (10, n) moments by their masses, about the body's center."""
+    """Return (n,) volumes of colliders, and (10, n) moments by their masses, about the body's
+    center.
+    """
     moments = [moments_of(shape).truncate(2) for shape in shapes]
     volumes = np.array([float(one.total) for one in moments])
     raw = np.array([one.about_point(body.center).raw for one in moments]).reshape(-1, SUMS).T
@@ -126,9 +134,11 @@ def _ten_sums(
 def _nearest(
     rows: NDArray[np.float64], target: NDArray[np.float64], held: int, wish: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], float]:
-    """Return (n,) x ≥ 0 nearest to a wish, and how far the `held` first rows of rows @ x = target are from holding.
+    """Return (n,) x ≥ 0 nearest to a wish, and how far the `held` first rows of rows @ x = target
+    are from holding.
 
-    The other rows come as near as they can. The method of multipliers adds to the target what is missing.
+    The other rows come as near as they can. The method of multipliers adds to the target what is
+    missing.
     """
     weights = np.where(np.arange(len(rows)) < held, HELD_WEIGHT, 1.0)
     system = np.concatenate([rows * weights[:, None], NEARNESS * np.eye(len(wish))])
@@ -148,7 +158,8 @@ def _nearest(
 def _nonnegative(
     system: NDArray[np.float64], target: NDArray[np.float64], x: NDArray
 ) -> NDArray[np.float64]:
-    """Return (n,) x ≥ 0 with the least |system @ x - target| (Lawson and Hanson 1974), from a start ≥ 0.
+    """Return (n,) x ≥ 0 with the least |system @ x - target| (Lawson and Hanson 1974), from a start
+    ≥ 0.
 
     The columns must be independent.
     """
@@ -185,11 +196,13 @@ def _nonnegative(
 def correct_vertices(
     body: MassProperties, shapes: Sequence[Shape], surface: Surface, outward: float, inward: float
 ) -> list[Shape]:
-    """Move corners of hulls as little as possible so that uniform density gives mass, center and inertia of a body.
+    """Move corners of hulls as little as possible so that uniform density gives mass, center and
+    inertia of a body.
 
-    The density is the body's if it can be, else another that gives the mass. No corner moves farther than the smaller
-    tolerance, in m; if that does not suffice, the result comes as near to the body as it is found to come. Primitives
-    stay as they are. surface: the body's. MeasureError if it has no volume.
+    The density is the body's if it can be, else another that gives the mass. No corner moves
+    farther than the smaller tolerance, in m; if that does not suffice, the result comes as near to
+    the body as it is found to come. Primitives stay as they are. surface: the body's. MeasureError
+    if it has no volume.
     """
     meshes = {
         place: shape.surface for place, shape in enumerate(shapes) if shape.surface is not None
@@ -214,9 +227,11 @@ def correct_vertices(
 
 
 class _Hulls:
-    """The ten sums of hulls as functions of all their corners, relative to the body's volume, or to their own.
+    """The ten sums of hulls as functions of all their corners, relative to the body's volume, or to
+    their own.
 
-    Lengths are in radii of gyration of the body, `size`, from its center. start: (n, 3) corners before they move.
+    Lengths are in radii of gyration of the body, `size`, from its center. start: (n, 3) corners
+    before they move.
     """
 
     is_density_free = False
@@ -241,7 +256,9 @@ class _Hulls:
         return [convex_hull(part) for part in np.split(points, self.starts[1:-1])]
 
     def evaluate(self, points: NDArray[np.float64]) -> tuple[NDArray, NDArray, NDArray]:
-        """Return the (10,) sums that are missing, (10, n, 3) derivatives of the sums and (n,) areas of corners."""
+        """Return the (10,) sums that are missing, (10, n, 3) derivatives of the sums and (n,) areas
+        of corners.
+        """
         sums = np.zeros(SUMS)
         gradient = np.zeros((SUMS, *points.shape))
         areas = np.zeros(len(points))
@@ -261,7 +278,9 @@ class _Hulls:
 
 
 def _solve(hulls: _Hulls, limit: float) -> tuple[NDArray[np.float64], float]:
-    """Return the (n, 3) corners that have the body's sums with the least motion, or nearly, and what is missing."""
+    """Return the (n, 3) corners that have the body's sums with the least motion, or nearly, and
+    what is missing.
+    """
     moves = np.zeros_like(hulls.start)
     (missing, gradient, areas) = hulls.evaluate(hulls.start)
     off = float(np.linalg.norm(missing))
@@ -297,11 +316,12 @@ def _solve(hulls: _Hulls, limit: float) -> tuple[NDArray[np.float64], float]:
 def _least_moves(
     rows: NDArray, wanted: NDArray, areas: NDArray, middle: NDArray, reach: NDArray
 ) -> NDArray[np.float64]:
-    """Return the (n, 3) moves with the least Σ areas |move|² that give Σ rows · moves = wanted, each within its ball.
+    """Return the (n, 3) moves with the least Σ areas |move|² that give Σ rows · moves = wanted,
+    each within its ball.
 
-    If there are none, the sums come as near as they can. rows: (10, n, 3); wanted: (10,); middle (n, 3) and reach (n,)
-    of the balls. The moves are rows · multipliers / areas, each taken to the nearest point of its ball; Newton's method
-    finds the multipliers.
+    If there are none, the sums come as near as they can. rows: (10, n, 3); wanted: (10,); middle
+    (n, 3) and reach (n,) of the balls. The moves are rows · multipliers / areas, each taken to the
+    nearest point of its ball; Newton's method finds the multipliers.
     """
     count = len(rows)
     slack = SLACK * float(np.einsum("knd,knd,n->k", rows, rows, 1.0 / areas).max())

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The smallest simple shapes around a body, and the simplest collider within given distances.
 
-The largest distances between a body and its colliders come from samples of both surfaces, with their bound.
+The largest distances between a body and its colliders come from samples of both surfaces, with
+their bound.
 """
 
 from __future__ import annotations
@@ -51,10 +52,11 @@ NEAR_BODY = 0.02
 class Wanted:
     """The wanted colliders.
 
-    shape: "box" (the smallest), "axes_box" (along the principal axes), "sphere", "capsule", "cylinder", "hull",
-    "pieces", "equal_box", "equal_ellipsoid" or "equal_capsule" (of equal inertia), or "automatic": the simplest shape
-    within the distances, else pieces. outward, inward: largest distances, m; 0 for no limit of pieces but their number.
-    pieces, vertices: the most pieces, and corners of each hull.
+    shape: "box" (the smallest), "axes_box" (along the principal axes), "sphere", "capsule",
+    "cylinder", "hull", "pieces", "equal_box", "equal_ellipsoid" or "equal_capsule" (of equal
+    inertia), or "automatic": the simplest shape within the distances, else pieces. outward, inward:
+    largest distances, m; 0 for no limit of pieces but their number. pieces, vertices: the most
+    pieces, and corners of each hull.
     """
 
     shape: str
@@ -69,8 +71,8 @@ def make_colliders(
 ) -> Generator[float, None, list[Shape]]:
     """Make the colliders of a body, in steps that yield the completed share.
 
-    surface: closed and outward, m. body: its mass properties in the same frame. hull: that of the surface, if it is
-    known. Raise MeasureError if the points have no extent.
+    surface: closed and outward, m. body: its mass properties in the same frame. hull: that of the
+    surface, if it is known. Raise MeasureError if the points have no extent.
     """
     if wanted.shape.startswith(EQUAL):
         frame = body.principal
@@ -86,7 +88,8 @@ def make_colliders(
         size = float(np.linalg.norm(np.ptp(hull.points, axis=0)))
         reach = wanted.outward
         area = float(triangle_areas(hull.points, hull.triangles).sum())
-        # Steiner's formula bounds the volume of all places this near to the hull; its mean width is below its diagonal.
+        # Steiner's formula bounds the volume of all places this near to the hull; its mean width is
+        # below its diagonal.
         most = (
             hull_volume(hull)
             + area * reach
@@ -104,7 +107,9 @@ def make_colliders(
 
 
 class _Fits:
-    """The shapes around a hull. axes: principal axes as columns. corners: of a simpler hull, at most."""
+    """The shapes around a hull. axes: principal axes as columns. corners: of a simpler hull, at
+    most.
+    """
 
     def __init__(self, hull: ConvexHull, axes: NDArray[np.float64], corners: int) -> None:
         self.hull = hull
@@ -122,7 +127,9 @@ class _Fits:
 
     @cached_property
     def circles(self) -> list[tuple[NDArray[np.float64], NDArray[np.float64], float]]:
-        """Axes as columns, with center and radius of the smallest circle around the points along the third axis."""
+        """Axes as columns, with center and radius of the smallest circle around the points along
+        the third axis.
+        """
         frames = (self.axes, self.box.pose.rotation, np.eye(3))
         turned = [
             frame[:, order] for frame in frames for order in ([0, 1, 2], [1, 2, 0], [2, 0, 1])
@@ -160,7 +167,9 @@ def _box(points: NDArray[np.float64], axes: NDArray[np.float64]) -> Shape:
 
 
 def _smallest_box(hull: ConvexHull, fits: _Fits) -> Shape:
-    """Return the smallest box along the principal axes, along x, y and z, or with a side in a face of the hull."""
+    """Return the smallest box along the principal axes, along x, y and z, or with a side in a face
+    of the hull.
+    """
     points = fits.points
     corners = hull.points[hull.triangles]
     sides = (corners[:, [1, 2, 0]] - corners).reshape(-1, 3)
@@ -203,7 +212,8 @@ def _round_shape(
 def enclosing_ball(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
     """Return center and radius of the smallest ball, or circle, around (n, d) points.
 
-    The farthest point outside joins the points that hold the ball, of which the ball needs at most d + 1.
+    The farthest point outside joins the points that hold the ball, of which the ball needs at most
+    d + 1.
     """
     dimension = points.shape[1]
     first = points[np.linalg.norm(points - points[0], axis=1).argmax()]
@@ -238,11 +248,12 @@ def _ball_through(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], flo
 def distances(
     surface: Surface, shapes: Sequence[Shape], hull: ConvexHull | None = None, enough: float = inf
 ) -> tuple[float, float, float]:
-    """Return the largest distance of the colliders from the body, outward, and of the body from them, inward, in m.
+    """Return the largest distance of the colliders from the body, outward, and of the body from
+    them, inward, in m.
 
-    surface: closed and outward. hull: its hull, if that is known. enough: outward distances above it may be too small.
-    The third number bounds by how much others may be too small. The distance from a convex body is largest at a corner,
-    so that only others are sampled.
+    surface: closed and outward. hull: its hull, if that is known. enough: outward distances above
+    it may be too small. The third number bounds by how much others may be too small. The distance
+    from a convex body is largest at a corner, so that only others are sampled.
     """
     hull = hull or convex_hull(surface.points)
     triangles = surface.all_triangles()[0].astype(np.intp)
@@ -303,7 +314,9 @@ def _farthest_outside(tree: Bvh, places: NDArray[np.float64], size: float, enoug
 def _outer_samples(
     solids: Sequence[ConvexHull], size: float, fineness: int
 ) -> tuple[NDArray[np.float64], float]:
-    """Return places on the surface of the union of solids, and the bound of their distances as of `_samples`."""
+    """Return places on the surface of the union of solids, and the bound of their distances as of
+    `_samples`.
+    """
     kept, steps = [], []
     for solid in solids:
         reach = max(size, float(np.ptp(solid.points, axis=0).max()))
@@ -335,7 +348,8 @@ def _unit(kind: str) -> ConvexHull:
 
 
 def _polyhedron(shape: Shape, body: ConvexHull) -> tuple[ConvexHull, float]:
-    """Return a shape as a convex polyhedron in the link's frame, and the depth by which that lies in a round shape.
+    """Return a shape as a convex polyhedron in the link's frame, and the depth by which that lies
+    in a round shape.
 
     body: the hull of the body, which may be the shape.
     """
@@ -361,7 +375,9 @@ def _face_normals(hull: ConvexHull) -> NDArray[np.float64]:
 
 
 def _heights(points: NDArray[np.float64], hull: ConvexHull) -> NDArray[np.float64]:
-    """Return (n, m) signed distances of points from the planes of a hull's faces; -inf from faces without area."""
+    """Return (n, m) signed distances of points from the planes of a hull's faces; -inf from faces
+    without area.
+    """
     normal = _face_normals(hull)
     at = np.einsum("ij,ij->i", normal, hull.points[hull.triangles[:, 0]])
     return points @ normal.T - np.where(normal.any(axis=1), at, np.inf)
@@ -370,7 +386,9 @@ def _heights(points: NDArray[np.float64], hull: ConvexHull) -> NDArray[np.float6
 def _distances_from_shape(
     points: NDArray, shape: Shape, solid: ConvexHull, nearest: NDArray, size: float
 ) -> NDArray[np.float64]:
-    """Return the distances of points from a shape as `_distances_from_hull` does; exact for round shapes, too."""
+    """Return the distances of points from a shape as `_distances_from_hull` does; exact for round
+    shapes, too.
+    """
     if shape.kind in ("mesh", "ellipsoid"):
         return _distances_from_hull(points, solid, nearest, size)
     place = np.abs((points - shape.pose.position) @ shape.pose.rotation)
@@ -389,7 +407,9 @@ def _distances_from_shape(
 def _distances_from_hull(
     points: NDArray, hull: ConvexHull, nearest: NDArray, size: float
 ) -> NDArray[np.float64]:
-    """Return the distances of points from a hull, 0 inside; those above `nearest` may be too small."""
+    """Return the distances of points from a hull, 0 inside; those above `nearest` may be too
+    small.
+    """
     distance = np.zeros(len(points))
     normal = _face_normals(hull)
     rows = max(1, PAIRS_PER_BLOCK // len(hull.triangles))
@@ -412,7 +432,8 @@ def _distances_from_hull(
 
 
 def _samples(points: NDArray, triangles: NDArray, step: float) -> tuple[NDArray[np.float64], float]:
-    """Return places on triangles, a step apart or more, and a bound of any other place's distance from the nearest.
+    """Return places on triangles, a step apart or more, and a bound of any other place's distance
+    from the nearest.
 
     A place in a triangle is at most 1/√3 of its longest side from the nearest corner.
     """

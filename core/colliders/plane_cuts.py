@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Closed sets of planar faces, cut along planes without a triangulation.
 
-In each face, the chords between the places where its edges cross the plane close the cycle again, and all chords
-together bound the new face in the plane.
+In each face, the chords between the places where its edges cross the plane close the cycle again,
+and all chords together bound the new face in the plane.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ ON_PLANE_RTOL = 1e-9  # relative to the size: points nearer to a plane are on it
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """Closed planar faces: each edge (start, end) of points belongs to a face, counter-clockwise from outside.
+    """Closed planar faces: each edge (start, end) of points belongs to a face, counter-clockwise
+    from outside.
 
     face, start, end: (e,). normals: (f, 3) of faces.
     """
@@ -69,7 +70,8 @@ def piece_from_surface(surface: Surface) -> Piece:
 
 
 def _join_open_edges(points: NDArray[np.float64], triangles: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return triangles whose open edges share points that coincide: lids of curves and texts have points of their own.
+    """Return triangles whose open edges share points that coincide: lids of curves and texts have
+    points of their own.
 
     Other points stay apart, so that parts that only touch do not become one.
     """
@@ -108,7 +110,9 @@ def cut(piece: Piece, plane: NDArray[np.float64]) -> Iterator[Piece]:
 
 
 def _half(piece: Piece, height: NDArray, crossing: NDArray, normal: NDArray) -> Piece | None:
-    """Return the part of a piece above a plane, closed in the plane; crossing: the point on each edge, or -1."""
+    """Return the part of a piece above a plane, closed in the plane; crossing: the point on each
+    edge, or -1.
+    """
     from_above = height[piece.start] > 0.0
     to_above = height[piece.end] > 0.0
     crosses = crossing >= 0
@@ -147,7 +151,9 @@ def _half(piece: Piece, height: NDArray, crossing: NDArray, normal: NDArray) -> 
 
 
 def connected_parts(piece: Piece) -> Iterator[Piece]:
-    """Yield the connected parts of a piece; a cavity, and a hole of a face, belong to the part around them."""
+    """Yield the connected parts of a piece; a cavity, and a hole of a face, belong to the part
+    around them.
+    """
     label, number = connected_components(len(piece.points), piece.start, piece.end)
     if number == 1:
         yield piece
@@ -161,9 +167,12 @@ def connected_parts(piece: Piece) -> Iterator[Piece]:
     owner = list(range(len(parts)))
     for i in np.flatnonzero(np.array(volumes) < 0.0).tolist():
         around = [
-            j for j in owner
-            if volumes[j] > 0.0 and (boxes[j][0] <= boxes[i][0]).all() and (boxes[j][1] >= boxes[i][1]).all()
-        ]  # fmt: skip
+            j
+            for j in owner
+            if volumes[j] > 0.0
+            and (boxes[j][0] <= boxes[i][0]).all()
+            and (boxes[j][1] >= boxes[i][1]).all()
+        ]
         owner[i] = min(around, key=volumes.__getitem__, default=i)
     for i in sorted({*owner}):
         members = [part for part, whose in zip(parts, owner) if whose == i]

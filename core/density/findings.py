@@ -17,7 +17,8 @@ POLYNOMIAL_SYNTAX = error(
 )
 POLYNOMIAL_NOT_ALLOWED = error(
     "polynomial_not_allowed",
-    "“{part}” is not allowed in a polynomial. Use numbers, x, y, z, +, -, *, division by a number, whole "
+    "“{part}” is not allowed in a polynomial. Use numbers, x, y, z, +, -, *, division by a number, "
+    "whole "
     "powers with **, and parentheses.",
 )
 POLYNOMIAL_DIVISION_BY_ZERO = error("polynomial_division_by_zero", "“{part}” divides by zero.")
@@ -31,7 +32,8 @@ POLYNOMIAL_NOT_CONSTANT = error(
 POLYNOMIAL_OVERFLOW = error("polynomial_overflow", "“{part}” is outside the range of numbers.")
 POLYNOMIAL_BEYOND_NUMBERS = error(
     "polynomial_beyond_numbers",
-    "The polynomial has values outside the range of numbers at the object. Use smaller coefficients, or move the "
+    "The polynomial has values outside the range of numbers at the object. Use smaller "
+    "coefficients, or move the "
     "object nearer to the origin.",
 )
 GRID_TRANSFORM_SINGULAR = error(
@@ -43,11 +45,13 @@ DENSITY_NON_FINITE = error(
 )
 TRANSFER_TABLE_SYNTAX = error(
     "transfer_table_syntax",
-    "“{part}” is not a pair of the transfer table: a value and a density in kg/m³, with commas between pairs.",
+    "“{part}” is not a pair of the transfer table: a value and a density in kg/m³, with commas "
+    "between pairs.",
 )
 TRANSFER_TABLE_NUMBERS = error(
     "transfer_table_numbers",
-    "The transfer table needs at least two pairs, with ascending values and finite densities that are not negative.",
+    "The transfer table needs at least two pairs, with ascending values and finite densities that "
+    "are not negative.",
 )
 VALUES_SCALED = note(
     "values_scaled", "A value of 1 stands for {density:.6g} kg/m³ (spline order {order})."
@@ -60,16 +64,19 @@ BACKGROUND_EMPTY = warning(
 )
 VALUES_NEGATIVE = error(
     "values_negative",
-    "Negative densities, down to {density:.6g} kg/m³. Convert the samples, set Values to Table, or Measure As to Solid "
+    "Negative densities, down to {density:.6g} kg/m³. Convert the samples, set Values to Table, or "
+    "Measure As to Solid "
     "for a level set.",
 )
 POSITIONS_DAMAGED = error(
     "positions_damaged",
-    "The positions of the samples of “{grid}” are not rows of ascending numbers, or fewer than its samples. Import the "
+    "The positions of the samples of “{grid}” are not rows of ascending numbers, or fewer than its "
+    "samples. Import the "
     "scan again.",
 )
 POSITIONS_ONLY_AS_DENSITY = error(
     "positions_only_as_density",
-    "The samples of the grid “{grid}” do not stand evenly, and can be measured as a density only. Set Measure As "
+    "The samples of the grid “{grid}” do not stand evenly, and can be measured as a density only. "
+    "Set Measure As "
     "to Density, or import or measure the scan without positions.",
 )

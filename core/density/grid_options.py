@@ -14,10 +14,11 @@ from .findings import POSITIONS_ONLY_AS_DENSITY, VALUES_BY_TABLE, VALUES_SCALED
 class GridOptions(NamedTuple):
     """Options of a grid.
 
-    grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. threshold: smallest value inside
-    the body, None for all of the grid; filled: with the grid's own density, not with one material. value_density: kg/m³
-    of a value of 1; table: a transfer table instead, "" for none. spline_order: 1 voxels, 2 trilinear, 4 cubic.
-    sample_positions: the positions of uneven samples, as `positions_text` writes them.
+    grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. threshold:
+    smallest value inside the body, None for all of the grid; filled: with the grid's own density,
+    not with one material. value_density: kg/m³ of a value of 1; table: a transfer table instead, ""
+    for none. spline_order: 1 voxels, 2 trilinear, 4 cubic. sample_positions: the positions of
+    uneven samples, as `positions_text` writes them.
     """
 
     grid: str = ""
@@ -31,7 +32,9 @@ class GridOptions(NamedTuple):
 
     @classmethod
     def from_settings(cls, settings, density: float | None = None) -> GridOptions:
-        """Return the options of an object's settings. density: overrides the density of a value of 1, and the table."""
+        """Return the options of an object's settings. density: overrides the density of a value of
+        1, and the table.
+        """
         table = (
             settings.transfer_table if settings.values_from == "TABLE" and density is None else ""
         )

@@ -27,7 +27,9 @@ from .grid_options import GridOptions
 def sample_positions(
     options: GridOptions, grid: str, low: NDArray, shape: Sequence[int]
 ) -> Positions:
-    """Return the scan's sample positions by axis, in voxels, None for even ones, or raise ReadError."""
+    """Return the scan's sample positions by axis, in voxels, None for even ones, or raise
+    ReadError.
+    """
     if not options.sample_positions:
         return EVEN
     rows: list[NDArray[np.float64] | None] = []
@@ -44,7 +46,9 @@ def sample_positions(
 def density_function(
     options: GridOptions, background: float | None
 ) -> Callable[[NDArray], NDArray]:
-    """Return a function from values to densities, kg/m³, 0 for the background; it raises ReadError for bad ones."""
+    """Return a function from values to densities, kg/m³, 0 for the background; it raises ReadError
+    for bad ones.
+    """
     pairs = parse_table(options.table) if options.table else None
 
     def weighed(values: NDArray) -> NDArray[np.float64]:
@@ -72,7 +76,9 @@ def empty_background_note(options: GridOptions, background: float | None) -> tup
 
 
 def positions_text(positions: Positions) -> str:
-    """Return positions as JSON for an object, in voxels, scaled so that the last sample keeps its place in Blender."""
+    """Return positions as JSON for an object, in voxels, scaled so that the last sample keeps its
+    place in Blender.
+    """
     known = {
         axis: (row * ((len(row) - 1) / row[-1])).tolist()
         for axis, row in zip(AXES, positions)
@@ -94,7 +100,9 @@ def _parsed_positions(text: str) -> dict[str, NDArray[np.float64]] | None:
 
 
 def parse_table(text: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (n,) values, ascending, and (n,) densities in kg/m³; MeasureError if the text is no such table."""
+    """Return (n,) values, ascending, and (n,) densities in kg/m³; MeasureError if the text is no
+    such table.
+    """
     entries = []
     for pair in re.split(r"[,;\n]", text):
         words = pair.split()

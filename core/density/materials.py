@@ -1,26 +1,35 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pure data: densities of common materials, each with the source of its number, and units of densities.
+"""Pure data: densities of common materials, each with the source of its number, and units of
+densities.
 
-Real materials vary: woods by a fifth, alloys and plastics by some percent. If the mass of a part matters, weigh the
-part and give its mass instead.
+Real materials vary: woods by a fifth, alloys and plastics by some percent. If the mass of a part
+matters, weigh the part and give its mass instead.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-PNNL = 'PNNL-15870 Rev. 1 (2011), Compendium of Material Composition Data for Radiation Transport Modeling, "{:s}"'
+PNNL = (
+    "PNNL-15870 Rev. 1 (2011), Compendium of Material Composition Data for Radiation Transport "
+    'Modeling, "{:s}"'
+)
 NIST = 'NIST, Tables of X-Ray Mass Attenuation Coefficients (NISTIR 5632), table 2, "{:s}"'
 INGEO = "NatureWorks, Ingeo Biopolymer 3D850 technical data sheet (ASTM D1505)"
 CURA = 'UltiMaker, material profiles of Cura (fdm_materials), "{:s}"'
 FILAMENT = "3D Printing Filament"
 RESIN = "3D Printing Resin and Powder"
-CRC = 'CRC Handbook of Chemistry and Physics, 97th ed. (2016), section 15, Density of Various Solids, "{:s}"'
+CRC = (
+    "CRC Handbook of Chemistry and Physics, 97th ed. (2016), section 15, Density of Various "
+    'Solids, "{:s}"'
+)
 
 
 class Material(NamedTuple):
-    """A material with a unique name, a category from `CATEGORIES`, a density in kg/m³, and its source."""
+    """A material with a unique name, a category from `CATEGORIES`, a density in kg/m³, and its
+    source.
+    """
 
     name: str
     category: str
@@ -195,9 +204,13 @@ MATERIALS: tuple[Material, ...] = (
 CATEGORIES: tuple[str, ...] = tuple(dict.fromkeys(material.category for material in MATERIALS))
 BY_NAME: dict[str, Material] = {material.name: material for material in MATERIALS}
 
-# CT numbers in Hounsfield units to kg/m³: air, fat, water and soft tissue, bone, after Schneider, Bortfeld and Schlegel
-# (Phys. Med. Biol. 45, 2000), as the table of densities that comes with GATE has them.
-CT_DENSITIES = "-1000 1.21, -98 930, -97 930.486, 14 1030, 23 1031, 100 1119.9, 101 1076.2, 1600 1964.2, 3000 2800"
+# CT numbers in Hounsfield units to kg/m³: air, fat, water and soft tissue, bone, after Schneider,
+# Bortfeld and Schlegel (Phys. Med. Biol. 45, 2000), as the table of densities that comes with GATE
+# has them.
+CT_DENSITIES = (
+    "-1000 1.21, -98 930, -97 930.486, 14 1030, 23 1031, 100 1119.9, 101 1076.2, 1600 1964.2, 3000 "
+    "2800"
+)
 
 POUND = 0.45359237  # kg
 FOOT = 0.3048  # m
@@ -215,5 +228,7 @@ SYSTEM_UNITS = {
 
 
 def density_unit(chosen: str, system: str) -> str:
-    """Return a key of `DENSITY_UNITS`: `chosen`, or for "AUTO" the key for a unit system (`SYSTEM_UNITS`)."""
+    """Return a key of `DENSITY_UNITS`: `chosen`, or for "AUTO" the key for a unit system
+    (`SYSTEM_UNITS`).
+    """
     return SYSTEM_UNITS[system] if chosen == "AUTO" else chosen

@@ -1,18 +1,21 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mass moments with one density for each triangle: of solids by part, of sheets by face or by vertex.
+"""Mass moments with one density for each triangle: of solids by part, of sheets by face or by
+vertex.
 
-The moments of a triangle a, b, c have the generating function 1 / ((1 - a·t) (1 - b·t) (1 - c·t)) (Sheynin and Tuzikov,
-Pattern Recognition Letters 22, 2001). With h_α its coefficients and n = |α|,
+The moments of a triangle a, b, c have the generating function 1 / ((1 - a·t) (1 - b·t) (1 - c·t))
+(Sheynin and Tuzikov, Pattern Recognition Letters 22, 2001). With h_α its coefficients and n = |α|,
 
     ∫ x^α over the cone on it from the reference point = det α! h_α / (n+3)!
     ∫ x^α over the triangle itself                     = 2 area α! h_α / (n+2)!
 
-A density that is linear on the triangle is one more coordinate: with a' = (a, ρ_a) and so on, ∫ ρ x^α over the triangle
-is 2 area α! h_(α,1) / (n+3)!. So it costs one order and no more, and is exact.
+A density that is linear on the triangle is one more coordinate: with a' = (a, ρ_a) and so on, ∫ ρ
+x^α over the triangle is 2 area α! h_(α,1) / (n+3)!. So it costs one order and no more, and is
+exact.
 
-Rounding is bounded as in `third_order`: determinants are off by at most 9 u reach·τ, doubled areas by 9 u Σ τ, and the
-table adds no more than 9 roundings for each order and each corner to sums with terms bounded by the terms for |x|.
+Rounding is bounded as in `third_order`: determinants are off by at most 9 u reach·τ, doubled areas
+by 9 u Σ τ, and the table adds no more than 9 roundings for each order and each corner to sums with
+terms bounded by the terms for |x|.
 """
 
 from __future__ import annotations
@@ -47,7 +50,9 @@ def _block_size(order: int) -> int:
 def solid_mass_moments(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments
 ) -> Moments:
-    """Return ∫ ρ x^p y^q z^r dV for triangles (t, 3) with (t,) densities of their parts; like: their volume moments."""
+    """Return ∫ ρ x^p y^q z^r dV for triangles (t, 3) with (t,) densities of their parts; like:
+    their volume moments.
+    """
     sums, sizes, tau = _accumulate(points, triangles, density, like, solid=True)
     reach = _reach(points, triangles, like.about)
     raw = sums * factorial_ratios(monomials(like.order), 3)
@@ -68,10 +73,12 @@ def solid_mass_moments(
 def sheet_mass_moments(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, stored: bool = False
 ) -> Moments:
-    """Return ∫ ρ x^p y^q z^r dA, with densities (t,) of triangles, or (t, 3) of their corners, linear between them.
+    """Return ∫ ρ x^p y^q z^r dA, with densities (t,) of triangles, or (t, 3) of their corners,
+    linear between them.
 
-    No density may be negative. like: the sheet's area moments, for the order, the reference point and the input error;
-    the result has measure AREA as well. stored: True if the densities were float32, which adds to `input_error`.
+    No density may be negative. like: the sheet's area moments, for the order, the reference point
+    and the input error; the result has measure AREA as well. stored: True if the densities were
+    float32, which adds to `input_error`.
     """
     sums, sizes, tau = _accumulate(points, triangles, density, like, solid=False)
     reach = _reach(points, triangles, like.about)
@@ -91,7 +98,9 @@ def sheet_mass_moments(
 def _accumulate(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, solid: bool
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
-    """Return (K,) Σ ρ h weight, Σ ρ |weight| and (3,) Σ ρ τ; weights are determinants or, for sheets, doubled areas."""
+    """Return (K,) Σ ρ h weight, Σ ρ |weight| and (3,) Σ ρ τ; weights are determinants or, for
+    sheets, doubled areas.
+    """
     order = like.order
     step = _block_size(like.order)
     series = _complete_homogeneous if density.ndim == 1 else _with_linear_density
@@ -133,13 +142,16 @@ def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> NDA
 
 
 def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (K, k) h_(α,1) of each triangle with corners (3 axes, 3 corners, k) of density (3 corners, k)."""
+    """Return (K, k) h_(α,1) of each triangle with corners (3 axes, 3 corners, k) of density (3
+    corners, k).
+    """
     table, linear = np.zeros((2, monomial_count(order), corners.shape[2]))
     table[0] = 1.0
     for corner in range(3):
         _multiply_by_geometric_series(table, corners[:, corner], order)
         linear += table * density[corner]
-        # 1/(1 - v·t - ρ s): the part linear in s is the former one plus ρ times the whole, then divided by (1 - v·t).
+        # 1/(1 - v·t - ρ s): the part linear in s is the former one plus ρ times the whole, then
+        # divided by (1 - v·t).
         _multiply_by_geometric_series(linear, corners[:, corner], order)
     return linear
 
@@ -178,18 +190,22 @@ def _monomial_bounds(reach: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def to_mass_moments(moments: Moments, factor: float = 1.0) -> Moments:
-    """Return density-weighted moments, already transformed, as mass moments; factor: a sheet's thickness."""
+    """Return density-weighted moments, already transformed, as mass moments; factor: a sheet's
+    thickness.
+    """
     return replace(moments, measure=Measure.MASS) * factor
 
 
 @dataclass(frozen=True, eq=False)
 class PartDensities:
-    """Densities of parts, found from the densities of their faces, as arrays with an entry for each part.
+    """Densities of parts, found from the densities of their faces, as arrays with an entry for each
+    part.
 
-    A cavity takes its volume away from the part that it is cut from, whatever material its own faces have.
-    has_several_materials: the part's faces differ in density. has_foreign_cavity_material: the part is a cavity with a
-    face of another density than the part that it is cut from. first_face: a part's first mesh face, -1 if it has none.
-    range_by_area, most_by_area: the range of its faces' densities, and the largest density, times the part's area.
+    A cavity takes its volume away from the part that it is cut from, whatever material its own
+    faces have. has_several_materials: the part's faces differ in density.
+    has_foreign_cavity_material: the part is a cavity with a face of another density than the part
+    that it is cut from. first_face: a part's first mesh face, -1 if it has none. range_by_area,
+    most_by_area: the range of its faces' densities, and the largest density, times the part's area.
     """
 
     density: NDArray[np.float64]
@@ -203,7 +219,9 @@ class PartDensities:
 def part_densities(
     parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None
 ) -> PartDensities:
-    """Return one density for each part: the mean of the (f,) face densities by area under the linear map."""
+    """Return one density for each part: the mean of the (f,) face densities by area under the
+    linear map.
+    """
     of_mesh = parts.face >= 0
     part = parts.part[of_mesh]
     face = parts.face[of_mesh]

@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polynomials in x, y, z that a person types as a density: read safely, kept exactly, bounded on a box.
+"""Polynomials in x, y, z that a person types as a density: read safely, kept exactly, bounded on a
+box.
 
-Coefficients are rational numbers, so that a polynomial can be expanded about any point without rounding: each
-coefficient is rounded once, when it is used. An expression is parsed by `ast`, and only syntax named in
-`parse_polynomial` is accepted; nothing is evaluated.
+Coefficients are rational numbers, so that a polynomial can be expanded about any point without
+rounding: each coefficient is rounded once, when it is used. An expression is parsed by `ast`, and
+only syntax named in `parse_polynomial` is accepted; nothing is evaluated.
 
-On a box a polynomial lies between the least and the largest of its Bernstein coefficients (G. T. Cargo and O. Shisha,
-"The Bernstein form of a polynomial", J. Res. Nat. Bur. Standards 70B, 1966); halving the box brings the two closer.
+On a box a polynomial lies between the least and the largest of its Bernstein coefficients (G. T.
+Cargo and O. Shisha, "The Bernstein form of a polynomial", J. Res. Nat. Bur. Standards 70B, 1966);
+halving the box brings the two closer.
 """
 
 from __future__ import annotations
@@ -51,13 +53,17 @@ CORNERS = tuple(product((0, -1), repeat=3))
 
 @dataclass(frozen=True, eq=False)
 class Polynomial:
-    """A polynomial density with exact nonzero coefficients by (p, q, r); call it with (n, 3) points for its values."""
+    """A polynomial density with exact nonzero coefficients by (p, q, r); call it with (n, 3) points
+    for its values.
+    """
 
     terms: dict[Exponents, Fraction]
 
     @classmethod
     def from_list(cls, values: list[Fraction]) -> Polynomial:
-        """Make a polynomial from exact coefficients of 1, x, y, z, x², xy, xz, y², yz, z², and so on."""
+        """Make a polynomial from exact coefficients of 1, x, y, z, x², xy, xz, y², yz, z², and so
+        on.
+        """
         rows = monomials(order_from_count(len(values))).tolist()
         return cls({tuple(row): value for row, value in zip(rows, values) if value})
 
@@ -74,7 +80,9 @@ class Polynomial:
         return values
 
     def float_terms(self) -> dict[Exponents, float]:
-        """Return the terms, each rounded once; MeasureError if one is beyond the range of numbers."""
+        """Return the terms, each rounded once; MeasureError if one is beyond the range of
+        numbers.
+        """
         try:
             return {powers: float(value) for powers, value in self.terms.items()}
         except OverflowError as error:
@@ -104,7 +112,9 @@ class Polynomial:
         return result
 
     def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
-        """Return a lower bound of the polynomial on a box, less rounding; boxes are halved as long as that may help."""
+        """Return a lower bound of the polynomial on a box, less rounding; boxes are halved as long
+        as that may help.
+        """
         low = np.asarray(low, float)
         high = np.asarray(high, float)
         local = self.translate(low).coefficients()
@@ -136,7 +146,10 @@ class Polynomial:
 
 
 def parse_polynomial(text: str) -> Polynomial:
-    """Parse a typed polynomial, such as ``1000 + 20*z``, or coefficients. MeasureError names a wrong part."""
+    """Parse a typed polynomial, such as ``1000 + 20*z``, or coefficients.
+
+    MeasureError names a wrong part.
+    """
     text = text.strip()
     if not text:
         raise MeasureError(POLYNOMIAL_EMPTY)

@@ -36,12 +36,14 @@ def polynomial_mass_of_images(
     fields: NDArray | None = None,
     about: ArrayLike | None = None,
 ) -> Moments:
-    """Return the sum of the mass moments of k images of a body, to the moments' order less the density's degree.
+    """Return the sum of the mass moments of k images of a body, to the moments' order less the
+    density's degree.
 
-    moments: of the volume or area; ValueError if the order is below the degree. matrices: (k, 4, 4) the images, as for
-    `sum_of_images`. fields: (k, 4, 4) from the body's own coordinates to the density's, taken exactly; by default
-    `matrices`. about: (3,), by default the mean of the images of `moments.about`. The bounds of rounding and input
-    hold for bodies with negative density somewhere too.
+    moments: of the volume or area; ValueError if the order is below the degree. matrices: (k, 4, 4)
+    the images, as for `sum_of_images`. fields: (k, 4, 4) from the body's own coordinates to the
+    density's, taken exactly; by default `matrices`. about: (3,), by default the mean of the images
+    of `moments.about`. The bounds of rounding and input hold for bodies with negative density
+    somewhere too.
     """
     order = moments.order - density.degree
     if order < 0:
@@ -116,9 +118,11 @@ def _mass_functional(
     forms: tuple[NDArray, NDArray],
     misplacement: NDArray,
 ) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Return four (K, k) arrays: G, its rounding bound, its bound by `moments.input_error`, bounds of magnitudes.
+    """Return four (K, k) arrays: G, its rounding bound, its bound by `moments.input_error`, bounds
+    of magnitudes.
 
-    forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) the error bounds of their constants.
+    forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) the error bounds of
+    their constants.
     """
     degree = max((sum(powers) for powers in terms), default=0)
     absolute = {powers: abs(value) for powers, value in terms.items()}
@@ -147,7 +151,9 @@ def _mass_functional(
 def _apply_polynomial(
     values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, NDArray]
 ) -> NDArray[np.float64]:
-    """Return the (K, k) products of a functional, (K',), with Σ c l0^p l1^q l2^r in the k columns of linear forms."""
+    """Return the (K, k) products of a functional, (K',), with Σ c l0^p l1^q l2^r in the k columns
+    of linear forms.
+    """
     linear, offset = forms
     count = monomial_count(order)
     top = order_from_count(len(values))
@@ -172,7 +178,9 @@ def _apply_polynomial(
 
 
 def local_coordinates(matrices: NDArray) -> NDArray[np.float64]:
-    """Return (k, 4, 4) maps from a body's coordinates to lengths along its own axes, under (k, 4, 4) transforms."""
+    """Return (k, 4, 4) maps from a body's coordinates to lengths along its own axes, under (k, 4,
+    4) transforms.
+    """
     axes, _ = polar_rotation(matrices)
     fields = np.zeros((len(matrices), 4, 4))
     fields[:, :3, :3] = axes.transpose(0, 2, 1) @ np.asarray(matrices, np.float64)[:, :3, :3]
@@ -183,7 +191,9 @@ def local_coordinates(matrices: NDArray) -> NDArray[np.float64]:
 def find_negative_point(
     density: Polynomial, points: NDArray, triangles: NDArray, solid: bool
 ) -> tuple[tuple[float, NDArray] | None, bool]:
-    """Return a negative value and its (3,) point, or None; and True if there may be an undetected negative value."""
+    """Return a negative value and its (3,) point, or None; and True if there may be an undetected
+    negative value.
+    """
     used = np.unique(triangles)
     tried = points[used]
     if density.degree > 1:

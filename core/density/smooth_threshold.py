@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The constant set of a smooth trivariate: a B-spline of higher order, to a stated tolerance.
 
-The spline is evaluated on finer grids; their trilinear interpolants converge to it with the square of the spacing. So a
-third of the difference between two interpolants is added to the finer one (Richardson). The change of the result from
-one grid to the next is the estimate of its error.
+The spline is evaluated on finer grids; their trilinear interpolants converge to it with the square
+of the spacing. So a third of the difference between two interpolants is added to the finer one
+(Richardson). The change of the result from one grid to the next is the estimate of its error.
 """
 
 from __future__ import annotations
@@ -31,11 +31,13 @@ def smooth_threshold_body(
     background: float | None = None,
     with_density: bool = False,
 ) -> ThresholdBody:
-    """Return the moments of the set on which a uniform spline of (nx, ny, nz) coefficients is at least a threshold.
+    """Return the moments of the set on which a uniform spline of (nx, ny, nz) coefficients is at
+    least a threshold.
 
-    The spline order is 3 or more; 4 is cubic. The other parameters are as for `threshold_body`. Without a background
-    below the threshold, the outermost coefficients are repeated beyond the grid, but the body is cut off at its edge.
-    The bounds include the difference of the last two extrapolations.
+    The spline order is 3 or more; 4 is cubic. The other parameters are as for `threshold_body`.
+    Without a background below the threshold, the outermost coefficients are repeated beyond the
+    grid, but the body is cut off at its edge. The bounds include the difference of the last two
+    extrapolations.
     """
     samples = np.asarray(samples, np.float64)
     matrix = np.eye(4) if matrix is None else np.asarray(matrix, np.float64)
@@ -62,7 +64,9 @@ def smooth_threshold_body(
 
 
 def spline_values(coefficients: NDArray, order: int, parts: int) -> NDArray[np.float64]:
-    """Return a uniform spline's values (parts (nx - 1) + 1, …) at its (nx, ny, nz) coefficients and between them."""
+    """Return a uniform spline's values (parts (nx - 1) + 1, …) at its (nx, ny, nz) coefficients and
+    between them.
+    """
     values = np.asarray(coefficients, np.float64)
     reach = (order + 1) // 2
     for axis in range(3):
@@ -89,7 +93,9 @@ def _cardinal(order: int, x: float) -> float:
 
 
 def _combine(body: ThresholdBody, other: ThresholdBody, share: float | None) -> ThresholdBody:
-    """Add to the moments a share of their difference from another body's; if None, add it to their bounds."""
+    """Add to the moments a share of their difference from another body's; if None, add it to their
+    bounds.
+    """
 
     def combined(fine: Moments, coarse: Moments) -> Moments:
         difference = fine.raw - coarse.about_point(fine.about).raw

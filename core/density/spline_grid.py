@@ -6,16 +6,16 @@ The volumetric scheme of Soldea, Elber and Rivlin. The integrals separate,
 
     ∫ u^p v^q w^r f = Σ_ijk p_ijk U[p,i] V[q,j] W[r,k],
 
-so only three small tables (`SplineAxis.table`) are precomputed, and the sum is three contractions. The first one runs
-along the axis that is contiguous in memory, in blocks that stay in the cache; the others take its small result. A grid
-may therefore be larger than memory.
+so only three small tables (`SplineAxis.table`) are precomputed, and the sum is three contractions.
+The first one runs along the axis that is contiguous in memory, in blocks that stay in the cache;
+the others take its small result. A grid may therefore be larger than memory.
 
-The moments are taken about the middle of the knots. If the mass is far from there, relative to its size, they are taken
-again about the knot nearest to its center, as the paper advises (section 5).
+The moments are taken about the middle of the knots. If the mass is far from there, relative to its
+size, they are taken again about the knot nearest to its center, as the paper advises (section 5).
 
-Rounding is bounded without another pass. In the support of B_i a power |t|^l is at most (|t| + w)^l, with the widest
-support w. An odd power is at most the next lower even power times the largest |t|. So the even moments of nonnegative
-coefficients bound the absolute sums of all moments.
+Rounding is bounded without another pass. In the support of B_i a power |t|^l is at most (|t| +
+w)^l, with the widest support w. An odd power is at most the next lower even power times the largest
+|t|. So the even moments of nonnegative coefficients bound the absolute sums of all moments.
 """
 
 from __future__ import annotations
@@ -46,14 +46,16 @@ def density_moments(
     order: int = 3,
     value: Callable[[NDArray], NDArray] | None = None,
 ) -> Moments:
-    """Return the mass moments of a density that is a trivariate B-spline, in the coordinates of three axes' knots.
+    """Return the mass moments of a density that is a trivariate B-spline, in the coordinates of
+    three axes' knots.
 
-    Their reference point is the middle of the knots or, if the mass is far from it, the knot nearest to the mass's
-    center (Soldea, Elber and Rivlin, sections 4 and 5).
+    Their reference point is the middle of the knots or, if the mass is far from it, the knot
+    nearest to the mass's center (Soldea, Elber and Rivlin, sections 4 and 5).
 
-    coefficients: (nx, ny, nz) of any real type, a memory map if larger than memory. Or a function that yields blocks,
-    (offset, array) each, without overlap; all other coefficients are zero. value: converts a block's numbers to
-    coefficients. ValueError if the shapes differ, MeasureError if a coefficient is not finite.
+    coefficients: (nx, ny, nz) of any real type, a memory map if larger than memory. Or a function
+    that yields blocks, (offset, array) each, without overlap; all other coefficients are zero.
+    value: converts a block's numbers to coefficients. ValueError if the shapes differ, MeasureError
+    if a coefficient is not finite.
     """
     axes = tuple(axes)
     if not callable(coefficients):
@@ -84,14 +86,15 @@ def grid_moments(
 ) -> Moments:
     """Return the mass moments of a grid of density samples.
 
-    The moments are about the point to which the matrix takes the middle of the grid or, if the mass is far from there,
-    the knot nearest to the center of mass. The samples are the coefficients of a spline with full supports, uniform
-    along each axis without positions.
+    The moments are about the point to which the matrix takes the middle of the grid or, if the mass
+    is far from there, the knot nearest to the center of mass. The samples are the coefficients of a
+    spline with full supports, uniform along each axis without positions.
 
     Parameters
     ----------
     samples : (nx, ny, nz) array, or callable
-        Numbers of any real type, a memory map if larger than memory; or a function that yields (offset, array) blocks.
+        Numbers of any real type, a memory map if larger than memory; or a function that yields
+        (offset, array) blocks.
     shape : sequence of three int
         Shape of the grid, also if `samples` yields blocks.
     matrix : (4, 4) array_like
@@ -103,7 +106,8 @@ def grid_moments(
     value : callable, optional
         Converts a block's numbers to densities.
     positions : sequence of three array_like or None
-        Ascending positions of the samples of an axis, in place of 0, 1, 2, …, before the matrix is applied.
+        Ascending positions of the samples of an axis, in place of 0, 1, 2, …, before the matrix is
+        applied.
 
     Returns
     -------
@@ -178,7 +182,9 @@ def _moments_about(
 
 
 def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
-    """Yield the first indices and the coefficients of blocks of about COEFFICIENTS_PER_BLOCK or fewer."""
+    """Yield the first indices and the coefficients of blocks of about COEFFICIENTS_PER_BLOCK or
+    fewer.
+    """
     if callable(coefficients):
         for (x, y, z), array in coefficients():
             for (i, j, k), piece in _pieces(array):
@@ -199,7 +205,9 @@ def contract(block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
 
 
 def _absolute_from_even(axis: SplineAxis, order: int, center: float) -> NDArray[np.float64]:
-    """Return the (order + 1, order + 1) matrix that turns even moments into bounds of the absolute moments."""
+    """Return the (order + 1, order + 1) matrix that turns even moments into bounds of the absolute
+    moments.
+    """
     reach = axis.reach(center)
     width = axis.width
     matrix = np.zeros((order + 1, order + 1))
@@ -214,8 +222,8 @@ def _absolute_from_even(axis: SplineAxis, order: int, center: float) -> NDArray[
 class SplineAxis:
     """The spline space of one direction of a trivariate spline, by (n + order,) ascending knots.
 
-    order: the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic. ValueError if the knots or the order make no
-    such space.
+    order: the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic. ValueError if the knots or
+    the order make no such space.
     """
 
     knots: NDArray[np.float64]
@@ -235,14 +243,19 @@ class SplineAxis:
     def uniform(
         cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0
     ) -> SplineAxis:
-        """Return an axis of `count` functions with full supports, the i-th centered at origin + i spacing."""
+        """Return an axis of `count` functions with full supports, the i-th centered at origin + i
+        spacing.
+        """
         return cls(
             origin + spacing * (np.arange(count + order, dtype=np.float64) - order / 2.0), order
         )
 
     @classmethod
     def at_positions(cls, positions: ArrayLike, order: int = 1) -> SplineAxis:
-        """Return an axis with one function of full support around each sample. ValueError unless positions ascend."""
+        """Return an axis with one function of full support around each sample.
+
+        ValueError unless positions ascend.
+        """
         x = float_array("positions", positions, "n")
         if len(x) < 2 or not np.isfinite(x).all() or not (np.diff(x) > 0.0).all():
             raise ValueError("positions must ascend")
@@ -270,7 +283,9 @@ class SplineAxis:
         return float(np.abs(self.knots[[0, -1]] - center).max())
 
     def table(self, degree: int, center: float = 0.0) -> NDArray[np.float64]:
-        """Return (degree + 1, count) ∫ (t - center)^l B_i(t) dt; `rounding_counts` bounds their roundings."""
+        """Return (degree + 1, count) ∫ (t - center)^l B_i(t) dt; `rounding_counts` bounds their
+        roundings.
+        """
         return full_support_integrals(self.knots - center, self.order, degree)
 
     def rounding_counts(self, degree: int) -> int:
@@ -279,9 +294,12 @@ class SplineAxis:
 
 
 def full_support_integrals(knots: ArrayLike, order: int, degree: int) -> NDArray[np.float64]:
-    """Return (degree + 1, n) ∫ t^l B_i over full supports, by a closed form; knots may be repeated."""
-    # (t_{i+k} - t_i) / k · h_l(t_i, ..., t_{i+k}) / binomial(k + l, l), h_l the complete homogeneous polynomial of the
-    # k + 1 knots; positive if the knots are. Theorem 4.2 (`core.papers`) needs l nested sums.
+    """Return (degree + 1, n) ∫ t^l B_i over full supports, by a closed form; knots may be
+    repeated.
+    """
+    # (t_{i+k} - t_i) / k · h_l(t_i, ..., t_{i+k}) / binomial(k + l, l), h_l the complete
+    # homogeneous polynomial of the k + 1 knots; positive if the knots are. Theorem 4.2
+    # (`core.papers`) needs l nested sums.
     knots = np.asarray(knots, np.float64)
     count = len(knots) - order
     h = np.zeros((degree + 1, count))

@@ -1,17 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The constant set of a trivariate: the body where a density on a grid is at least a threshold, and its surface.
+"""The constant set of a trivariate: the body where a density on a grid is at least a threshold, and
+its surface.
 
-Soldea, Elber and Rivlin define a body as {f ≥ t} of a trivariate B-spline f. Here f is linear along each axis between
-the samples, and the integrals are over the set itself: nothing is triangulated.
+Soldea, Elber and Rivlin define a body as {f ≥ t} of a trivariate B-spline f. Here f is linear along
+each axis between the samples, and the integrals are over the set itself: nothing is triangulated.
 
-A cell with all eight corners on one side lies on that side, as f is a mean of them. In other cells, an axis is chosen
-along which f is monotone: f = a(x, y) + b(x, y) z with b of one sign. The body's columns then end at z = -a/b, and the
-integrand along z is a polynomial. The remaining integral over x and y is smooth except along the lines by which the
-surface leaves the cell through its floor (a = 0) or its ceiling (a + b = 0). Along y each of the two lines is met
-once at most, at the root of a linear function; along x, these roots enter or leave the cell at the zeros of four more.
-Between all these Gauss's rule converges geometrically. Two rules are compared in each cell; if they differ by too
-much, or no axis serves, it is cut in eight. The sum of their differences is the estimate of the error.
+A cell with all eight corners on one side lies on that side, as f is a mean of them. In other cells,
+an axis is chosen along which f is monotone: f = a(x, y) + b(x, y) z with b of one sign. The body's
+columns then end at z = -a/b, and the integrand along z is a polynomial. The remaining integral over
+x and y is smooth except along the lines by which the surface leaves the cell through its floor (a =
+0) or its ceiling (a + b = 0). Along y each of the two lines is met once at most, at the root of a
+linear function; along x, these roots enter or leave the cell at the zeros of four more. Between all
+these Gauss's rule converges geometrically. Two rules are compared in each cell; if they differ by
+too much, or no axis serves, it is cut in eight. The sum of their differences is the estimate of the
+error.
 """
 
 from __future__ import annotations
@@ -73,7 +76,7 @@ def threshold_body(
     preview: bool = False,
     value: Callable[[NDArray], NDArray] | None = None,
 ) -> ThresholdBody:
-    """Return the moments of the set where the trilinear interpolant of samples is at least a threshold.
+    """Return the moments of the set where the trilinear interpolant reaches a threshold.
 
     The moments are about the position of the sample in the middle of the grid.
 
@@ -87,8 +90,8 @@ def threshold_body(
     matrix : (4, 4) array_like, optional
         Affine: the sample (i, j, k) stands at matrix @ (i, j, k, 1); by default at (i, j, k).
     background : float, optional
-        The density beyond the grid: a layer of it is added on every side. Without it, or if it is at
-        least the threshold, the body is cut off at the edge of the grid.
+        The density beyond the grid: a layer of it is added on every side. Without it, or if it is
+        at least the threshold, the body is cut off at the edge of the grid.
     with_density : bool
         Also return the moments of mass, with the density itself inside.
     preview : bool
@@ -169,7 +172,9 @@ def threshold_body(
 def _slabs(
     samples: NDArray, background: float | None, value: Callable[[NDArray], NDArray] | None
 ) -> Iterator[tuple[int, NDArray[np.float64]]]:
-    """Yield slabs: the first index, and the planes up to the first of the next slab, padded by the background."""
+    """Yield slabs: the first index, and the planes up to the first of the next slab, padded by the
+    background.
+    """
     margin = 0 if background is None else 1
     planes = len(samples) + 2 * margin
     step = max(1, CELLS_PER_SLAB // max(samples.shape[1] * samples.shape[2], 1))
@@ -376,7 +381,9 @@ class _Sums:
     def _add_largest(
         self, name: str, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray
     ) -> None:
-        """Add the largest moments of volumes, areas and masses in cells to the totals "estimate" or "size"."""
+        """Add the largest moments of volumes, areas and masses in cells to the totals "estimate" or
+        "size".
+        """
         reach = power_table((np.abs(cells.origin) + cells.size[:, None]).T, self.order)
         density = abs(threshold) + np.abs(cells.corners).max(axis=(1, 2, 3))
         largest = np.stack(
@@ -388,7 +395,9 @@ class _Sums:
 
 
 def _interval_moments(first: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (order + 1, n) ∫ t^l over the unit intervals that start at n points, by an exact rule."""
+    """Return (order + 1, n) ∫ t^l over the unit intervals that start at n points, by an exact
+    rule.
+    """
     nodes, weights = gauss_legendre(order // 2 + 1)
     points = first[:, None] + nodes
     return np.stack([(points**power) @ weights for power in range(order + 1)])

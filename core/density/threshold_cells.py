@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cubes in which a density is linear along each axis, and their columns above a threshold (see `threshold`)."""
+"""Cubes in which a density is linear along each axis, and their columns above a threshold (see
+`threshold`).
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ TURNS = ((1, 2, 0), (2, 0, 1), (0, 1, 2))
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Cubes: (n, 2, 2, 2) density minus threshold at corners, (n, 3) first corners from the middle, (n,) edges."""
+    """Cubes: (n, 2, 2, 2) density minus threshold at corners, (n, 3) first corners from the middle,
+    (n,) edges.
+    """
 
     corners: NDArray[np.float64]
     origin: NDArray[np.float64]
@@ -45,7 +49,9 @@ class Cells:
         return Cells(self.corners[chosen], self.origin[chosen], self.size[chosen])
 
     def cut_in_eight(self) -> Cells:
-        """Cut each cube into eight; a density that is linear along the axes stays so in every part."""
+        """Cut each cube into eight; a density that is linear along the axes stays so in every
+        part.
+        """
         finer = self.corners
         for axis in (1, 2, 3):
             low, high = np.split(finer, 2, axis=axis)
@@ -62,7 +68,9 @@ class Cells:
         return Cells.join(parts)
 
     def column_axes(self) -> NDArray[np.intp]:
-        """Return for n cells the axis along which the density is most clearly monotone, -1 if it is along none."""
+        """Return for n cells the axis along which the density is most clearly monotone, -1 if it is
+        along none.
+        """
         steps = np.stack(
             [np.diff(self.corners, axis=axis).reshape(-1, 4) for axis in (1, 2, 3)], axis=1
         )
@@ -74,11 +82,12 @@ class Cells:
 
 @dataclass(frozen=True, eq=False)
 class Columns:
-    """Points on the floors of cells, each with the inside part of its column; those of a cell are consecutive.
+    """Points on the floors of cells, each with the inside part of its column; those of a cell are
+    consecutive.
 
-    cell: (m,) index of the cell. x, y: position in it. weight: area of floor. low, high: ends of the inside part.
-    level: z of the surface. slope: the surface's area per unit of floor, 0 if the column does not cross it. density:
-    density minus threshold at z = 0. growth: its slope along z.
+    cell: (m,) index of the cell. x, y: position in it. weight: area of floor. low, high: ends of
+    the inside part. level: z of the surface. slope: the surface's area per unit of floor, 0 if the
+    column does not cross it. density: density minus threshold at z = 0. growth: its slope along z.
     """
 
     cell: NDArray[np.intp]
@@ -94,7 +103,9 @@ class Columns:
 
 
 def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
-    """Return columns at the Gauss points between the lines where the surface leaves a cell; metric: of its area."""
+    """Return columns at the Gauss points between the lines where the surface leaves a cell; metric:
+    of its area.
+    """
     nodes, weights = gauss_legendre(points)
     _, exponent = np.frexp(np.abs(corners).max(axis=(1, 2, 3)))
     corners = np.ldexp(
@@ -150,7 +161,9 @@ def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> NDArray[np.f
 
 
 def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[NDArray[np.intp], NDArray, NDArray]:
-    """Cut [0, 1] at roots of linear functions with end values (n, k); return row, start and length of each interval."""
+    """Cut [0, 1] at roots of linear functions with end values (n, k); return row, start and length
+    of each interval.
+    """
     with np.errstate(divide="ignore"):
         roots = np.where((low < 0.0) != (high < 0.0), low / (low - high), 0.0)
     edges = np.sort(np.pad(np.clip(roots, 0.0, 1.0), ((0, 0), (1, 0))), axis=1)
@@ -160,7 +173,9 @@ def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[NDArray[np.intp], ND
 
 
 def amounts_of(columns: Columns, cells: Cells) -> NDArray[np.float64]:
-    """Return a (2, n) array: the volume inside each cell, and the area of the surface in the cell."""
+    """Return a (2, n) array: the volume inside each cell, and the area of the surface in the
+    cell.
+    """
     volumes, areas = (
         np.bincount(columns.cell, columns.weight * height, len(cells.size))
         for height in (columns.high - columns.low, columns.slope)
@@ -171,7 +186,9 @@ def amounts_of(columns: Columns, cells: Cells) -> NDArray[np.float64]:
 def compare_rules(
     cells: Cells, turn: tuple, rules: Sequence[int], metric: NDArray
 ) -> tuple[Columns, NDArray[np.float64]]:
-    """Return the columns of the last rule, and (2, n) differences of cells' volumes and areas from the first rule."""
+    """Return the columns of the last rule, and (2, n) differences of cells' volumes and areas from
+    the first rule.
+    """
     metric = metric[np.ix_(turn, turn)]
     turned = cells.corners.transpose(0, *(1 + np.array(turn)))
     columns = [columns_of(turned, points, metric) for points in rules]

@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A closed surface filled with the density of a grid of voxels, each of constant density: exact but for rounding.
+"""A closed surface filled with the density of a grid of voxels, each of constant density: exact but
+for rounding.
 
 By the divergence theorem along z, with F_r the antiderivative of ρ z^r that is zero below the grid,
 
     ∫ ρ x^p y^q z^r dV = ∮ x^p y^q F_r(x, y, z) n_z dA.
 
-The triangles are cut along the planes between the voxels. On each piece F_r is then a polynomial, a sum over the voxels
-below plus the filled part of the piece's voxel, and Gauss's rule integrates it exactly.
+The triangles are cut along the planes between the voxels. On each piece F_r is then a polynomial, a
+sum over the voxels below plus the filled part of the piece's voxel, and Gauss's rule integrates it
+exactly.
 """
 
 from __future__ import annotations
@@ -32,12 +34,14 @@ MAX_VOXELS = 1 << 27  # voxels of the box around the surface
 def inside_moments(
     triangles: ArrayLike, densities: ArrayLike, order: int = 3
 ) -> tuple[Moments, float]:
-    """Return the mass moments of a closed surface filled with a grid of voxels, and the volume of the body in the grid.
+    """Return the mass moments of a closed surface filled with a grid of voxels, and the volume of
+    the body in the grid.
 
-    The moments are about the middle of the bounding box within the grid, rounded to a corner of voxels. triangles: (n,
-    3, 3) corners, counter-clockwise from outside, closed together, in the grid's coordinates: the voxel (i, j, k) is
-    the cube from (i, j, k) to (i+1, j+1, k+1). densities: (nx, ny, nz), 0 outside. `rounding_error` estimates the
-    rounding from the sizes of all terms; nothing else is approximate. MeasureError if a density is not finite.
+    The moments are about the middle of the bounding box within the grid, rounded to a corner of
+    voxels. triangles: (n, 3, 3) corners, counter-clockwise from outside, closed together, in the
+    grid's coordinates: the voxel (i, j, k) is the cube from (i, j, k) to (i+1, j+1, k+1).
+    densities: (nx, ny, nz), 0 outside. `rounding_error` estimates the rounding from the sizes of
+    all terms; nothing else is approximate. MeasureError if a density is not finite.
     """
     triangles = float_array("triangles", triangles, "n", 3, 3, finite=True)
     if not len(triangles):
@@ -95,7 +99,9 @@ def inside_moments(
 
 
 def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[np.float64]]:
-    """Return for each power r the (nx, ny, nz) integrals of ρ (z - center)^r over the voxels below each voxel."""
+    """Return for each power r the (nx, ny, nz) integrals of ρ (z - center)^r over the voxels below
+    each voxel.
+    """
     z = np.arange(densities.shape[2] + 1) - center
     sums = []
     for r in range(order + 1):
@@ -108,7 +114,9 @@ def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[n
 
 
 def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
-    """Return the (m, 3, 3) triangles cut along every plane between voxels, and along the sides of the grid."""
+    """Return the (m, 3, 3) triangles cut along every plane between voxels, and along the sides of
+    the grid.
+    """
     for axis in range(3):
         done = [triangles[:0]]
         while len(triangles):

@@ -10,7 +10,8 @@ SECTION_ENCLOSES_NOTHING = error(
 )
 SECTION_NOT_FLAT = error(
     "section_not_flat",
-    "Not flat: points are up to {share:percent} of the size off a plane. Select faces of one plane, or flatten them.",
+    "Not flat: points are up to {share:percent} of the size off a plane. Select faces of one "
+    "plane, or flatten them.",
 )
 OUTLINES_COINCIDE = error("outlines_coincide", "Two outlines coincide. Delete one.")
 OUTLINE_OPEN = error(

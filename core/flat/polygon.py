@@ -2,15 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Polygons with holes in the plane, as directed edges: the inside lies to the left of each.
 
-Area moments of any order are integrals over a boundary of 1-simplices (Sheynin and Tuzikov in two dimensions; see
-`n_dimensions`): over an edge a, b the triangle with the origin gives (a x b)·S_pq·p! q! / (p+q+2)!. Outer outlines run
-counter-clockwise, holes clockwise; separate regions simply add. Ambiguous regions, with outlines that cross or lie on
-one another, are found by `find_defects`: no sum over edges would show them.
+Area moments of any order are integrals over a boundary of 1-simplices (Sheynin and Tuzikov in two
+dimensions; see `n_dimensions`): over an edge a, b the triangle with the origin gives (a x
+b)·S_pq·p! q! / (p+q+2)!. Outer outlines run counter-clockwise, holes clockwise; separate regions
+simply add. Ambiguous regions, with outlines that cross or lie on one another, are found by
+`find_defects`: no sum over edges would show them.
 
-`region_moments` returns them as `Moments` with third coordinate zero, which shift, turn, add and are normalized like
-those of bodies. Beside the rounding of the integration, which `n_dimensions` bounds, a region's points may be off: an
-edge of length l whose ends move by at most d sweeps over at most d (l + 2 d), and there |x| and |y| exceed those of the
-ends by at most d.
+`region_moments` returns them as `Moments` with third coordinate zero, which shift, turn, add and
+are normalized like those of bodies. Beside the rounding of the integration, which `n_dimensions`
+bounds, a region's points may be off: an edge of length l whose ends move by at most d sweeps over
+at most d (l + 2 d), and there |x| and |y| exceed those of the ends by at most d.
 """
 
 from __future__ import annotations
@@ -34,7 +35,8 @@ from .findings import OUTLINE_OPEN, OUTLINES_COINCIDE, SECTION_ENCLOSES_NOTHING
 SAMPLES_PER_OUTLINE = (
     16  # Edge midpoints of an outline that are tested for lying in other outlines.
 )
-# Limit of compared pairs of edges, and of pairs of a ray and an edge; rays beyond it are thinned out.
+# Limit of compared pairs of edges, and of pairs of a ray and an edge; rays beyond it are thinned
+# out.
 MAX_EDGE_PAIRS = 10_000_000
 PAIRS_PER_BLOCK = 1 << 18  # Pairs at a time.
 RAYS_PER_BLOCK = 64  # neighboring rays at a time, which meet much the same edges
@@ -50,11 +52,11 @@ EDGES_PER_BLOCK = 4096
 class OutlineDefects:
     """Defects that make the inside of edges ambiguous.
 
-    `crossings`: pairs of edges that cross.
-    `too_many_pairs`: True if there were too many pairs to compare all of them.
-    `overlapping`: True if the winding number beside an edge is above 1, below 0, or smaller to the left than to the
-    right. `negative`: True if the winding number to the right of an edge is below 0.
-    `shared_length`: the length along which edges run against each other, which is not part of the region's boundary.
+    `crossings`: pairs of edges that cross. `too_many_pairs`: True if there were too many pairs to
+    compare all of them. `overlapping`: True if the winding number beside an edge is above 1, below
+    0, or smaller to the left than to the right. `negative`: True if the winding number to the right
+    of an edge is below 0. `shared_length`: the length along which edges run against each other,
+    which is not part of the region's boundary.
     """
 
     crossings: int
@@ -67,7 +69,9 @@ class OutlineDefects:
 def area_moments(
     points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None
 ) -> SimplexMoments:
-    """Return ∫ x^p y^q dA of the region left of (m, 2) closed edges, about the middle of the box, with error bounds."""
+    """Return ∫ x^p y^q dA of the region left of (m, 2) closed edges, about the middle of the box,
+    with error bounds.
+    """
     points, edges = edge_arrays(points, edges)
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)]
     loose = int(np.count_nonzero(ends[0] != ends[1]))
@@ -108,7 +112,9 @@ def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
 
 
 def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
-    """Return (m, 2) edges of loops, (k,) indices each, so that points in an odd number of loops are left of them."""
+    """Return (m, 2) edges of loops, (k,) indices each, so that points in an odd number of loops are
+    left of them.
+    """
     points = float_array("points", points, "n", 2)
     loops = [index_array("loops", loop, "k", count=len(points)) for loop in loops]
     lows, highs = (
@@ -134,7 +140,9 @@ def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.in
 
 
 def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
-    """Return the (k,) signed areas of outlines, negative ones of holes; outlines that share a point count as one."""
+    """Return the (k,) signed areas of outlines, negative ones of holes; outlines that share a point
+    count as one.
+    """
     origin = points[edges[0, 0]]
     a, b = (points[edges[:, i]] - origin for i in (0, 1))
     outline = connected_components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]
@@ -145,8 +153,9 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
 def find_defects(points: ArrayLike, edges: ArrayLike, error: float = 0.0) -> OutlineDefects:
     """Find defects that make the inside of (m, 2) edges between (n, 2) points ambiguous.
 
-    Outlines may touch, at corners and along edges; edges so short that their ends touch have no sides. error: the
-    largest distance of the points from their intended places; overlaps of no more count as touching.
+    Outlines may touch, at corners and along edges; edges so short that their ends touch have no
+    sides. error: the largest distance of the points from their intended places; overlaps of no more
+    count as touching.
     """
     points, edges = edge_arrays(points, edges)
     if not len(edges):
@@ -167,7 +176,9 @@ def find_defects(points: ArrayLike, edges: ArrayLike, error: float = 0.0) -> Out
 
 
 def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> NDArray[np.float64]:
-    """Return (k,) winding numbers of the edges about query points; on an edge, the mean of both sides."""
+    """Return (k,) winding numbers of the edges about query points; on an edge, the mean of both
+    sides.
+    """
     turns = [np.zeros(0)]
     block = max(1, PAIRS_PER_BLOCK // max(1, len(edges)))
     for start in range(0, len(query_points), block):
@@ -184,7 +195,9 @@ def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> N
 def _side_windings(
     points: NDArray, edges: NDArray, touch: float
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the (k,) winding numbers left and right of edges, by rays across them; of a sample of many edges."""
+    """Return the (k,) winding numbers left and right of edges, by rays across them; of a sample of
+    many edges.
+    """
     span = np.abs(points[edges[:, 1]] - points[edges[:, 0]])
     steep = span[:, 1] >= span[:, 0]
     long = np.hypot(*span.T) > 4.0 * touch
@@ -200,7 +213,9 @@ def _side_windings(
 def _steep_side_windings(
     points: NDArray, edges: NDArray, chosen: NDArray, touch: float
 ) -> tuple[NDArray, NDArray]:
-    """Return `_side_windings` of the chosen, steep edges, by rays to the right from their middles."""
+    """Return `_side_windings` of the chosen, steep edges, by rays to the right from their
+    middles.
+    """
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low = np.minimum(start, end)[:, 1] - touch
     high = np.maximum(start, end)[:, 1] + touch
@@ -240,7 +255,9 @@ def _steep_side_windings(
 
 
 def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
-    """Count pairs of edges that cross by more than `touch`, and sum opposed lengths; True if there are too many."""
+    """Count pairs of edges that cross by more than `touch`, and sum opposed lengths; True if there
+    are too many.
+    """
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low = np.minimum(start, end)
     high = np.maximum(start, end)
@@ -307,7 +324,9 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
 
 @lru_cache
 def plane_positions(order: int) -> NDArray[np.int64]:
-    """Return the (k,) positions of x^p y^q among `monomials`, in the order of `multi_indices`; read-only."""
+    """Return the (k,) positions of x^p y^q among `monomials`, in the order of `multi_indices`;
+    read-only.
+    """
     p, q = multi_indices(2, order).T
     positions = monomial_index(p, q, np.zeros_like(p))
     positions.flags.writeable = False
@@ -322,9 +341,9 @@ def region_moments(
     rounded: float = 0.0,
     stored: float = 0.0,
 ) -> Moments:
-    """Return ∫ x^p y^q dA of the region to the left of directed edges, for all p + q ≤ order, with error bounds.
+    """Return ∫ x^p y^q dA, p + q ≤ order, of the region to the left of directed edges.
 
-    The moments are about the centroid, up to rounding, unless `about` is given.
+    The moments, with error bounds, are about the centroid, up to rounding, unless `about` is given.
 
     Parameters
     ----------
@@ -380,7 +399,9 @@ def region_moments(
 def _swept(
     points: NDArray, edges: NDArray, about: NDArray, step: float, order: int
 ) -> NDArray[np.float64]:
-    """Return (k,) bounds of the changes of moments if every coordinate of every point moves by `step`."""
+    """Return (k,) bounds of the changes of moments if every coordinate of every point moves by
+    `step`.
+    """
     total = np.zeros(len(multi_indices(2, order)))
     if not step > 0.0:
         return total

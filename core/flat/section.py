@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of the section properties of a plane region: the plane of flat triangles, and the region on it."""
+"""Measurement of the section properties of a plane region: the plane of flat triangles, and the
+region on it.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,8 @@ from .findings import SECTION_ENCLOSES_NOTHING, SECTION_NO_AREA, SECTION_NOT_FLA
 from .polygon import edge_arrays, outline_areas, plane_positions, region_moments
 from .section_properties import Plane, Section
 
-# Relative to a region's size: points farther off their plane are not planar; an area errs by the square of this.
+# Relative to a region's size: points farther off their plane are not planar; an area errs by the
+# square of this.
 PLANAR_RTOL = 1e-5
 EDGE_GROWTH = 2.0 * np.sqrt(2.0)  # an edge grows by this if both ends move by 1 along each axis
 MIN_AXIS_SHARE = (
@@ -54,7 +57,8 @@ def fit_plane(
     points : (n, 3) array_like
     triangles : (m, 3) array_like of int
     prefer : (3, 3) array_like
-        Columns: axes that the plane's x is to be near to: the first, or if that is normal to the plane the second.
+        Columns: axes that the plane's x is to be near to: the first, or if that is normal to the
+        plane the second.
     origin : (3,) array_like
         A point whose foot on the plane becomes its origin.
     error : float
@@ -117,7 +121,9 @@ def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
 def region(
     plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float
 ) -> tuple[NDArray[np.intp], int]:
-    """Return (m, 2) edges around the triangles, and the number of faces that look against the plane and are turned."""
+    """Return (m, 2) edges around the triangles, and the number of faces that look against the plane
+    and are turned.
+    """
     triangles = first_at_equal_position(points)[triangles]
     a, b, c = (project(plane, points)[triangles[:, i]] for i in range(3))
     areas = np.bincount(
@@ -133,7 +139,9 @@ def region(
 
 
 def projection_rounding(plane: Plane, points: NDArray, flat: NDArray) -> float:
-    """Return the largest displacement by rounding of a coordinate of (n, 3) points projected to (n, 2) flat ones."""
+    """Return the largest displacement by rounding of a coordinate of (n, 3) points projected to (n,
+    2) flat ones.
+    """
     return (
         16.0
         * U
@@ -146,7 +154,8 @@ def measure_section(
 ) -> Section:
     """Measure the region to the left of directed edges.
 
-    Check beforehand with `find_defects` that the edges bound one region; it also reports the length that edges share.
+    Check beforehand with `find_defects` that the edges bound one region; it also reports the length
+    that edges share.
 
     Parameters
     ----------
@@ -173,7 +182,8 @@ def measure_section(
     >>> from body_moments.core.flat import directed_edges, measure_section
     >>> from body_moments.core.flat.section_properties import Plane
     >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-    >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
+    >>> plane = Plane(np.zeros(3), np.eye(3), 0.0, "X")
+    >>> section = measure_section(plane, points, directed_edges([range(4)]))
     >>> round(section.area, 9), section.center, np.round(section.second * 12, 9).tolist()
     (2.0, (1.0, 0.5, 0.0), [2.0, 8.0, 0.0])
     """
@@ -226,7 +236,9 @@ def measure_section(
 
 
 def _bounds(raw: NDArray, about: NDArray, delta: NDArray) -> dict[str, float]:
-    """Return error bounds of area, centroid and second moments from (6,) moments about the centroid, off by `delta`."""
+    """Return error bounds of area, centroid and second moments from (6,) moments about the
+    centroid, off by `delta`.
+    """
     area = raw[0]
     shift = np.abs(raw[1:3]) / raw[0]
     if not area > 2.0 * delta[0]:  # then nothing bounds a quotient

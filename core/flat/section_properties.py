@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Section properties of a plane region, as structural engineers know them.
 
-I_x = ∫ y² dA, I_y = ∫ x² dA and I_xy = +∫ xy dA (no minus: a tensor's entry would have one), about the centroid and
-along the plane's own axes x, y. Principal second moments I_1 ≥ I_2; axis 1 is at the angle θ in (-90°, 90°] from x
-towards y, tan 2θ = -2 I_xy / (I_x - I_y). J_p = I_x + I_y is the polar second moment of area; it is the torsion
-constant of round sections only. Radii of gyration are √(I/A), elastic section moduli I / (distance of the outermost
-corner), exact as no other point is farther out.
+I_x = ∫ y² dA, I_y = ∫ x² dA and I_xy = +∫ xy dA (no minus: a tensor's entry would have one), about
+the centroid and along the plane's own axes x, y. Principal second moments I_1 ≥ I_2; axis 1 is at
+the angle θ in (-90°, 90°] from x towards y, tan 2θ = -2 I_xy / (I_x - I_y). J_p = I_x + I_y is the
+polar second moment of area; it is the torsion constant of round sections only. Radii of gyration
+are √(I/A), elastic section moduli I / (distance of the outermost corner), exact as no other point
+is farther out.
 
 Measured sections hold arrays, sections of a saved file tuples: panels draw them without numpy.
 """
@@ -26,8 +27,8 @@ MAX_NOISE_SHARE = 1e-3  # Relative to the larger principal moment: noise is limi
 class Plane:
     """The plane of a section.
 
-    `axes`: (3, 3) columns x, y and the normal, right-handed. `out_of_plane`: how far the points are off it.
-    `x_axis_name`: the preferred axis that x is nearest to, "X" or "Y".
+    `axes`: (3, 3) columns x, y and the normal, right-handed. `out_of_plane`: how far the points are
+    off it. `x_axis_name`: the preferred axis that x is nearest to, "X" or "Y".
     """
 
     origin: Vector
@@ -52,15 +53,17 @@ class Section:
         The distance of the outermost corner from the axes x, y, 1, 2 through the centroid.
     outlines, holes : int
     rounding_error, input_error : dict of str to float
-        Bounds of "area", "perimeter", "centroid" and "second": of rounding, and of storing coordinates as float32; for
-        the centroid the length of its shift, for the second moments each of them.
+        Bounds of "area", "perimeter", "centroid" and "second": of rounding, and of storing
+        coordinates as float32; for the centroid the length of its shift, for the second moments
+        each of them.
 
     Examples
     --------
     >>> from body_moments.core.flat import directed_edges, measure_section
     >>> from body_moments.core.flat.section_properties import Plane
     >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-    >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
+    >>> plane = Plane(np.zeros(3), np.eye(3), 0.0, "X")
+    >>> section = measure_section(plane, points, directed_edges([range(4)]))
     >>> [round(6 * modulus, 9) for modulus in section.moduli], round(section.polar * 6, 9)
     ([2.0, 4.0, 4.0, 2.0], 5.0)
     """
@@ -102,7 +105,9 @@ class Section:
 
     @property
     def angle(self) -> float:
-        """Angle from x towards y to principal axis 1, in radians, above -π/2 to π/2; 0 if every axis is principal."""
+        """Angle from x towards y to principal axis 1, in radians, above -π/2 to π/2; 0 if every
+        axis is principal.
+        """
         first, second, mixed = map(float, self.second)
         if self.axes_undetermined:
             return 0.0
@@ -112,7 +117,9 @@ class Section:
 
     @property
     def _noise(self) -> float:
-        """The effect of rounding on the axes, limited so that moments with wide bounds still give axes."""
+        """The effect of rounding on the axes, limited so that moments with wide bounds still give
+        axes.
+        """
         return min(
             self.rounding_error["second"] + self.input_error["second"],
             MAX_NOISE_SHARE * self.principal[0],
@@ -130,7 +137,9 @@ class Section:
 
     @property
     def moduli(self) -> tuple[float, ...]:
-        """The elastic section moduli about x, y, 1, 2: the smaller one of both sides of each axis."""
+        """The elastic section moduli about x, y, 1, 2: the smaller one of both sides of each
+        axis.
+        """
         return tuple(moment / float(reach) for moment, reach in zip(self._about_axes, self.reach))
 
     @property

@@ -6,11 +6,13 @@ from ..verdict.finding import error
 
 FOURIER_OF_OPEN_SURFACE = error(
     "fourier_of_open_surface",
-    "The surface is open and bounds no body. Close it, set Kind to Shell, or set Domain to Surface.",
+    "The surface is open and bounds no body. Close it, set Kind to Shell, or set Domain to "
+    "Surface.",
 )
 WAVE_VECTORS_SHAPE = error(
     "wave_vectors_shape",
-    "Wave vectors must be rows of {dimension} real numbers; the array has shape {shape:size} and type {type}.",
+    "Wave vectors must be rows of {dimension} real numbers; the array has shape {shape:size} and "
+    "type {type}.",
 )
 WAVE_VECTORS_RANGE = error(
     "wave_vectors_range", "Some wave vectors are not finite, or exceed 1e100 rad/m."

@@ -1,19 +1,21 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Large regular grids of frequencies, to a stated tolerance: points on the faces, and a non-uniform fast transform.
+"""Large regular grids of frequencies, to a stated tolerance: points on the faces, and a non-uniform
+fast transform.
 
     ∫ exp(-i q·x) dV = i q·S / q²,    S = ∫ n exp(-i q·x) dA ≈ Σ N w exp(-i q·x)
 
-Each triangle takes about n² points of a rule that is exact to degree 2n-1. Over a triangle q·x spans g = |q| diameter
-at most; the best polynomial of degree 2n-1 in q·x is within 2 (g/4)^(2n) / (2n)! of exp(-i q·x), and a rule with
-positive weights errs by no more than twice that. This bound is met by one triangle in the worst direction; the errors
-of many cancel as the waves do. So fewer points are taken if a test shows that they suffice: at frequencies of all
-sizes, the joint error of the triangles is found by comparison with the closed form. If a wave is shorter than a
-triangle's height over its shortest side, the bound is kept, because at some frequencies all triangles of a regular mesh
-err alike. Triangles that would need too many points keep their closed form.
+Each triangle takes about n² points of a rule that is exact to degree 2n-1. Over a triangle q·x
+spans g = |q| diameter at most; the best polynomial of degree 2n-1 in q·x is within 2 (g/4)^(2n) /
+(2n)! of exp(-i q·x), and a rule with positive weights errs by no more than twice that. This bound
+is met by one triangle in the worst direction; the errors of many cancel as the waves do. So fewer
+points are taken if a test shows that they suffice: at frequencies of all sizes, the joint error of
+the triangles is found by comparison with the closed form. If a wave is shorter than a triangle's
+height over its shortest side, the bound is kept, because at some frequencies all triangles of a
+regular mesh err alike. Triangles that would need too many points keep their closed form.
 
-The width of the spreading kernel follows from a bound of its aliasing. The reported error is found by comparison with
-the closed form at other frequencies.
+The width of the spreading kernel follows from a bound of its aliasing. The reported error is found
+by comparison with the closed form at other frequencies.
 """
 
 from __future__ import annotations
@@ -53,11 +55,13 @@ ROUNDING = 1e-15
 
 
 class GridTransform(Transform):
-    """A transform on a regular grid, to a tolerance: `steps` does the work, `result` returns the spectrum.
+    """A transform on a regular grid, to a tolerance: `steps` does the work, `result` returns the
+    spectrum.
 
-    The result is "approximate", by the non-uniform fast transform of Barnett, Magland and af Klinteberg (2019), or
-    exact if that costs less; see the module. `of` is volume or area, `tolerance` absolute, in the unit of the values.
-    ValueError if double precision cannot reach it; otherwise errors are as for `solid_transform`.
+    The result is "approximate", by the non-uniform fast transform of Barnett, Magland and af
+    Klinteberg (2019), or exact if that costs less; see the module. `of` is volume or area,
+    `tolerance` absolute, in the unit of the values. ValueError if double precision cannot reach it;
+    otherwise errors are as for `solid_transform`.
     """
 
     spreading: Spreading  # Set if any triangle takes points.
@@ -68,7 +72,8 @@ class GridTransform(Transform):
         check_type("grid", grid, FrequencyGrid)
         super().__init__(surface, grid, of, threads)
         self.surface, self.grid, faces = surface, grid, self.faces
-        # Allowed error of a mean over the area: half of the tolerance each for the points and for the kernel.
+        # Allowed error of a mean over the area: half of the tolerance each for the points and for
+        # the kernel.
         if of == Measure.VOLUME:
             allowed = tolerance / faces.scale**3 / (2.0 * faces.area)
             step = grid.step * faces.scale
@@ -84,7 +89,9 @@ class GridTransform(Transform):
         self.fine: list[tuple[int, NDArray[np.intp]]] = []
 
     def _assign_triangles(self) -> Iterator[float]:
-        """Set `fine`, the triangles by number of points, and `direct`, the triangles that keep their closed form."""
+        """Set `fine`, the triangles by number of points, and `direct`, the triangles that keep
+        their closed form.
+        """
         counts = yield from self._counts()
         most = min(MAX_POINTS_PER_SIDE, int(np.sqrt(DIRECT_COST * len(self.sums) / self.width**3)))
         self.direct = self.faces.select(np.flatnonzero(counts > most))
@@ -123,7 +130,9 @@ class GridTransform(Transform):
     def _sum_over(
         self, triangle_rows: NDArray[np.intp], q: NDArray
     ) -> Generator[float, None, NDArray[np.complex128]]:
-        """Return (k,) Σ (q·N) D / |q|, or Σ |N| D, over some triangles at wave vectors (k, 3), in closed form."""
+        """Return (k,) Σ (q·N) D / |q|, or Σ |N| D, over some triangles at wave vectors (k, 3), in
+        closed form.
+        """
         faces = self.faces.select(triangle_rows)
         waves = ListWaves(q)
         total = np.zeros(len(q), np.complex128)
@@ -141,7 +150,9 @@ class GridTransform(Transform):
     def _points_over(
         self, triangle_rows: NDArray[np.intp], n: int, q: NDArray
     ) -> Generator[float, None, NDArray[np.complex128]]:
-        """Return the sums of `_sum_over` by quadrature, with n points along a side of each triangle."""
+        """Return the sums of `_sum_over` by quadrature, with n points along a side of each
+        triangle.
+        """
         total = np.zeros(len(q), np.complex128)
         size = max(1, PAIRS_PER_BLOCK // (len(q) * n * n))
         for start in range(0, len(triangle_rows), size):
@@ -221,7 +232,9 @@ class GridTransform(Transform):
             yield from (1.0 - checked * (1.0 - share) for share in self.exact.steps())
 
     def result(self) -> Spectrum:
-        """Return the spectrum, when all steps are done; its error includes the difference from closed-form samples."""
+        """Return the spectrum, when all steps are done; its error includes the difference from
+        closed-form samples.
+        """
         spectrum = super().result()
         if not self.fine:
             return spectrum
@@ -233,7 +246,9 @@ class GridTransform(Transform):
 
 
 def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
-    """Return the least width of the kernel for an error of tolerance Σ |c|, after division by |k| if `divided`."""
+    """Return the least width of the kernel for an error of tolerance Σ |c|, after division by |k|
+    if `divided`.
+    """
     k = np.arange(1, half + 1) if divided else np.ones(half)
     for width in WIDTHS:
         if (3.0 * np.maximum.accumulate(aliasing(half, width))[1:] / k).max() <= tolerance:
@@ -242,7 +257,9 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
 
 
 def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
-    """Return the (m,) numbers of points along a side that keep each D within tolerance; spans: |q| times diameters."""
+    """Return the (m,) numbers of points along a side that keep each D within tolerance; spans: |q|
+    times diameters.
+    """
     span = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000))
     limits = []
     for n in range(1, MAX_POINTS_PER_SIDE + 1):
@@ -253,14 +270,18 @@ def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
 
 
 def _trial_vectors(grid: FrequencyGrid) -> NDArray[np.float64]:
-    """Return (k, 3) wave vectors of all sizes in a grid, along its axes and diagonals and between them."""
+    """Return (k, 3) wave vectors of all sizes in a grid, along its axes and diagonals and between
+    them.
+    """
     along = np.concatenate([np.eye(3), [[1.0, 1.0, 1.0], [0.9, -0.7, 0.4]]])
     shells = [grid.largest * share for share in TRIAL_RADII if share * grid.half >= 1.0]
     return np.concatenate([size * along for size in shells])
 
 
 def _sample_indices(grid: FrequencyGrid) -> NDArray[np.intp]:
-    """Return indices of sample places on a grid: on axes and diagonals, where faces show most, and random ones."""
+    """Return indices of sample places on a grid: on axes and diagonals, where faces show most, and
+    random ones.
+    """
     h, n = grid.half, grid.count
     steps = np.concatenate([np.eye(3, dtype=int), np.ones((1, 3), int), 1 - np.eye(3, dtype=int)])
     positions = np.concatenate(
@@ -272,7 +293,9 @@ def _sample_indices(grid: FrequencyGrid) -> NDArray[np.intp]:
 
 
 def aliasing(half: int, width: int) -> NDArray[np.float64]:
-    """Return (half + 1,) error bounds of the sums for |k| ≤ half along an axis, as shares of Σ |c|, by aliases of k."""
+    """Return (half + 1,) error bounds of the sums for |k| ≤ half along an axis, as shares of Σ |c|,
+    by aliases of k.
+    """
     side = _grid_side(half, width)
     k = np.arange(half + 1)
     aliased = sum(
@@ -284,13 +307,15 @@ def aliasing(half: int, width: int) -> NDArray[np.float64]:
 
 
 class Spreading:
-    """Sums Σ c exp(-i k·θ) for k from -half to half along each axis, with several strengths c of each point.
+    """Sums Σ c exp(-i k·θ) for k from -half to half along each axis, with several strengths c of
+    each point.
 
-    After Barnett, Magland and af Klinteberg (2019): each point is spread over width³ cells of a grid that is twice as
-    fine by the kernel exp(β (sqrt(1 - z²) - 1)), the grid is transformed, and the kernel's transform is divided out.
-    The error is about 10^(1 - width) of Σ |c|.
+    After Barnett, Magland and af Klinteberg (2019): each point is spread over width³ cells of a
+    grid that is twice as fine by the kernel exp(β (sqrt(1 - z²) - 1)), the grid is transformed, and
+    the kernel's transform is divided out. The error is about 10^(1 - width) of Σ |c|.
 
-    half: largest k along an axis. width: of the kernel, in cells. count: the number of strengths of each point.
+    half: largest k along an axis. width: of the kernel, in cells. count: the number of strengths of
+    each point.
     """
 
     def __init__(self, half: int, width: int, count: int):
@@ -331,7 +356,9 @@ class Spreading:
             cells[run] += np.bincount(index, weights.reshape(-1), minlength=run.stop - run.start)
 
     def sums(self) -> Iterator[NDArray[np.complex128]]:
-        """Yield the (2 half + 1, 2 half + 1, half + 1) sums of each strength, for k_z ≥ 0, and drop its cells."""
+        """Yield the (2 half + 1, 2 half + 1, half + 1) sums of each strength, for k_z ≥ 0, and drop
+        its cells.
+        """
         n = self.side
         along = np.arange(-self.half, self.half + 1)
         factor = np.exp(2j * np.pi / n * (self.width // 2) * along) / _kernel_transform(
@@ -363,7 +390,9 @@ def _kernel_transform(frequencies: NDArray, width: int) -> NDArray[np.float64]:
 
 
 def _grid_side(half: int, width: int) -> int:
-    """Return the cells along a side of the fine grid: even, with small prime factors only, for a fast transform."""
+    """Return the cells along a side of the fine grid: even, with small prime factors only, for a
+    fast transform.
+    """
     n = int(OVERSAMPLING * (2 * half + 1)) + width
     n += n % 2
     while pow(2 * 3 * 5 * 7, 64, n):  # A larger prime divides n.

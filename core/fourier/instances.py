@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Fourier transform of a body of several surfaces, each at one or many places.
 
-Under a map x -> A x + t a transform becomes F(q) -> |det A| exp(-i q·t) F(Aᵀq). So each surface is transformed once for
-every different A, and all its places with that A are one factor Σ exp(-i q·t). A acts on the surface, not on q: a
-regular grid stays one.
+Under a map x -> A x + t a transform becomes F(q) -> |det A| exp(-i q·t) F(Aᵀq). So each surface is
+transformed once for every different A, and all its places with that A are one factor Σ exp(-i q·t).
+A acts on the surface, not on q: a regular grid stays one.
 """
 
 from __future__ import annotations
@@ -32,10 +32,12 @@ FOURIER_RTOL = 1e-7  # Tolerance of transforms of large grids, relative to the v
 
 
 class BodyTransform:
-    """The transform of surfaces, each at one or many places: `steps` does the work, `result` has the spectrum.
+    """The transform of surfaces, each at one or many places: `steps` does the work, `result` has
+    the spectrum.
 
-    parts: each surface with its (k, 4, 4) maps. q: wave vectors (M, 3) or a grid. `of` is volume or area, `total`
-    the body's volume or area, to which FOURIER_RTOL refers. MeasureError without faces, or as for `solid_transform`.
+    parts: each surface with its (k, 4, 4) maps. q: wave vectors (M, 3) or a grid. `of` is volume or
+    area, `total` the body's volume or area, to which FOURIER_RTOL refers. MeasureError without
+    faces, or as for `solid_transform`.
     """
 
     def __init__(
@@ -95,7 +97,9 @@ class BodyTransform:
 def _distinct_images(
     surface: Surface, matrices: NDArray
 ) -> Iterator[tuple[Surface, NDArray[np.float64]]]:
-    """Yield the surface about its center under each different linear map, and the places of the images, (k, 3)."""
+    """Yield the surface about its center under each different linear map, and the places of the
+    images, (k, 3).
+    """
     check_type("parts", surface, Surface)
     matrices = float_array("parts", matrices, "k", 4, 4)
     triangles = surface.all_triangles()[0]

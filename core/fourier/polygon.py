@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Fourier transform of plane polygons with holes, in closed form at any frequency.
 
-The formulas of `transform` for a body hold one dimension lower: with the edges e, their outward normals n of the same
-length, the phases m in their middles and half the phase t along them
+The formulas of `transform` for a body hold one dimension lower: with the edges e, their outward
+normals n of the same length, the phases m in their middles and half the phase t along them
 
     ∫ exp(-i q·x) dA = i/q² Σ (q·n) (exp(-i m) sinc(t) - 1).
 """
@@ -27,7 +27,7 @@ SERIES_TERMS = 10  # Terms of sinc(t) - 1 for t up to 1.
 
 
 def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
-    """Return the Fourier transform of polygons in the plane, F(q) = ∫ exp(-i q·x) dA, in closed form.
+    """Return the closed-form transform F(q) = ∫ exp(-i q·x) dA of polygons in the plane.
 
     Parameters
     ----------
@@ -70,11 +70,13 @@ def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
 
 
 class RegionTransform:
-    """The transform of a plane region under way: `steps` does the work, `result` returns the spectrum.
+    """The transform of a plane region under way: `steps` does the work, `result` returns the
+    spectrum.
 
-    The (m, 2) edges are closed; the inside lies to the left of each. `q` are (M, 2) wave vectors, rad per unit of
-    length, or a grid of two dimensions. `rounded` and `stored` bound the shift of each coordinate by rounding and
-    by storing as float32. MeasureError if the wave vectors are not finite (M, 2), ValueError if coordinates are not.
+    The (m, 2) edges are closed; the inside lies to the left of each. `q` are (M, 2) wave vectors,
+    rad per unit of length, or a grid of two dimensions. `rounded` and `stored` bound the shift of
+    each coordinate by rounding and by storing as float32. MeasureError if the wave vectors are not
+    finite (M, 2), ValueError if coordinates are not.
     """
 
     def __init__(
@@ -136,7 +138,9 @@ class RegionTransform:
 
 
 def half_of_grid(grid: FrequencyGrid) -> NDArray[np.float64]:
-    """Return ((2h+1)(h+1), 2) wave vectors of a grid with y ≥ 0; the values at the others are conjugates."""
+    """Return ((2h+1)(h+1), 2) wave vectors of a grid with y ≥ 0; the values at the others are
+    conjugates.
+    """
     steps: NDArray[np.float64] = np.arange(-grid.half, grid.half + 1, dtype=np.float64) * grid.step
     return np.stack(np.meshgrid(steps, steps[grid.half :], indexing="ij"), axis=-1).reshape(-1, 2)
 
@@ -144,7 +148,9 @@ def half_of_grid(grid: FrequencyGrid) -> NDArray[np.float64]:
 def _edge_sum(
     middle: NDArray, half: NDArray, normal: NDArray, q: NDArray
 ) -> NDArray[np.complex128]:
-    """Return (M,) the sum over k edges at (M, 2) wave vectors; middles, half edges and normals are (2, k)."""
+    """Return (M,) the sum over k edges at (M, 2) wave vectors; middles, half edges and normals are
+    (2, k).
+    """
     block = q.T
     m, t, across = (
         sum((np.multiply.outer(a, b) for a, b in zip(block, vectors)), np.zeros(()))

@@ -2,19 +2,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Fourier transform of a body and of a surface, in closed form at any frequency.
 
-Zhang and Chen (2001) add up tetrahedra by a formula that divides by q·a, by q·(a-b) and so on: it fails near every
-plane across an edge. The divergence theorem leaves one division, by q². With N = (b-a) x (c-a) and `triangle_kernel`'s
-D
+Zhang and Chen (2001) add up tetrahedra by a formula that divides by q·a, by q·(a-b) and so on: it
+fails near every plane across an edge. The divergence theorem leaves one division, by q². With N =
+(b-a) x (c-a) and `triangle_kernel`'s D
 
     ∫ exp(-i q·x) dV = i/q² Σ (q·N) (D - 1/2),    ∫ exp(-i q·x) dA = Σ |N| D.
 
-The N of a closed surface add up to zero; therefore 1/2 may be taken off each D, which leaves terms of the order of q·x,
-and nothing cancels as q goes to 0.
+The N of a closed surface add up to zero; therefore 1/2 may be taken off each D, which leaves terms
+of the order of q·x, and nothing cancels as q goes to 0.
 
-Error. u = 2^-53, A the area, R the reach from the center. A phase is off by a few u |q| R, a D by that or by a few u,
-and |D - 1/2| is below 1 and below |q| R; q·N/q² is at most |N|/|q|. Altogether the error is at most ROUNDING_FACTOR u A
-R for any q. N is found in twice the precision, because slivers would lose more digits; so is the phase of the center,
-which may be far away.
+Error. u = 2^-53, A the area, R the reach from the center. A phase is off by a few u |q| R, a D by
+that or by a few u, and |D - 1/2| is below 1 and below |q| R; q·N/q² is at most |N|/|q|. Altogether
+the error is at most ROUNDING_FACTOR u A R for any q. N is found in twice the precision, because
+slivers would lose more digits; so is the phase of the center, which may be far away.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ ROUNDING_FACTOR = 64.0
 
 
 def solid_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int = 1) -> Spectrum:
-    """Return the Fourier transform of the body in a closed surface, F(q) = ∫ exp(-i q·x) dV, in closed form.
+    """Return the closed-form transform F(q) = ∫ exp(-i q·x) dV of the body in a closed surface.
 
     Parameters
     ----------
@@ -70,7 +70,8 @@ def solid_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int
     Raises
     ------
     MeasureError
-        If the surface is open or has no faces, wave vectors are not finite, or sizes are beyond the range of numbers.
+        If the surface is open or has no faces, wave vectors are not finite, or sizes are beyond the
+        range of numbers.
     ValueError
         If coordinates are not finite, or an index has no point.
 
@@ -81,7 +82,8 @@ def solid_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int
     Examples
     --------
     >>> from body_moments.core import Surface, solid_transform
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> spectrum = solid_transform(surface, [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]])
     >>> np.round(spectrum.values * 6, 6).tolist()
     [(1+0j), (0.062359-0.879355j)]
@@ -130,7 +132,8 @@ def run_to_completion(transform: Transform) -> Spectrum:
 class Transform:
     """A transform under way: `steps` does the work, `result` returns the spectrum.
 
-    `q` are (M, 3) wave vectors or a grid; `of` is volume or area. MeasureError and ValueError as `solid_transform`.
+    `q` are (M, 3) wave vectors or a grid; `of` is volume or area. MeasureError and ValueError as
+    `solid_transform`.
     """
 
     def __init__(
@@ -158,7 +161,9 @@ class Transform:
         self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)
 
     def _vector_sum(self) -> NDArray[np.complex128]:
-        """Return (3,) ∫ n exp(-i q·x) dA at GENERIC_WAVE_VECTOR, parallel to it for a closed surface."""
+        """Return (3,) ∫ n exp(-i q·x) dA at GENERIC_WAVE_VECTOR, parallel to it for a closed
+        surface.
+        """
         waves = ListWaves(GENERIC_WAVE_VECTOR)
         total = np.zeros(3, np.complex128)
         for run in self.faces.blocks(PAIRS_PER_BLOCK):
@@ -198,7 +203,9 @@ class Transform:
                     future.cancel()
 
     def _add(self, part: slice, values: NDArray[np.complex128]) -> None:
-        """Add a task's results by compensated summation: the rounding of thousands of sums would pile up."""
+        """Add a task's results by compensated summation: the rounding of thousands of sums would
+        pile up.
+        """
         self.sums[part], rest = two_sum(self.sums[part], values)
         self.rest[part] += rest
 

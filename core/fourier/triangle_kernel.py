@@ -2,17 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Integrals of exp(-i q·x) over triangles, for any triangle and any frequency, a block at a time.
 
-With s = q·x at the corners, D = ∫ exp(-i s) over the triangle (0,0), (1,0), (0,1) is a divided difference of exp(-i s).
-With the mean s0 of the three phases, their deviations d from it (so that Σ d = 0) and e2, e3 the symmetric polynomials
-of d it has two forms:
+With s = q·x at the corners, D = ∫ exp(-i s) over the triangle (0,0), (1,0), (0,1) is a divided
+difference of exp(-i s). With the mean s0 of the three phases, their deviations d from it (so that Σ
+d = 0) and e2, e3 the symmetric polynomials of d it has two forms:
 
     D = exp(-i s0) Σ_n (-i)^n h_n / (n+2)!,    h_n = -e2 h_(n-2) + e3 h_(n-3),  h_0 = 1, h_1 = 0
     D = -i (E_ab d_c + E_bc d_a + E_ca d_b) / Σ d²,    E_ab = exp(-i (s_a+s_b)/2) sinc((s_a-s_b)/2).
 
-The first converges for small d. The second is the least-squares mean of the three ways to write D as a quotient of a
-difference of E by a gap between two phases. It divides by no gap that may vanish, and from Σ d² = 1 on no digit is
-lost. Coincident phases (q along a normal, across an edge, corners in line) are no special case for either. E is
-computed once for each edge of a block.
+The first converges for small d. The second is the least-squares mean of the three ways to write D
+as a quotient of a difference of E by a gap between two phases. It divides by no gap that may
+vanish, and from Σ d² = 1 on no digit is lost. Coincident phases (q along a normal, across an edge,
+corners in line) are no special case for either. E is computed once for each edge of a block.
 """
 
 from __future__ import annotations
@@ -44,10 +44,12 @@ TINY = 1e-300
 
 
 class SortedTriangles:
-    """The triangles of a surface about its center and at unit size, sorted so that blocks of them are alike.
+    """The triangles of a surface about its center and at unit size, sorted so that blocks of them
+    are alike.
 
-    scale: a power of two; points: (n, 3), (x - center) / scale, of length 1 at most. area: of all triangles (m, 3);
-    diameters: (m,) their longest sides; heights: (m,) over the shortest sides. Lengths are in units of the scale.
+    scale: a power of two; points: (n, 3), (x - center) / scale, of length 1 at most. area: of all
+    triangles (m, 3); diameters: (m,) their longest sides; heights: (m,) over the shortest sides.
+    Lengths are in units of the scale.
     """
 
     def __init__(self, surface: Surface):
@@ -81,7 +83,9 @@ class SortedTriangles:
         self._sort(triangles)
 
     def _sort(self, triangles: NDArray) -> None:
-        """Sort by diameter to a factor of two, then along a space-filling curve: a block's triangles share edges."""
+        """Sort by diameter to a factor of two, then along a space-filling curve: a block's
+        triangles share edges.
+        """
         keys = []
         diameters = []
         heights = []
@@ -126,7 +130,9 @@ class SortedTriangles:
 
 
 def _morton_code(cells: NDArray) -> NDArray[np.int64]:
-    """Interleave the bits of three numbers below 1024, (3, k): the position of a place on a Z-shaped curve."""
+    """Interleave the bits of three numbers below 1024, (3, k): the position of a place on a
+    Z-shaped curve.
+    """
     spread = spread_bits(cells)
     return spread[0] | spread[1] << 1 | spread[2] << 2
 
@@ -134,9 +140,10 @@ def _morton_code(cells: NDArray) -> NDArray[np.int64]:
 class TriangleBlock:
     """A block of triangles, with their normals, centers and edges.
 
-    diameter: the largest. normals, centers: (3, k), (b-a) x (c-a) and the means of the corners. from_center: a and b
-    less the centers, (3, k) each. edges: (3, k) columns in `middles` and `halves` of the edges opposite to a, b and c.
-    middles, halves: (3, e) the middles of edges, and half of the differences of their ends.
+    diameter: the largest. normals, centers: (3, k), (b-a) x (c-a) and the means of the corners.
+    from_center: a and b less the centers, (3, k) each. edges: (3, k) columns in `middles` and
+    `halves` of the edges opposite to a, b and c. middles, halves: (3, e) the middles of edges, and
+    half of the differences of their ends.
     """
 
     def __init__(self, faces: SortedTriangles, run: slice):
@@ -216,7 +223,9 @@ class PhaseMeans:
     def _series_of_pairs(
         self, pairs: NDArray, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray
     ) -> tuple[NDArray, NDArray]:
-        """Return D - 1/2 by the power series, for pairs (wave vector, triangle) with too little difference in phase."""
+        """Return D - 1/2 by the power series, for pairs (wave vector, triangle) with too little
+        difference in phase.
+        """
         row, column = np.divmod(pairs, len(self.block.lengths))
         a, b, c = (d.reshape(-1)[pairs] for d in (a, b, c))
         real, imaginary = _series(a * a + a * b + b * b, a * b * c, SPLIT_SERIES_TERMS)
@@ -236,7 +245,9 @@ def _apply_phase(
 
 
 def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArray]:
-    """Return real and imaginary part of the sum over n ≥ 2 of (-i)^n h_n / (n+2)!, from -e2 and e3."""
+    """Return real and imaginary part of the sum over n ≥ 2 of (-i)^n h_n / (n+2)!, from -e2 and
+    e3.
+    """
     # n = 2, 3 and 1
     even = -square
     odd = cube
@@ -250,7 +261,9 @@ def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArra
 
 
 def _series_terms(radius: float) -> int:
-    """Return the number of terms needed for |d| up to radius: |h_n| is at most radius^n, as a mean of earlier ones."""
+    """Return the number of terms needed for |d| up to radius: |h_n| is at most radius^n, as a mean
+    of earlier ones.
+    """
     n = 4
     while radius**n / factorial(n + 2) > 2e-17:
         n += 2

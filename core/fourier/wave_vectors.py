@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Wave vectors, as a list or as a regular grid, with q·v and exp(-i q·x) for sums over faces.
 
-On a list every phase costs a sine and a cosine. On a grid exp(-i q·x) is a product of three numbers from tables, one
-for each axis. The tables hold sines and cosines, computed without a recurrence, so that no error grows along an axis.
+On a list every phase costs a sine and a cosine. On a grid exp(-i q·x) is a product of three numbers
+from tables, one for each axis. The tables hold sines and cosines, computed without a recurrence, so
+that no error grows along an axis.
 """
 
 from __future__ import annotations
@@ -35,8 +36,9 @@ class FrequencyGrid:
     count : int
         Frequencies along each axis, at least 2.
     largest : float
-        The largest ``|q|`` along each axis, rad per unit of length. With h = count // 2 the j-th frequency of an axis
-        is (j - h) / h · largest: 0 is always one of them, and an even count leaves out +largest.
+        The largest ``|q|`` along each axis, rad per unit of length. With h = count // 2 the j-th
+        frequency of an axis is (j - h) / h · largest: 0 is always one of them, and an even count
+        leaves out +largest.
     dimension : int
         3, or 2 for flat shapes.
 
@@ -83,7 +85,9 @@ class FrequencyGrid:
         return np.stack(axes, axis=-1).reshape(-1, self.dimension)
 
     def expand(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """Return all (count³,) or (count²,) values from those with last coordinate ≥ 0, both ends included."""
+        """Return all (count³,) or (count²,) values from those with last coordinate ≥ 0, both ends
+        included.
+        """
         n = self.count
         h = self.half
         others = (slice(None, self.count),) * (self.dimension - 1)
@@ -97,7 +101,9 @@ class FrequencyGrid:
 
 
 def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
-    """Return a user's (M, dimension) wave vectors as float64; MeasureError if shape, type or range is wrong."""
+    """Return a user's (M, dimension) wave vectors as float64; MeasureError if shape, type or range
+    is wrong.
+    """
     q = np.asarray(q)
     if q.dtype.kind not in "fiu" or q.ndim != 2 or q.shape[1] != dimension:
         raise MeasureError(
@@ -110,7 +116,9 @@ def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
 
 
 class ListWaves:
-    """A list of wave vectors (M, 3), sorted by size so that a block has similar ones; a row is one wave vector."""
+    """A list of wave vectors (M, 3), sorted by size so that a block has similar ones; a row is one
+    wave vector.
+    """
 
     columns = 1
 
@@ -124,7 +132,9 @@ class ListWaves:
         return self.q[:, wave_rows]
 
     def dot(self, part: slice, vectors: NDArray) -> DotFiller:
-        """Return a function that fills arrays with q·v, for the rows of a part and vectors (3, k)."""
+        """Return a function that fills arrays with q·v, for the rows of a part and vectors (3,
+        k).
+        """
 
         def fill(wave_rows: slice, out: NDArray, spare: NDArray) -> None:
             q = self.q[:, wave_rows]
@@ -136,7 +146,9 @@ class ListWaves:
         return fill
 
     def phase_factors(self, part: slice, points: NDArray) -> PhaseFiller:
-        """Return a function that fills arrays with cos(q·x) and sin(q·x), for the rows of a part and points (3, k)."""
+        """Return a function that fills arrays with cos(q·x) and sin(q·x), for the rows of a part
+        and points (3, k).
+        """
         dot = self.dot(part, points)
 
         def fill(wave_rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
@@ -150,8 +162,8 @@ class ListWaves:
 class GridWaves:
     """The half of a grid with z ≥ 0, times `scale`; the rest follows from F(-q) = conj F(q).
 
-    Along x and y both ends are included, so that the half has every vector of the grid, or its opposite. A row has all
-    z at one x and y.
+    Along x and y both ends are included, so that the half has every vector of the grid, or its
+    opposite. A row has all z at one x and y.
     """
 
     def __init__(self, grid: FrequencyGrid, scale: float):
@@ -168,7 +180,9 @@ class GridWaves:
         return np.stack([np.repeat(x, n), np.repeat(y, n), np.tile(self.depth, len(x))])
 
     def dot(self, part: slice, vectors: NDArray) -> DotFiller:
-        """Return a function that fills arrays with q·v, for the rows of a part and vectors (3, k)."""
+        """Return a function that fills arrays with q·v, for the rows of a part and vectors (3,
+        k).
+        """
         first, x, y = self._tables(part, vectors)
         z = self.depth[:, None] * vectors[2]
 
@@ -179,7 +193,9 @@ class GridWaves:
         return fill
 
     def phase_factors(self, part: slice, points: NDArray) -> PhaseFiller:
-        """Return a function that fills arrays with cos(q·x) and sin(q·x), for the rows of a part and points (3, k)."""
+        """Return a function that fills arrays with cos(q·x) and sin(q·x), for the rows of a part
+        and points (3, k).
+        """
         first, x, y = self._tables(part, points)
         z = self.depth[:, None] * points[2]
         x, y, z = ((np.cos(phase), np.sin(phase)) for phase in (x, y, z))
@@ -199,7 +215,9 @@ class GridWaves:
         return fill
 
     def _tables(self, part: slice, vectors: NDArray) -> tuple[int, NDArray, NDArray]:
-        """Return the first index along x that a part needs, the products with x from there on, and those with y."""
+        """Return the first index along x that a part needs, the products with x from there on, and
+        those with y.
+        """
         n = len(self.side)
         first = part.start // n
         return (
@@ -211,12 +229,13 @@ class GridWaves:
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """∫ exp(-i q·x) at wave vectors q, (M, 3) or (M, 2) of a polygon, in rad per unit of length; spectra of bodies add.
+    """∫ exp(-i q·x) at wave vectors q, (M, 3) or (M, 2) of a polygon, in rad per unit of length;
+    spectra of bodies add.
 
-    `values`: (M,), unit³ of a body, unit² of a surface or a polygon.
-    `error`: (M,) of the values: for an "exact" spectrum a bound of the rounding, for an "approximate" one an estimate.
-    `input_error`: a bound of the change that storing coordinates as float32 may have made, for any q.
-    `method`: "exact" or "approximate".
+    `values`: (M,), unit³ of a body, unit² of a surface or a polygon. `error`: (M,) of the values:
+    for an "exact" spectrum a bound of the rounding, for an "approximate" one an estimate.
+    `input_error`: a bound of the change that storing coordinates as float32 may have made, for any
+    q. `method`: "exact" or "approximate".
     """
 
     q: NDArray[np.float64]
@@ -246,7 +265,9 @@ class Spectrum:
         )
 
     def multiply_by_phases(self, waves: NDArray[np.complex128], count: int) -> Spectrum:
-        """Return the spectrum of `count` copies together, from the (M,) sums of exp(-i q·t) over their places."""
+        """Return the spectrum of `count` copies together, from the (M,) sums of exp(-i q·t) over
+        their places.
+        """
         rounding = (8.0 + count) * count * U * np.abs(self.values)
         return replace(
             self,

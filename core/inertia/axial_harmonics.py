@@ -2,16 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Harmonics that fix the turn of a body about its axis.
 
-They are needed if its moments to sixth order are those of a body of revolution, as for a prism of seven sides or more.
+They are needed if its moments to sixth order are those of a body of revolution, as for a prism of
+seven sides or more.
 
-The harmonics ∫ (x+iy)^m and ∫ (x+iy)^m z about the axis are moments of order m and m + 1; no others are needed. They
-are powers of linear forms. The mean of w^m over a triangle is a complete homogeneous polynomial of w at the corners,
+The harmonics ∫ (x+iy)^m and ∫ (x+iy)^m z about the axis are moments of order m and m + 1; no others
+are needed. They are powers of linear forms. The mean of w^m over a triangle is a complete
+homogeneous polynomial of w at the corners,
 
     E[w^m] = 2 m! / (m+2)! h_m(w_a, w_b, w_c),
 
-found by the recursion of `any_order`; the factor z comes with the derivative by ε of (w + ε z)^(m+1). The frame is
-turned so that the first harmonic above noise is positive. The other harmonics decide between the m turns that make it
-positive.
+found by the recursion of `any_order`; the factor z comes with the derivative by ε of (w + ε
+z)^(m+1). The frame is turned so that the first harmonic above noise is positive. The other
+harmonics decide between the m turns that make it positive.
 """
 
 from __future__ import annotations
@@ -38,9 +40,9 @@ TRIANGLES_PER_BLOCK = 1 << 13
 class AxialHarmonics:
     """Harmonics about an axis, as shares of the largest possible ones.
 
-    The largest possible ones are those of a body with this radius and height, at least LEAST_HEIGHT radii.
-    `frame`: a rotation with the axes x, y, z as columns; z is the axis.
-    `values`: (2, n + 1) ∫ (x+iy)^m z^k for k = 0 and 1 and m from 0 to n.
+    The largest possible ones are those of a body with this radius and height, at least LEAST_HEIGHT
+    radii. `frame`: a rotation with the axes x, y, z as columns; z is the axis. `values`: (2, n + 1)
+    ∫ (x+iy)^m z^k for k = 0 and 1 and m from 0 to n.
     """
 
     frame: NDArray[np.float64]
@@ -74,7 +76,9 @@ def axial_harmonics(
     area: bool,
     order: int = MAX_AXIAL_ORDER,
 ) -> AxialHarmonics:
-    """Find harmonics, to m = order, about the axis frame[:, 2] of the body in surfaces, or of these if `area`."""
+    """Find harmonics, to m = order, about the axis frame[:, 2] of the body in surfaces, or of these
+    if `area`.
+    """
     pieces = [
         ((piece.points.astype(np.float64) - center) @ frame, piece.all_triangles()[0])
         for piece in surfaces
@@ -102,7 +106,9 @@ def axial_harmonics(
 
 
 def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
-    """Return the (2, order + 1, k) means of w^m and w^m z over triangles with corners (3, 3, k): x, y, z of each."""
+    """Return the (2, order + 1, k) means of w^m and w^m z over triangles with corners (3, 3, k): x,
+    y, z of each.
+    """
     w = corners[:, 0] + 1j * corners[:, 1]
     z = corners[:, 2]
     power = [np.ones(w.shape[1], np.complex128)] * 3
@@ -130,7 +136,9 @@ def axis_last(alike: EquivalentFrames) -> NDArray[np.float64]:
 def turn_by_harmonics(
     alike: EquivalentFrames, harmonics: AxialHarmonics, noise: float = NOISE_LEVEL
 ) -> EquivalentFrames:
-    """Return frames turned about one axis so that the first clear harmonic is positive; `alike` without one."""
+    """Return frames turned about one axis so that the first clear harmonic is positive; `alike`
+    without one.
+    """
     (axis,) = alike.revolution_axes
     if alike.tilt > MAX_TILT:
         return alike

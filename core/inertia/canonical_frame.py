@@ -2,16 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frames that a body's moments beyond second order choose.
 
-A body without symmetry has one frame, any other body one for each rotation that takes it to itself, as far as these
-moments show.
+A body without symmetry has one frame, any other body one for each rotation that takes it to itself,
+as far as these moments show.
 
-First a finite set of frames is found that turns with the body. Axes of different second moments are fixed up to their
-signs. Around one such axis the other two are turned to make the first clear harmonic ∫ (x+iy)^m ... real and positive;
-this leaves m choices (for a square prism by fourth order, for a triangular one by third). If all second moments are
-equal, the first axis is a direction in which the n-th moment ∫ (u·x)^n is largest or smallest, whichever happens in
-fewer directions: for a cube by fourth order its own axes. Then the central moments are computed in each of these
-frames, and the frames with the largest moments, compared entry by entry, are kept; entries that differ by noise are
-equal. In all remaining frames the body is the same.
+First a finite set of frames is found that turns with the body. Axes of different second moments are
+fixed up to their signs. Around one such axis the other two are turned to make the first clear
+harmonic ∫ (x+iy)^m ... real and positive; this leaves m choices (for a square prism by fourth
+order, for a triangular one by third). If all second moments are equal, the first axis is a
+direction in which the n-th moment ∫ (u·x)^n is largest or smallest, whichever happens in fewer
+directions: for a cube by fourth order its own axes. Then the central moments are computed in each
+of these frames, and the frames with the largest moments, compared entry by entry, are kept; entries
+that differ by noise are equal. In all remaining frames the body is the same.
 """
 
 from __future__ import annotations
@@ -31,11 +32,14 @@ from .findings import MOMENTS_OVERFLOW
 from .plain_body import frame_about
 
 MAX_ORDER = 6  # enough for the axes of prisms up to hexagonal, of a cube and of an icosahedron
-NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times the noise of float32 coordinates
+# a normalized third moment below this is noise: ten times the noise of float32 coordinates
+NOISE_LEVEL = 1e-5
 # Growth of the noise with the degree: as the moments of a normal distribution grow.
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
-CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones are used only without a better one
-FLAT_EXTENT_RTOL = 1e-6  # relative to the largest extent: with less along an axis, a body is a lamina without skewness
+# a harmonic above this fixes a direction well; weaker ones are used only without a better one
+CLEAR_HARMONIC = 1e-2
+# relative to the largest extent: with less along an axis, a body is a lamina without skewness
+FLAT_EXTENT_RTOL = 1e-6
 MAX_EQUAL_SHARE = (
     0.25  # share of the range over all directions: larger differences never count as equal
 )
@@ -54,10 +58,10 @@ DISTINCT_DIRECTIONS = 1e-2  # extreme directions closer than this are one
 class SecondMomentAxes:
     """Axes from second moments.
 
-    axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents (standard deviations) along them.
-    undetermined_axes: the axes that equal moments leave free. step: shift of the points by float32, as a length. tilt:
-    the angle by which this shift and rounding may have turned the other axes. noise: normalized third moments that
-    differ by less are equal.
+    axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents (standard
+    deviations) along them. undetermined_axes: the axes that equal moments leave free. step: shift
+    of the points by float32, as a length. tilt: the angle by which this shift and rounding may have
+    turned the other axes. noise: normalized third moments that differ by less are equal.
     """
 
     axes: NDArray[np.float64]
@@ -72,9 +76,9 @@ class SecondMomentAxes:
 class FrameRule:
     """Rule that fixes the frames that second moments leave open.
 
-    extreme: the degree of the moment that is extreme along the frames' third axis; 0 if second moments fix an axis.
-    axis, harmonic: the axis about which the harmonic (degree, m, k) is real; None if no harmonic is clear. sign: the
-    harmonic's sign.
+    extreme: the degree of the moment that is extreme along the frames' third axis; 0 if second
+    moments fix an axis. axis, harmonic: the axis about which the harmonic (degree, m, k) is real;
+    None if no harmonic is clear. sign: the harmonic's sign.
     """
 
     extreme: int
@@ -87,11 +91,12 @@ class FrameRule:
 class EquivalentFrames:
     """Frames in which a body is the same.
 
-    frames: (k, 3, 3) rotations with the axes as columns. values, noise: (n,) the normalized central moments in each
-    frame, of third to the highest order, and their noise. revolution_axes: the directions that no moment fixes: none
-    (), all around one axis of the frames (that axis,), or all (0, 1, 2). tilt: an estimate of the angle by which noise
-    may have turned them. rule: the rule that fixes the frames; None if second moments fix them, or the poles of a
-    circle of extreme directions.
+    frames: (k, 3, 3) rotations with the axes as columns. values, noise: (n,) the normalized central
+    moments in each frame, of third to the highest order, and their noise. revolution_axes: the
+    directions that no moment fixes: none (), all around one axis of the frames (that axis,), or all
+    (0, 1, 2). tilt: an estimate of the angle by which noise may have turned them. rule: the rule
+    that fixes the frames; None if second moments fix them, or the poles of a circle of extreme
+    directions.
     """
 
     frames: NDArray[np.float64]
@@ -105,7 +110,9 @@ class EquivalentFrames:
 def canonical_frames(
     moments: Moments, spread: SecondMomentAxes, starts: NDArray
 ) -> EquivalentFrames:
-    """Return the frames that moments of order 3 to MAX_ORDER choose; starts: (k, 3, 3) frames by third moments."""
+    """Return the frames that moments of order 3 to MAX_ORDER choose; starts: (k, 3, 3) frames by
+    third moments.
+    """
     central = moments.about_center()
     total = central.raw[0]
     check_range(central.at(None), spread.size[None])
@@ -123,7 +130,9 @@ def canonical_frames(
 
 
 def check_range(moments: Moments, size: NDArray[np.float64]) -> None:
-    """Raise MeasureError if the highest moments of bodies with these (n, 3) extents are no numbers."""
+    """Raise MeasureError if the highest moments of bodies with these (n, 3) extents are no
+    numbers.
+    """
     with np.errstate(over="ignore", under="ignore"):
         reach = moments.raw[:, 0] * size.max(axis=1) ** moments.order
     if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
@@ -133,7 +142,9 @@ def check_range(moments: Moments, size: NDArray[np.float64]) -> None:
 def _candidates(
     central: Moments, spread: SecondMomentAxes, starts: NDArray
 ) -> tuple[NDArray, tuple[int, ...], float, FrameRule | None]:
-    """Return candidate frames, and `revolution_axes`, `tilt` and `rule` as in `EquivalentFrames`."""
+    """Return candidate frames, and `revolution_axes`, `tilt` and `rule` as in
+    `EquivalentFrames`.
+    """
     if not spread.undetermined_axes:
         return starts, (), spread.tilt, None
     if len(spread.undetermined_axes) == 2:
@@ -173,7 +184,8 @@ def _fix_rotation_about_axis(
 ) -> tuple[NDArray, tuple[int, int, int] | None, float]:
     """Turn bases about an axis so that the first clear harmonic is real.
 
-    Return the frames, the (degree, m, k) of that harmonic, or None, and the angular uncertainty of the frames.
+    Return the frames, the (degree, m, k) of that harmonic, or None, and the angular uncertainty of
+    the frames.
     """
     harmonic = _clear_harmonic(central, spread, bases, axis)
     if harmonic is None:
@@ -199,7 +211,9 @@ def _fix_rotation_about_axis(
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, int, int, NDArray[np.complex128], float] | None:
-    """Return degree, m, k, (n,) values and noise of the first clear harmonic about an axis, else of the first one."""
+    """Return degree, m, k, (n,) values and noise of the first clear harmonic about an axis, else of
+    the first one.
+    """
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order = [first, second, axis]
     size = extents_of(spread.size)
@@ -228,7 +242,9 @@ def _clear_harmonic(
 
 
 def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.complex128]:
-    """Return (n,) E[(x+iy)^m (x²+y²)^j z^k] of n bodies' (n, 3, ..., 3) moments of this degree, k = degree - m - 2j."""
+    """Return (n,) E[(x+iy)^m (x²+y²)^j z^k] of n bodies' (n, 3, ..., 3) moments of this degree, k =
+    degree - m - 2j.
+    """
     j = (degree - m - k) // 2
     forms = (
         [np.array([1.0, 1.0j, 0.0])] * (m + j)
@@ -243,11 +259,12 @@ def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.comple
 def _extreme_directions(
     central: Moments, spread: SecondMomentAxes, degree: int, clear: float
 ) -> tuple[NDArray, float, float, bool]:
-    """Return the (k, 3) directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer.
+    """Return the (k, 3) directions u of the largest E[(u·x)^degree], or of the least, whichever are
+    fewer.
 
-    Return also 1 for the largest or -1 for the least, the angle by which noise may have turned the directions, and
-    whether they are isolated. A circle of directions is replaced by its poles. There are no directions, (0, 3), if the
-    moment is the same in all of them.
+    Return also 1 for the largest or -1 for the least, the angle by which noise may have turned the
+    directions, and whether they are isolated. A circle of directions is replaced by its poles.
+    There are no directions, (0, 3), if the moment is the same in all of them.
     """
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _normalization(central, spread, degree)[1].max()
@@ -269,7 +286,8 @@ def _extreme_directions(
         extremes.append((distinct_arrays(top, DISTINCT_DIRECTIONS), sign))
     directions, sign = min(extremes, key=lambda pair: len(pair[0]))
     tilt = noise / span
-    # If extreme directions form a circle, the moment is the same all around the circle: no slope leads along it.
+    # If extreme directions form a circle, the moment is the same all around the circle: no slope
+    # leads along it.
     around = np.cross(everywhere, _contract(tensor, degree - 1, everywhere))
     pole = np.linalg.eigh(around.T @ around)[1][:, 0]
     is_round = np.abs(around @ pole).max() <= min(noise, MAX_EQUAL_SHARE * span)
@@ -281,12 +299,13 @@ def _extreme_directions(
 def _maximize_on_sphere(
     tensor: NDArray, degree: int, span: float, within: float
 ) -> NDArray[np.float64]:
-    """Return maxima on the sphere, some repeated, the best approached first, at most `within` below the largest.
+    """Return maxima on the sphere, some repeated, the best approached first, at most `within` below
+    the largest.
 
-    The search starts from the highest points of a grid over the sphere: along the sphere the function is a
-    trigonometric polynomial of this span, so that by Bernstein's inequality it loses at most (degree MAX_START_GAP)²
-    span / 4 on the way from a maximum to the nearest of them. Steps are Newton's in curved directions, and always
-    uphill.
+    The search starts from the highest points of a grid over the sphere: along the sphere the
+    function is a trigonometric polynomial of this span, so that by Bernstein's inequality it loses
+    at most (degree MAX_START_GAP)² span / 4 on the way from a maximum to the nearest of them. Steps
+    are Newton's in curved directions, and always uphill.
     """
     points = spread_directions(START_DIRECTIONS)
     scale = degree**2 * span
@@ -331,7 +350,9 @@ def _normalized_moments(
 def _normalization(
     central: Moments, spread: SecondMomentAxes, degree: int
 ) -> tuple[NDArray, NDArray]:
-    """Return the scales of a degree's monomials, products of extents, and the noise of their normalized moments."""
+    """Return the scales of a degree's monomials, products of extents, and the noise of their
+    normalized moments.
+    """
     powers = monomials(degree)[monomial_index(degree, 0, 0) :]
     size = extents_of(spread.size)
     unit = np.prod(size**powers, axis=1)
@@ -346,14 +367,18 @@ def _normalization(
 
 
 def extents_of(size: NDArray) -> NDArray[np.float64]:
-    """Return (..., 3) extents, infinite along an axis with hardly any, because noise is divided by them."""
+    """Return (..., 3) extents, infinite along an axis with hardly any, because noise is divided by
+    them.
+    """
     return np.where(size > FLAT_EXTENT_RTOL * size.max(axis=-1, keepdims=True), size, np.inf)
 
 
 def lexicographic_maximum(
     frames: NDArray, values: NDArray, noise: NDArray
 ) -> tuple[NDArray, NDArray]:
-    """Return the frames with the largest values, compared entry by entry up to noise; and these values."""
+    """Return the frames with the largest values, compared entry by entry up to noise; and these
+    values.
+    """
     best = np.arange(len(frames))
     for column, least in zip(values.T, noise):
         best = best[column[best] >= column[best].max() - least]
@@ -361,7 +386,9 @@ def lexicographic_maximum(
 
 
 def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
-    """Return (n, 3, ...) contractions of a symmetric tensor with each of (n, 3) points, `times` times (at least 1)."""
+    """Return (n, 3, ...) contractions of a symmetric tensor with each of (n, 3) points, `times`
+    times (at least 1).
+    """
     out = np.tensordot(points, tensor, axes=(1, 0))
     for _ in range(times - 1):
         out = np.einsum("n...i,ni->n...", out, points)
@@ -379,5 +406,7 @@ def _rotate_tensor(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
 
 @lru_cache
 def _tensor_positions(degree: int) -> NDArray[np.int64]:
-    """Return for each monomial of a degree, in storage order, its first index in the flattened tensor."""
+    """Return for each monomial of a degree, in storage order, its first index in the flattened
+    tensor.
+    """
     return np.unique(tensor_index(degree), return_index=True)[1]

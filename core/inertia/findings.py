@@ -6,16 +6,20 @@ from ..verdict.finding import error, note
 
 NO_CERTAIN_VOLUME = error(
     "no_certain_volume",
-    "The volume is zero within rounding, or float32 coordinates may change more than a tenth of it. Close the surface, "
-    "move vertices nearer to the object's origin, set Kind to Shell, or use Measure Section for a flat shape.",
+    "The volume is zero within rounding, or float32 coordinates may change more than a tenth of "
+    "it. Close the surface, "
+    "move vertices nearer to the object's origin, set Kind to Shell, or use Measure Section for a "
+    "flat shape.",
 )
 MOMENTS_OVERFLOW = error(
     "moments_overflow",
-    "Moments of order {order} exceed the range of numbers. Scale the object, or choose a lower order.",
+    "Moments of order {order} exceed the range of numbers. Scale the object, or choose a lower "
+    "order.",
 )
 NEGATIVE_INERTIA = error(
     "negative_inertia",
-    "The surface intersects itself or cannot be closed, and regions count as negative. Set Overlaps to Count as "
+    "The surface intersects itself or cannot be closed, and regions count as negative. Set "
+    "Overlaps to Count as "
     "Union, repair the mesh, or set Kind to Shell.",
 )
 AXES_FREE = note(
@@ -24,11 +28,13 @@ AXES_FREE = note(
 )
 AXES_FREE_BY_SHAPE = note(
     "axes_free_by_shape",
-    "Principal moments {axes} are equal; the shape's own directions nearest to the object's axes are used.",
+    "Principal moments {axes} are equal; the shape's own directions nearest to the object's axes "
+    "are used.",
 )
 AXES_AMBIGUOUS = note(
     "axes_ambiguous",
-    "The body is symmetric under half a turn; the directions nearest to the object's axes are used.",
+    "The body is symmetric under half a turn; the directions nearest to the object's axes are "
+    "used.",
 )
 STRICT_RULE_UNDEFINED = error(
     "strict_rule_undefined", "Zhang and Chen's rule is undefined {where:word}. Turn it off."

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mass properties, derived from moments.
 
-Inertia is a tensor with entries I_xx = ∫(y²+z²)dm and I_xy = -∫xy dm. Principal moments are sums of covariance
-eigenvalues, I_1 = m(λ_2+λ_3), so that no moment exceeds the sum of the other two, by construction.
+Inertia is a tensor with entries I_xx = ∫(y²+z²)dm and I_xy = -∫xy dm. Principal moments are sums of
+covariance eigenvalues, I_1 = m(λ_2+λ_3), so that no moment exceeds the sum of the other two, by
+construction.
 """
 
 from __future__ import annotations
@@ -43,13 +44,15 @@ class MassProperties:
     principal : PrincipalFrame
         Principal moments and axes.
     rounding_error, input_error : dict of str to float
-        Absolute bounds of "mass", "center" and "inertia", Euclidean for the center and Frobenius for the tensor (so
-        they hold for each entry and each principal moment): of rounding, and of float32 coordinates.
+        Absolute bounds of "mass", "center" and "inertia", Euclidean for the center and Frobenius
+        for the tensor (so they hold for each entry and each principal moment): of rounding, and of
+        float32 coordinates.
 
     Examples
     --------
     >>> from body_moments.core import MassProperties, Surface, polyhedron_moments
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> properties = MassProperties.from_moments(polyhedron_moments(surface)[0], density=6000.0)
     >>> round(properties.mass, 9), np.round(properties.principal.moments, 6).tolist()
     (1000.0, [62.5, 62.5, 100.0])
@@ -71,9 +74,11 @@ class MassProperties:
         refine: Callable[[], Moments] | None = None,
         higher: Callable[[], Moments | OwnMoments] | None = None,
     ) -> MassProperties:
-        """Derive the mass properties of a body with constant density ≥ 0 from its moments to order 3 or more.
+        """Derive the mass properties of a body with constant density ≥ 0 from its moments to order
+        3 or more.
 
-        The other arguments are as for `principal_frame`. MeasureError if the body has no certain volume.
+        The other arguments are as for `principal_frame`. MeasureError if the body has no certain
+        volume.
         """
         check_type("moments", moments, Moments)
         if moments.order < 3:
@@ -95,7 +100,8 @@ class MassProperties:
         fixed: ThirdMomentFrames,
         higher: Callable[[NDArray[np.intp]], OwnMoments] | None = None,
     ) -> MassProperties:
-        """Derive the mass properties of a stack of n bodies with certain volumes and (n,) densities.
+        """Derive the mass properties of a stack of n bodies with certain volumes and (n,)
+        densities.
 
         The other arguments are as for `principal_frames`.
         """
@@ -153,7 +159,8 @@ class MassProperties:
         return np.sqrt(self.principal.moments / self.mass)
 
     def axes_bound(self, strain: float) -> float:
-        """Return a bound of the turn of the principal axes of different moments, in radians (Davis and Kahan 1970).
+        """Return a bound of the turn of the principal axes of different moments, in radians (Davis
+        and Kahan 1970).
 
         They turn with the errors of inertia, and with a `strain` of the body.
         """
@@ -165,7 +172,9 @@ class MassProperties:
         return math.asin(off / gap) if off < gap else math.pi
 
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> MassProperties:
-        """Return the same body in the frame with the columns of a rotation as axes and with this origin."""
+        """Return the same body in the frame with the columns of a rotation as axes and with this
+        origin.
+        """
         rotation = rotation_array("rotation", rotation)
         inverse = rotation.swapaxes(-1, -2)
         inertia = inverse @ self.inertia @ rotation
@@ -179,7 +188,9 @@ class MassProperties:
 
 
 def has_certain_total(moments: Moments) -> PerBody:
-    """Return whether totals exceed their rounding, and volumes also ten times what float32 coordinates may change."""
+    """Return whether totals exceed their rounding, and volumes also ten times what float32
+    coordinates may change.
+    """
     least = moments.rounding_error[..., 0]
     if moments.measure == Measure.VOLUME:
         least = np.maximum(least, moments.input_error[..., 0] / MAX_INPUT_SHARE)
@@ -211,9 +222,11 @@ def combine(
     --------
     >>> from body_moments.core import Surface, polyhedron_moments
     >>> from body_moments.core.inertia import combine
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> volume, _ = polyhedron_moments(surface)
-    >>> round(combine([(volume, 6.0), (volume.transform(np.diag([2.0, 1.0, 1.0, 1.0])), 6.0)]).mass, 9)
+    >>> stretched = volume.transform(np.diag([2.0, 1.0, 1.0, 1.0]))
+    >>> round(combine([(volume, 6.0), (stretched, 6.0)]).mass, 9)
     3.0
     """
     for moments, _ in bodies:
@@ -229,7 +242,9 @@ def affine_image(
     mass: float,
     preferred_axes: ArrayLike,
 ) -> MassProperties:
-    """Return the properties of an image under a (3, 3) map; axes point the way of `preferred_axes`."""
+    """Return the properties of an image under a (3, 3) map; axes point the way of
+    `preferred_axes`.
+    """
     linear = np.asarray(linear, np.float64)
     preferred = np.asarray(preferred_axes, np.float64)
     second = np.trace(properties.inertia) / 2.0 * IDENTITY_3 - properties.inertia
@@ -253,7 +268,9 @@ def affine_image(
 def are_physical(
     volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Return an (n,) mask of the bodies with a possible center and second moments for their mass and (n, 3) boxes."""
+    """Return an (n,) mask of the bodies with a possible center and second moments for their mass
+    and (n, 3) boxes.
+    """
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]
     second = (
@@ -273,7 +290,9 @@ def are_physical(
 def _propagate_errors(
     moments: Moments, density: NDArray
 ) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
-    """Return bounds of mass, center, inertia by rounding and by `input_error`; infinite if nothing bounds them."""
+    """Return bounds of mass, center, inertia by rounding and by `input_error`; infinite if nothing
+    bounds them.
+    """
     delta = np.array([moments.rounding_error, moments.input_error])
     raw = moments.raw
     total, off = raw[..., 0], delta[..., 0]

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A body as plain numbers, in any frame, alone or as a sum: for panels, which are drawn without numpy.
+"""A body as plain numbers, in any frame, alone or as a sum: for panels, which are drawn without
+numpy.
 
-An inertia tensor is given by six entries, a frame by its three axes. A `Reference` refers inertia to any point, axes or
-axis by the parallel-axis theorem, I_p = I_c + m (|d|² 1 - d dᵀ) with d = c - p, with bounds.
+An inertia tensor is given by six entries, a frame by its three axes. A `Reference` refers inertia
+to any point, axes or axis by the parallel-axis theorem, I_p = I_c + m (|d|² 1 - d dᵀ) with d = c -
+p, with bounds.
 """
 
 from __future__ import annotations
@@ -43,10 +45,11 @@ U = float_info.epsilon / 2.0
 
 
 class PlainBody(NamedTuple):
-    """The results of a body as plain numbers, SI, in the object frame, or in the world after `in_world`.
+    """The results of a body as plain numbers, SI, in the object frame, or in the world after
+    `in_world`.
 
-    center: (3,). inertia: (6,) in the order of ENTRIES. moments, axes: the (3,) principal moments, and the axes as
-    three vectors. error_bound: as in `Measurement`.
+    center: (3,). inertia: (6,) in the order of ENTRIES. moments, axes: the (3,) principal moments,
+    and the axes as three vectors. error_bound: as in `Measurement`.
     """
 
     mass: float
@@ -102,7 +105,9 @@ class PlainBody(NamedTuple):
         )
 
     def in_world(self, matrix_world: Any, unit: float) -> PlainBody:
-        """Return the results in the world frame; matrix_world: of the object; unit: meters per Blender unit."""
+        """Return the results in the world frame; matrix_world: of the object; unit: meters per
+        Blender unit.
+        """
         location, turn, _ = matrix_world.decompose()
         body = self.turned(tuple(zip(*rotation_axes(turn))))
         return body._replace(
@@ -117,7 +122,9 @@ class PlainBody(NamedTuple):
 
 
 def add_bodies(parts: Sequence[PlainBody]) -> PlainBody | None:
-    """Return bodies as one, in their common frame, by the parallel-axis theorem; None if they have no mass."""
+    """Return bodies as one, in their common frame, by the parallel-axis theorem; None if they have
+    no mass.
+    """
     mass, volume, area = (
         sum([getattr(part, name) for part in parts]) for name in ("mass", "volume", "area")
     )
@@ -140,7 +147,9 @@ def add_bodies(parts: Sequence[PlainBody]) -> PlainBody | None:
 def _bound_of_sum(
     parts: Sequence[PlainBody], arms: Sequence[float], bounds: Sequence[dict[str, float]]
 ) -> dict[str, Any]:
-    """Return the bound of a sum of bodies, from the bound of each, and its distance from the center."""
+    """Return the bound of a sum of bodies, from the bound of each, and its distance from the
+    center.
+    """
     # a shell without thickness has its mass by area
     shares = [
         bound["volume"] / part.volume
@@ -203,20 +212,26 @@ def turn_tensor(tensor: Sequence[float], axes: Axes) -> Vector:
 
 
 def move_tensor(tensor: Sequence[float], mass: float, arm: Sequence[float]) -> Vector:
-    """Return the inertia tensor about a point `arm` away from the center of mass, given that about the center."""
+    """Return the inertia tensor about a point `arm` away from the center of mass, given that about
+    the center.
+    """
     x, y, z = arm
     products = y * y + z * z, z * z + x * x, x * x + y * y, -x * y, -x * z, -y * z
     return tuple(entry + mass * product for entry, product in zip(tensor, products))
 
 
 def frame_about(axis: Sequence[float]) -> Axes:
-    """Return a right-handed frame with this third axis; the first is a coordinate axis, projected."""
+    """Return a right-handed frame with this third axis; the first is a coordinate axis,
+    projected.
+    """
     first = _across(IDENTITY[min(range(3), key=lambda i: abs(axis[i]))], axis)
     return first, cross(axis, first), tuple(axis)
 
 
 def _across(vector: Sequence[float], axis: Sequence[float]) -> Vector:
-    """Return the direction of a vector's part that is perpendicular to an axis; () if there is none."""
+    """Return the direction of a vector's part that is perpendicular to an axis; () if there is
+    none.
+    """
     along = dot(vector, axis)
     part = [entry - along * other for entry, other in zip(vector, axis)]
     length = hypot(*part)
@@ -224,7 +239,9 @@ def _across(vector: Sequence[float], axis: Sequence[float]) -> Vector:
 
 
 def principal_axes(tensor: Sequence[float]) -> tuple[Vector, Axes, str]:
-    """Return ascending principal moments, right-handed axes nearest to the coordinate axes, and the symmetry."""
+    """Return ascending principal moments, right-handed axes nearest to the coordinate axes, and the
+    symmetry.
+    """
     axes = IDENTITY
     for i, j, entry in SWEEPS * ((0, 1, 3), (0, 2, 4), (1, 2, 5)):
         turned = turn_tensor(tensor, axes)
@@ -253,7 +270,9 @@ def principal_axes(tensor: Sequence[float]) -> tuple[Vector, Axes, str]:
 
 
 def _nearest_frame(first: Vector, second: Vector, free: tuple[int, ...]) -> Axes:
-    """Return the frame along two axes, as free as they are, and their cross product, nearest to the coordinate axes."""
+    """Return the frame along two axes, as free as they are, and their cross product, nearest to the
+    coordinate axes.
+    """
     if len(free) == 3:
         return IDENTITY
     frames = []
@@ -280,14 +299,18 @@ def _points_along(axis: Vector) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """A frame that inertia is referred to: an origin, and right-handed axes, by default those of the coordinates."""
+    """A frame that inertia is referred to: an origin, and right-handed axes, by default those of
+    the coordinates.
+    """
 
     origin: Sequence[float]
     axes: Axes = IDENTITY
 
     @classmethod
     def through_points(cls, first: Sequence[float], second: Sequence[float]) -> Reference:
-        """Return the frame with its origin at the first point and Z towards the second; else QueryError."""
+        """Return the frame with its origin at the first point and Z towards the second; else
+        QueryError.
+        """
         way = subtract(second, first)
         length = hypot(*way)
         if not length > MIN_AXIS_RATIO * max(map(abs, (*first, *second))):
@@ -295,7 +318,9 @@ class Reference:
         return cls(first, frame_about([along / length for along in way]))
 
     def refer(self, body: PlainBody) -> ReferredInertia:
-        """Refer the inertia of a body, given in the same coordinates, to this frame, by the parallel-axis theorem."""
+        """Refer the inertia of a body, given in the same coordinates, to this frame, by the
+        parallel-axis theorem.
+        """
         arm = subtract(body.center, self.origin)
         distance = hypot(*arm)
         rounded = 2.0 * U * sum(map(abs, (*body.center, *self.origin)))
@@ -317,9 +342,10 @@ class Reference:
 class ReferredInertia:
     """Inertia about a reference, along its axes.
 
-    `center`: the center of mass from the reference's origin, along its axes; mass times this is the first moment.
-    `inertia`: the six entries of the tensor about the reference's origin.
-    `rounding_error`, `input_error`: absolute bounds of "mass", "center" and "inertia", as in `MassProperties`.
+    `center`: the center of mass from the reference's origin, along its axes; mass times this is the
+    first moment. `inertia`: the six entries of the tensor about the reference's origin.
+    `rounding_error`, `input_error`: absolute bounds of "mass", "center" and "inertia", as in
+    `MassProperties`.
     """
 
     reference: Reference
@@ -331,7 +357,9 @@ class ReferredInertia:
 
     @property
     def about_z(self) -> float:
-        """The moment of inertia about the reference's Z axis, the axis of `Reference.through_points`."""
+        """The moment of inertia about the reference's Z axis, the axis of
+        `Reference.through_points`.
+        """
         return self.inertia[2]
 
     @property

@@ -2,17 +2,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The principal frame of a body, made unique if the body allows it.
 
-The axes are the eigenvectors of the central second moments, largest first, so that axis 1 is the long axis (least
-inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third moments positive. Their rule fails on
-every body with a mirror plane, because M_300 is noise, so it is made robust (see `third_moment_frames`). Moments to
-sixth order decide if equal moments or a lack of skewness leave a choice (see `canonical_frame`). Any further freedom is
-the body's own: there the frame nearest to the axes that the caller prefers is taken, and `finding` says so.
+The axes are the eigenvectors of the central second moments, largest first, so that axis 1 is the
+long axis (least inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third
+moments positive. Their rule fails on every body with a mirror plane, because M_300 is noise, so it
+is made robust (see `third_moment_frames`). Moments to sixth order decide if equal moments or a lack
+of skewness leave a choice (see `canonical_frame`). Any further freedom is the body's own: there the
+frame nearest to the axes that the caller prefers is taken, and `finding` says so.
 
-Moments to sixth order may be given in coordinates of the body's own, with the rotation from there: then bodies that are
-copies of each other, turned and scaled, have the same axes, and share the search for them.
+Moments to sixth order may be given in coordinates of the body's own, with the rotation from there:
+then bodies that are copies of each other, turned and scaled, have the same axes, and share the
+search for them.
 
-The pose of a body is its center at the origin and that frame along the axes: two copies of a part, however they lie and
-whatever their faces, have one pose.
+The pose of a body is its center at the origin and that frame along the axes: two copies of a part,
+however they lie and whatever their faces, have one pose.
 """
 
 from __future__ import annotations
@@ -53,7 +55,8 @@ from .third_moment_frames import (
 NO_VALUES = np.empty(0)
 SIGN_BITS = np.array([1, 2, 4, 8])  # a bit for each of the HALF_TURN_SIGNS, set if it is allowed
 
-# Findings if the body leaves a choice: of directions, by the preferred axes, or of several equivalent frames.
+# Findings if the body leaves a choice: of directions, by the preferred axes, or of several
+# equivalent frames.
 FREE, FREE_BY_SHAPE = (
     {
         name: finding(code, axes=[axis + 1 for axis in axes])
@@ -67,13 +70,14 @@ FREE, FREE_BY_SHAPE = (
 
 @dataclass(frozen=True, eq=False)
 class PrincipalFrame:
-    """Principal moments and axes of one body; for a stack of bodies all attributes have a leading axis.
+    """Principal moments and axes of one body; for a stack of bodies all attributes have a leading
+    axis.
 
-    `moments`: (3,) principal moments of inertia, ascending.
-    `axes`: (3, 3) columns, determinant 1; axis 1 is the long one.
-    `symmetry`: "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1 and 2 equal) or "isotropic".
-    `is_unique`: True if the body alone fixes the frame; else `finding` has the choice that was made.
-    `undetermined_axes`: the axes without a fixed direction, as far as the moments show.
+    `moments`: (3,) principal moments of inertia, ascending. `axes`: (3, 3) columns, determinant 1;
+    axis 1 is the long one. `symmetry`: "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1
+    and 2 equal) or "isotropic". `is_unique`: True if the body alone fixes the frame; else `finding`
+    has the choice that was made. `undetermined_axes`: the axes without a fixed direction, as far as
+    the moments show.
     """
 
     moments: NDArray[np.float64]
@@ -103,12 +107,12 @@ class PrincipalFrame:
 
 @dataclass(frozen=True, eq=False)
 class OwnMoments:
-    """The moments to higher order of m bodies, each of them one of u shapes in coordinates of its own.
+    """The moments to higher order of m bodies, each of them one of u shapes in coordinates of its
+    own.
 
-    `moments`: (u, K) of the shapes, to order 6.
-    `shape`: (m,) the shape of each body.
-    `rotation`: (m, 3, 3) turns the shape into the body, but for its size; None if they have the same coordinates, and
-    each body is a shape of its own.
+    `moments`: (u, K) of the shapes, to order 6. `shape`: (m,) the shape of each body. `rotation`:
+    (m, 3, 3) turns the shape into the body, but for its size; None if they have the same
+    coordinates, and each body is a shape of its own.
     """
 
     moments: Moments
@@ -129,12 +133,13 @@ def principal_frame(
     moments : Moments
         To order 3 at least.
     preferred_axes : (3, 3) array_like, optional
-        A rotation with the axes to stay near to, as columns, if the body leaves a choice; by default the coordinate
-        axes.
+        A rotation with the axes to stay near to, as columns, if the body leaves a choice; by
+        default the coordinate axes.
     refine : callable, optional
         Returns the moments with exact third order; called if their bounds do not decide.
     higher : callable, optional
-        Returns the moments to order `canonical_frame.MAX_ORDER`; called if third order leaves a choice.
+        Returns the moments to order `canonical_frame.MAX_ORDER`; called if third order leaves a
+        choice.
 
     Returns
     -------
@@ -186,8 +191,9 @@ def principal_frames(
 ) -> PrincipalFrame:
     """Return the principal frames of a stack of n bodies, as `principal_frame` does for one.
 
-    The result has a leading axis; symmetry, finding and undetermined_axes are arrays of objects. `higher` returns the
-    moments of given bodies to order `canonical_frame.MAX_ORDER`; called once, if third order leaves a choice.
+    The result has a leading axis; symmetry, finding and undetermined_axes are arrays of objects.
+    `higher` returns the moments of given bodies to order `canonical_frame.MAX_ORDER`; called once,
+    if third order leaves a choice.
     """
     count = len(fixed.moments)
     symmetry = np.array(SYMMETRIES, object)[fixed.symmetry]
@@ -281,7 +287,9 @@ def _frames_of_shapes(
 
 
 def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> EquivalentFrames:
-    """Return the principal frames in which a body is the same; noise: of normalized third moments."""
+    """Return the principal frames in which a body is the same; noise: of normalized third
+    moments.
+    """
     fixed = _frames_of_body(moments, noise / NOISE_LEVEL)
     return canonical_frames(moments, fixed.spread(0), fixed.frames(0))
 
@@ -289,7 +297,9 @@ def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> Equivalen
 def _frames_of_body(
     moments: Moments, noise_factor: float = 1.0, refine: Callable[[], Moments] | None = None
 ) -> ThirdMomentFrames:
-    """Return the frames of a stack of one body, or raise MeasureError if no body can have the second moments."""
+    """Return the frames of a stack of one body, or raise MeasureError if no body can have the
+    second moments.
+    """
     refined = None if refine is None else (lambda _which: refine().at(None))
     fixed = third_moment_frames(moments.at(None), refined, noise_factor)
     if not fixed.is_body[0]:
@@ -301,7 +311,10 @@ def _frames_of_body(
 
 
 def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDArray[np.float64]:
-    """Return the equivalent frame nearest to the preferred axes. Both are (3, 3), with the axes as columns."""
+    """Return the equivalent frame nearest to the preferred axes.
+
+    Both are (3, 3), with the axes as columns.
+    """
     free = undetermined_axes(equivalent.revolution_axes)
     frames = complete_free_axes(equivalent.frames, free, preferred_axes)
     return nearest_frames(frames[None], preferred_axes[None], equivalent.tilt)[0]
@@ -317,10 +330,12 @@ def undetermined_axes(revolution_axes: tuple[int, ...]) -> tuple[int, ...]:
 def zhang_chen_frame(
     moments: Moments, refine: Callable[[], Moments] | None = None
 ) -> PrincipalFrame:
-    """Return the frame by Zhang and Chen's rule (ICIP 2001, eq. 11): axes 1 and 2 point along positive M_300 and M_030.
+    """Return the frame by Zhang and Chen's rule (ICIP 2001, eq. 11): axes 1 and 2 point along
+    positive M_300 and M_030.
 
-    Axis 3 completes a right-handed frame. moments, to order 3 at least, and refine are as for `principal_frame`.
-    MeasureError if one of the two moments is noise, or second moments are equal: the rule has no answer there.
+    Axis 3 completes a right-handed frame. moments, to order 3 at least, and refine are as for
+    `principal_frame`. MeasureError if one of the two moments is noise, or second moments are equal:
+    the rule has no answer there.
     """
     check_type("moments", moments, Moments)
     fixed = _frames_of_body(moments)

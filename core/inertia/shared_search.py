@@ -2,16 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frames of many bodies at once: the search of `canonical_frame`, and the choice of half turns.
 
-Equal bodies with equal second moments share one search for their axes. The search takes their normalized moments, in
-coordinates in which each extent is one, rounded to a tenth of the noise level. Copies whose coordinates differ by
-rounding have mostly the same rounded moments, and the solution is remembered; it depends on the body alone, not on
-earlier measurements. The frames are then refined for the body's own moments: Newton's steps refine the directions of
-extreme moments, and the phase of the harmonic that fixed the turns about them refines these turns.
+Equal bodies with equal second moments share one search for their axes. The search takes their
+normalized moments, in coordinates in which each extent is one, rounded to a tenth of the noise
+level. Copies whose coordinates differ by rounding have mostly the same rounded moments, and the
+solution is remembered; it depends on the body alone, not on earlier measurements. The frames are
+then refined for the body's own moments: Newton's steps refine the directions of extreme moments,
+and the phase of the harmonic that fixed the turns about them refines these turns.
 
-Two kinds of bodies need no search: if only the signs of axes are left to choose, and if no moment fixes the turn about
-an axis. A frame turned by half a turn about one of its axes has the same normalized moments, except for the signs of
-the moments that are odd in both other axes. So among frames that differ by half turns, the first moment above noise of
-each odd kind decides which have the largest moments.
+Two kinds of bodies need no search: if only the signs of axes are left to choose, and if no moment
+fixes the turn about an axis. A frame turned by half a turn about one of its axes has the same
+normalized moments, except for the signs of the moments that are odd in both other axes. So among
+frames that differ by half turns, the first moment above noise of each odd kind decides which have
+the largest moments.
 """
 
 from __future__ import annotations
@@ -53,10 +55,12 @@ LEAST_BOUND = (
     2.0**-30
 )  # least bound; larger ones are rounded up to three binary digits, so that copies agree
 MAX_KNOWN = 1024  # problems that are remembered
-MAX_TAIL = 4.0  # times NOISE_GROWTH: for larger moments, as of spikes, rounding turns axes by more than noise
+# times NOISE_GROWTH: for larger moments, as of spikes, rounding turns axes by more than noise
+MAX_TAIL = 4.0
 MAX_CORRECTION = 1e-4  # a body whose frames a refinement turns by more is searched alone
 REFINEMENTS = 2  # each squares the error, at first the grid's 1e-6
-CONVERGED = 1e-9  # A body whose directions turn by less is refined: another step would move them by rounding alone.
+# A body whose directions turn by less is refined: another step would move them by rounding alone.
+CONVERGED = 1e-9
 NO_VALUES = np.empty(0)
 IDENTITY = np.eye(3)[None]
 THIRD = monomial_count(2)  # index of the first moment of third order
@@ -66,9 +70,11 @@ STEP = GRID * np.array(NOISE_GROWTH)[DEGREE[THIRD:]]
 BELOW_THIRD = np.where(
     (POWERS[:THIRD] % 2 == 0).all(axis=1), 1.0, 0.0
 )  # for a body with extents of one
-# By the parity of p, q and r: 0 if half turns change no sign, else 1 to 3 for the exponent of other parity.
+# By the parity of p, q and r: 0 if half turns change no sign, else 1 to 3 for the exponent of other
+# parity.
 ODD_KIND = np.array([[[0, 3], [2, 1]], [[1, 2], [3, 0]]])
-# Signs of the moments of each such kind after no half turn, and after half turns about axes 1, 2 and 3.
+# Signs of the moments of each such kind after no half turn, and after half turns about axes 1, 2
+# and 3.
 HALF_TURN_PARITY = np.array(
     [[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]]
 )
@@ -77,7 +83,9 @@ HALF_TURN_PARITY = np.array(
 def shared_frames(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> list[EquivalentFrames]:
-    """Find `canonical_frames`, without values, of the bodies (indices) with two or three equal second moments."""
+    """Find `canonical_frames`, without values, of the bodies (indices) with two or three equal
+    second moments.
+    """
     check_range(moments, fixed.size[bodies])
     found: list[EquivalentFrames | None] = [None] * len(bodies)
     symmetry = fixed.symmetry[bodies]
@@ -97,7 +105,9 @@ def shared_frames(
 def _frames_alike(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], name: str
 ) -> list[EquivalentFrames | None]:
-    """Return the frames of bodies of one symmetry; None for bodies that have to be searched one by one."""
+    """Return the frames of bodies of one symmetry; None for bodies that have to be searched one by
+    one.
+    """
     axis = FIXED_AXIS.get(name)
     basis = (
         _bases(fixed.axes[bodies, :, axis], axis)
@@ -145,7 +155,9 @@ def _frames_alike(
 def _search(
     name: str, noise: float, ways: int, cells: bytes, bound: bytes, step: float, tilt: float
 ) -> EquivalentFrames:
-    """Return the frames of a body with these rounded moments. ways: of its fixed axis, coded as by `_ways`."""
+    """Return the frames of a body with these rounded moments. ways: of its fixed axis, coded as by
+    `_ways`.
+    """
     raw = np.concatenate([BELOW_THIRD, STEP * np.frombuffer(cells, np.int32)])
     central = Moments(raw, np.zeros(3), Measure.MASS, np.frombuffer(bound)[DEGREE])
     starts = np.eye(3)[None]
@@ -172,7 +184,9 @@ def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
 
 
 def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
-    """Return (n,) codes of the directions in which the bodies' fixed axes may point: 1 ahead, 2 back, 3 both."""
+    """Return (n,) codes of the directions in which the bodies' fixed axes may point: 1 ahead, 2
+    back, 3 both.
+    """
     allowed = fixed.allowed[bodies]
     ahead = HALF_TURN_SIGNS[:, axis] > 0.0
     return np.asarray(allowed[:, ahead].any(axis=1) + 2 * allowed[:, ~ahead].any(axis=1), np.intp)
@@ -181,7 +195,9 @@ def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDAr
 def _whitened(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (n, K) central moments along (n, 3, 3) axes, divided by total and extents; bounds by degree; extents."""
+    """Return (n, K) central moments along (n, 3, 3) axes, divided by total and extents; bounds by
+    degree; extents.
+    """
     central = moments.about_center()
     free = list(EQUAL_AXES[name])
     extent = fixed.size[bodies].copy()
@@ -210,7 +226,9 @@ def _rounded_up(values: NDArray) -> NDArray[np.float64]:
 def _refined(
     frames: NDArray[np.float64], rule: FrameRule, raw: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return (n, k, 3, 3) frames turned by the rule for moments (n, K), and (n,) whether they hardly turned."""
+    """Return (n, k, 3, 3) frames turned by the rule for moments (n, K), and (n,) whether they
+    hardly turned.
+    """
     start = frames
     frames = frames[None].repeat(len(raw), 0)
     third = rule.axis
@@ -239,7 +257,9 @@ def _refined(
 
 
 def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
-    """Return (n, k, 3) directions near the points in which the moments of a degree are extreme, by Newton's method."""
+    """Return (n, k, 3) directions near the points in which the moments of a degree are extreme, by
+    Newton's method.
+    """
     is_moving = np.ones((len(points), 1, 1), bool)
     for _ in range(REFINEMENTS):
         twice = _contracted(raw, [points] * (degree - 2), degree)
@@ -257,7 +277,9 @@ def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
 
 
 def _contracted(raw: NDArray, forms: list[NDArray], degree: int | None = None) -> NDArray:
-    """Return (n, k, ...) moment tensors contracted with forms (n, k, 3); degree: by default the number of forms."""
+    """Return (n, k, ...) moment tensors contracted with forms (n, k, 3); degree: by default the
+    number of forms.
+    """
     out = np.einsum("n...i,nki->nk...", raw[:, tensor_index(degree or len(forms))], forms[0])
     for form in forms[1:]:
         out = np.einsum("nk...i,nki->nk...", out, form)
@@ -267,7 +289,9 @@ def _contracted(raw: NDArray, forms: list[NDArray], degree: int | None = None) -
 def choose_half_turns(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> NDArray[np.bool_]:
-    """Return the (n, 4) HALF_TURN_SIGNS that `canonical_frames` chooses for bodies without axes of equal moments."""
+    """Return the (n, 4) HALF_TURN_SIGNS that `canonical_frames` chooses for bodies without axes of
+    equal moments.
+    """
     values, least, _ = _along_axes(moments, fixed, bodies)
     return _choose(values, least, fixed.allowed[bodies])
 
@@ -277,9 +301,9 @@ def choose_about_axis(
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Choose the half turns as `canonical_frames` does, for bodies with two axes of equal moments.
 
-    Return an (n,) mask of the bodies whose moments do not fix the directions of these two axes, and an (n, 4) mask of
-    half turns, at most one for each direction of the third axis. The half turns hold for the masked bodies only; the
-    other bodies have to be searched one by one.
+    Return an (n,) mask of the bodies whose moments do not fix the directions of these two axes, and
+    an (n, 4) mask of half turns, at most one for each direction of the third axis. The half turns
+    hold for the masked bodies only; the other bodies have to be searched one by one.
     """
     values, least, raw = _along_axes(moments, fixed, bodies)
     is_round = np.ones(len(bodies), bool)
@@ -301,7 +325,9 @@ def choose_about_axis(
 
 
 def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return an (n, 4) mask of the allowed half turns with the largest (n, columns) moments, equal within `least`."""
+    """Return an (n, 4) mask of the allowed half turns with the largest (n, columns) moments, equal
+    within `least`.
+    """
     kind = ODD_KIND[tuple(monomials(order_from_count(THIRD + values.shape[1]))[THIRD:].T % 2)]
     clear = (2.0 * np.abs(values) > least)[:, None] & (
         kind == np.arange(1, 4)[:, None]
@@ -321,7 +347,9 @@ def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDAr
 def _along_axes(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Return (n, columns) normalized moments of order ≥ 3 along the axes, their noise, and (n, K) central moments."""
+    """Return (n, columns) normalized moments of order ≥ 3 along the axes, their noise, and (n, K)
+    central moments.
+    """
     central = moments.about_center()
     order = central.order
     total = central.raw[:, :1]
@@ -343,11 +371,12 @@ def _along_axes(
 def _harmonics(
     axis: int, order: int
 ) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
-    """Return the harmonics E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0.
+    """Return the harmonics E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order`
+    with m > 0.
 
-    z is along this axis, x and y along the next. Return three arrays. The noise of each harmonic is a factor, (h,),
-    times the noise of a moment, whose column from third order on is in the second array, (h,). The third has (h,
-    columns) coefficients.
+    z is along this axis, x and y along the next. Return three arrays. The noise of each harmonic is
+    a factor, (h,), times the noise of a moment, whose column from third order on is in the second
+    array, (h,). The third has (h, columns) coefficients.
     """
     weights = []
     columns = []

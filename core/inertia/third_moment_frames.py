@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Principal frames of a stack of bodies, as far as second and third moments fix them.
 
-The axes are the eigenvectors of the central second moments, largest first. An axis is scored by its skewness, or if
-that is noise by the other third moments odd in that axis only; the two axes with the clearest scores turn positive and
-the third completes a right-handed frame. Among frames that are left, the nearest to preferred axes is chosen.
+The axes are the eigenvectors of the central second moments, largest first. An axis is scored by its
+skewness, or if that is noise by the other third moments odd in that axis only; the two axes with
+the clearest scores turn positive and the third completes a right-handed frame. Among frames that
+are left, the nearest to preferred axes is chosen.
 """
 
 from __future__ import annotations
@@ -77,7 +78,9 @@ class ThirdMomentFrames:
         return SecondMomentAxes(self.axes[i], self.size[i], self.free(i), step, tilt, self.noise)
 
     def frames(self, i: int) -> NDArray[np.float64]:
-        """Return the (k, 3, 3) right-handed frames of one body that third moments allow: signs of its axes."""
+        """Return the (k, 3, 3) right-handed frames of one body that third moments allow: signs of
+        its axes.
+        """
         return self.axes[i] * HALF_TURN_SIGNS[self.allowed[i], None]
 
 
@@ -87,10 +90,11 @@ def third_moment_frames(
     refine: Callable[[NDArray[np.intp]], Moments] | None = None,
     noise_factor: float = 1.0,
 ) -> ThirdMomentFrames:
-    """Find the frames, as far as second and third moments fix them, of n bodies with positive totals.
+    """Find the frames, as far as second and third moments fix them, of n bodies with positive
+    totals.
 
-    The moments are to order 3 at least. `refine` returns the moments with exact third order of given bodies; it is
-    called if bounds do not decide. `noise_factor` multiplies NOISE_LEVEL.
+    The moments are to order 3 at least. `refine` returns the moments with exact third order of
+    given bodies; it is called if bounds do not decide. `noise_factor` multiplies NOISE_LEVEL.
     """
     total = moments.raw[:, 0]
     shift = moments.raw[:, 1:4] / total[:, None]
@@ -114,7 +118,8 @@ def third_moment_frames(
     size = np.sqrt(
         np.maximum(spread, 1e-30 * spread[:, :1])
     )  # a lamina has no extent along an axis, and no skewness
-    # Shift of the points by float32: the share of the volume that this moves, times the thinnest extent.
+    # Shift of the points by float32: the share of the volume that this moves, times the thinnest
+    # extent.
     step = moments.input_error[:, 0] / total * size[:, 2]
     gaps = spread[:, :2] - spread[:, 1:]
     doubtful = (2.0 * step)[:, None] * size[:, :2] + rounding[:, None]
@@ -198,7 +203,9 @@ def _are_decided(
 def _third_scores(
     moments: Moments, shift: NDArray, size: NDArray, axes: NDArray, symmetry: NDArray[np.intp]
 ) -> tuple[NDArray, NDArray]:
-    """Return (n, 3, 3) normalized M_iii, M_ijj, M_ikk of axes i (means if j and k are free), and error bounds."""
+    """Return (n, 3, 3) normalized M_iii, M_ijj, M_ikk of axes i (means if j and k are free), and
+    error bounds.
+    """
     count = len(shift)
     total = moments.raw[:, 0]
     second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
@@ -233,7 +240,9 @@ def _third_scores(
 
 
 def _allowed_signs(scores: NDArray, unsure: NDArray) -> NDArray[np.bool_]:
-    """Return an (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores; (n,) `unsure` is their noise."""
+    """Return an (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores; (n,) `unsure` is
+    their noise.
+    """
     size = np.abs(scores)
     counts = scores != 0.0
     # The weakest of three is dropped; the last of equal ones.
@@ -246,13 +255,16 @@ def _allowed_signs(scores: NDArray, unsure: NDArray) -> NDArray[np.bool_]:
 def align_frames(
     frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> NDArray[np.float64]:
-    """Return (m, k, 3, 3) frames, turned so that their axes fixed by second moments lie along the bodies' axes."""
+    """Return (m, k, 3, 3) frames, turned so that their axes fixed by second moments lie along the
+    bodies' axes.
+    """
     is_fixed = IS_FIXED[fixed.symmetry[bodies]]
     if not is_fixed.any():
         return frames
     along = np.einsum("mai,mkai->mki", fixed.axes[bodies], frames)
     near = fixed.axes[bodies][:, None] * np.sign(along)[:, :, None]
-    # a frame stays if its axes were found among equal moments but the body's are not, or the other way round
+    # a frame stays if its axes were found among equal moments but the body's are not, or the other
+    # way round
     alike = ~is_fixed | (np.abs(along) > MIN_ALIGNED_COSINE).all(axis=1)
     is_fixed = is_fixed & alike.all(axis=1, keepdims=True)
     frames = np.where(is_fixed[:, None, None], near, frames)
@@ -272,7 +284,9 @@ def align_frames(
 def complete_free_axes(
     frames: NDArray, free: tuple[int, ...], preferred_axes: NDArray
 ) -> NDArray[np.float64]:
-    """Return the (..., 3, 3) frames with their free axes, if any, turned nearest to the preferred ones."""
+    """Return the (..., 3, 3) frames with their free axes, if any, turned nearest to the preferred
+    ones.
+    """
     if not free:
         return frames
     shape = np.broadcast_shapes(frames.shape, preferred_axes.shape)
@@ -282,7 +296,8 @@ def complete_free_axes(
     first, second = free
     completed = np.array(np.broadcast_to(frames, shape))
     fixed = completed[..., 3 - first - second]
-    # (first, second, fixed) is right-handed for both pairs: maximize first·p1 + (fixed x first)·p2 over the plane.
+    # (first, second, fixed) is right-handed for both pairs: maximize first·p1 + (fixed x first)·p2
+    # over the plane.
     wish = _across(
         preferred_axes[..., first] + cross_rows(preferred_axes[..., second], fixed), fixed
     )
@@ -307,11 +322,12 @@ def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
 def nearest_frames(
     candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
 ) -> NDArray[np.float64]:
-    """Return (m, 3, 3) frames, one of each row of (m, k, 3, 3) candidates, nearest to the (m, 3, 3) preferred axes.
+    """Return (m, 3, 3) frames, one of each row of (m, k, 3, 3) candidates, nearest to the (m, 3, 3)
+    preferred axes.
 
-    Among equally near frames the choice is the frame whose axes, in order, point along the preferred axes rather than
-    against them, so that noise cannot flip it. tilt: the angle by which noise may have turned the candidates, one or
-    (m,).
+    Among equally near frames the choice is the frame whose axes, in order, point along the
+    preferred axes rather than against them, so that noise cannot flip it. tilt: the angle by which
+    noise may have turned the candidates, one or (m,).
     """
     if candidates.shape[1] == 1:
         return candidates[:, 0] + 0.0

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Construction of every `Measurement` from a body, or from arrays: mass properties, frame and error bounds."""
+"""Construction of every `Measurement` from a body, or from arrays: mass properties, frame and error
+bounds.
+"""
 
 from __future__ import annotations
 
@@ -61,7 +63,9 @@ def build_measurement(
     estimated: bool = False,
     **fields: Any,
 ) -> Measurement:
-    """Return a measurement with volume, area and bounds from the moments and properties; other fields as given."""
+    """Return a measurement with volume, area and bounds from the moments and properties; other
+    fields as given.
+    """
     rounding = mass_properties.rounding_error
     moved = mass_properties.input_error
     known: dict[str, Any] = {"volume_moments": volume, "area_moments": area}
@@ -81,7 +85,9 @@ def build_measurement(
 def measure_body(
     body: Body, settings: Settings, *, findings: tuple[Finding, ...] = (), **fields: Any
 ) -> Measurement:
-    """Return the measurement of a body, with moments to an order; fields: name, type, frame, fingerprint."""
+    """Return the measurement of a body, with moments to an order; fields: name, type, frame,
+    fingerprint.
+    """
     shell = settings.kind == "shell"
     wire = settings.kind == "wire"
     thin = _is_thin(body, settings)
@@ -148,11 +154,12 @@ def measure_total(
     health: MeshHealth | None = None,
     **fields: Any,
 ) -> Measurement:
-    """Return the measurement of several bodies from the sum of their mass moments, in kg, to third order, world axes.
+    """Return the measurement of several bodies from the sum of their mass moments, in kg, to third
+    order, world axes.
 
-    `volume`, m³, and `area`, m², come with their bounds. `rotation` (3, 3), axes as columns, belongs to the frame in
-    which the results are stored. Raise MeasureError if no mass is certain, or if the second moments are impossible for
-    a body.
+    `volume`, m³, and `area`, m², come with their bounds. `rotation` (3, 3), axes as columns,
+    belongs to the frame in which the results are stored. Raise MeasureError if no mass is certain,
+    or if the second moments are impossible for a body.
     """
     return build_measurement(
         density=mass.total / volume[0] if volume[0] > 0.0 else 0.0,
@@ -172,7 +179,9 @@ def measure_total(
 def find_large_bounds(
     volume: Moments, area: Moments, properties: MassProperties
 ) -> list[tuple[Finding, ...]]:
-    """Return for each of n stacked bodies the findings about error bounds that are large for its values."""
+    """Return for each of n stacked bodies the findings about error bounds that are large for its
+    values.
+    """
     errors = (properties.rounding_error, properties.input_error)
     principal = properties.principal.moments.reshape(-1, 3)
     inertia, center = (
@@ -217,7 +226,9 @@ def add_extents(extents: list[Extent]) -> Extent:
 
 
 def find_extent(body: Body, settings: Settings) -> Moments:
-    """Return the moments of volume, sheet, wall or length that density multiplies; ReadError if they are zero."""
+    """Return the moments of volume, sheet, wall or length that density multiplies; ReadError if
+    they are zero.
+    """
     if body.length is not None:
         return body.length
     volume = (
@@ -256,7 +267,9 @@ def _weigh(body: Body, measured: Moments, settings: Settings) -> tuple[Moments, 
 
 
 def _higher(body: Body, shell: bool) -> Callable[[], Moments | OwnMoments] | None:
-    """Return a function that computes higher moments for the principal frame, None if they are unknown."""
+    """Return a function that computes higher moments for the principal frame, None if they are
+    unknown.
+    """
     if (
         not body.any_order
         or body.mass is not None
@@ -277,7 +290,9 @@ def _higher(body: Body, shell: bool) -> Callable[[], Moments | OwnMoments] | Non
 
 
 def _to_order(body: Body, settings: Settings, order: int) -> tuple[Moments | None, Moments] | None:
-    """Return moments of volume and area to an order; None if the body's own suffice; ReadError if they are unknown."""
+    """Return moments of volume and area to an order; None if the body's own suffice; ReadError if
+    they are unknown.
+    """
     shell = settings.kind == "shell"
     if order < KNOWN_ORDER and (shell or not settings.surface):
         return None
@@ -306,7 +321,9 @@ def _bounds(volume: NDArray, area: NDArray, of_mass: dict[str, float]) -> dict[s
 
 
 def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
-    """Return the mass properties of moments in kg; if all mass is at a point, zero inertia and no unique axes."""
+    """Return the mass properties of moments in kg; if all mass is at a point, zero inertia and no
+    unique axes.
+    """
     if not mass.total > 0.0:  # A bone of flat faces alone; from_moments refuses it.
         return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
     central = mass.truncate(2).about_center()
@@ -327,7 +344,7 @@ def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
             False,
             finding(AXES_FREE, axes=[1, 2, 3]),
         ),
-        rounding_error={**bounds, "inertia": float(central.rounding_error[4:].sum())},
+        rounding_error=(bounds | {"inertia": float(central.rounding_error[4:].sum())}),
         input_error={"mass": 0.0, "center": 0.0, "inertia": float(central.input_error[4:].sum())},
     )
 
@@ -352,7 +369,8 @@ class _SurfaceBody(Body):
 def mass_properties(points: ArrayLike, triangles: ArrayLike, *, density: float) -> Measurement:
     """Measure the solid that triangles bound: mass, center, inertia, axes, bounds and findings.
 
-    Holes are capped and flipped faces turned on a copy, and both are reported, as for objects in Blender.
+    Holes are capped and flipped faces turned on a copy, and both are reported, as for objects in
+    Blender.
 
     Parameters
     ----------
@@ -366,7 +384,8 @@ def mass_properties(points: ArrayLike, triangles: ArrayLike, *, density: float) 
     Returns
     -------
     Measurement
-        `mass_properties` has mass, center, inertia about the center and principal axes; `method` tells how.
+        `mass_properties` has mass, center, inertia about the center and principal axes; `method`
+        tells how.
 
     Raises
     ------
@@ -376,9 +395,10 @@ def mass_properties(points: ArrayLike, triangles: ArrayLike, *, density: float) 
     Examples
     --------
     >>> from body_moments.core import mass_properties
-    >>> corners = np.eye(4, 3, -1)
-    >>> body = mass_properties(corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], density=6000.0)
-    >>> str(body.method), round(body.mass_properties.mass, 9), body.mass_properties.center.round(9).tolist()
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> body = mass_properties(np.eye(4, 3, -1), faces, density=6000.0)
+    >>> found = body.mass_properties
+    >>> str(body.method), round(found.mass, 9), found.center.round(9).tolist()
     ('exact', 1000.0, [0.25, 0.25, 0.25])
     """
     solid = measure_solid(Surface.from_triangles(points, triangles))

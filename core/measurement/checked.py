@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Documents read from files, checked once, so that commands can rely on their shape.
 
-The shape is that of `docs/record.schema.json`, as far as commands use it; other entries may hold anything. Standard
-library only.
+The shape is that of `docs/record.schema.json`, as far as commands use it; other entries may hold
+anything. Standard library only.
 """
 
 from __future__ import annotations
@@ -18,15 +18,16 @@ from .documents import SCHEMA
 MAX_DEPTH = 50  # of nested lists and objects, so that no later step nests too many calls
 _MAX_WHOLE = 1 << 128  # Products of several whole numbers still fit into float64.
 
-# A dict is an object with these entries: optional ones have a “?”, patterns stand for any number of entries. A list
-# with one shape is a list of any length, with more shapes one of that length. A tuple allows null, as does `float`.
+# A dict is an object with these entries: optional ones have a “?”, patterns stand for any number of
+# entries. A list with one shape is a list of any length, with more shapes one of that length. A
+# tuple allows null, as does `float`.
 _VECTOR = [float] * 3
 _TENSOR = [_VECTOR] * 3
 _TEXTS = {"warnings": [str], "notes": [str]}
 _FINDINGS = {"findings": [{"code": str, "severity": str, "message": str, "values": dict}], **_TEXTS}
 _POWERS = {re.compile(r"[0-9]{1,3}(,[0-9]{1,3})*"): float}
 _DOMAINS = {name + "?": _POWERS for name in ("volume", "surface", "length", "mass", "area")}
-_MOMENTS = {**_DOMAINS, "error?": _DOMAINS, "input?": _DOMAINS}
+_MOMENTS = _DOMAINS | {"error?": _DOMAINS, "input?": _DOMAINS}
 _BOUNDED = (
     "volume",
     "area",
@@ -41,61 +42,50 @@ _BOUNDS = {name + "?": float for name in _BOUNDED}
 _RECORD = {
     **{name: str for name in ("name", "type", "kind", "method")},
     **{name: float for name in ("density", "mass", "volume", "area")},
-    **{
-        "verdict?": str,
-        **{name + "?": float for name in ("length", "linear_density", "thickness")},
-    },
-    **{
-        "center_of_mass": _VECTOR,
-        "inertia": _TENSOR,
-        "principal_moments": _VECTOR,
-        "principal_axes": _TENSOR,
-    },
-    **{
-        "inertia_about?": {"point": _VECTOR, "inertia": _TENSOR},
-        "moments?": _MOMENTS,
-        "display_mesh?": dict,
-    },
-    **{
-        "pose?": ({"matrix": [[float] * 4] * 4, "unique": bool, "symmetry": (str,)},),
-        "signature?": (dict,),
-    },
-    **{"health": dict, "error_bound": ({**_BOUNDS, "input?": (_BOUNDS,)},), **_FINDINGS},
+    "verdict?": str,
+    **{name + "?": float for name in ("length", "linear_density", "thickness")},
+    "center_of_mass": _VECTOR,
+    "inertia": _TENSOR,
+    "principal_moments": _VECTOR,
+    "principal_axes": _TENSOR,
+    "inertia_about?": {"point": _VECTOR, "inertia": _TENSOR},
+    "moments?": _MOMENTS,
+    "display_mesh?": dict,
+    "pose?": ({"matrix": [[float] * 4] * 4, "unique": bool, "symmetry": (str,)},),
+    "signature?": (dict,),
+    "health": dict,
+    "error_bound": ((_BOUNDS | {"input?": (_BOUNDS,)}),),
+    **_FINDINGS,
 }
 _FLAT = {
-    **{
-        "name": str,
-        "type": str,
-        "area": float,
-        "centroid": _VECTOR,
-        "signature?": (dict,),
-        "moments?": _MOMENTS,
-    },
-    **{
-        "plane": {"x": _VECTOR, "y": _VECTOR, "normal": _VECTOR},
-        "second_moments": {re.compile("xx|yy|xy"): float},
-    },
+    "name": str,
+    "type": str,
+    "area": float,
+    "centroid": _VECTOR,
+    "signature?": (dict,),
+    "moments?": _MOMENTS,
+    "plane": {"x": _VECTOR, "y": _VECTOR, "normal": _VECTOR},
+    "second_moments": {re.compile("xx|yy|xy"): float},
     "invariants?": [
         {"name": str, "real": float, "imaginary": float, "error": float, "input": float}
     ],
-    **{"error_bound": {**_BOUNDS, "input": _BOUNDS}, **_FINDINGS},
+    "error_bound": (_BOUNDS | {"input": _BOUNDS}),
+    **_FINDINGS,
 }
 _REASONS = [{"name": (str,), "reason": str}]
 _DOCUMENT = {
-    **{
-        "run?": {"addon": str, "options": dict},
-        "blender": (str,),
-        "total?": {"findings?": _FINDINGS["findings"]},
-    },
-    **{
-        "file": (str,),
-        "status": str,
-        "frame": str,
-        "objects": [_RECORD],
-        "flat?": [_FLAT],
-        "assemblies?": [_RECORD],
-    },
-    **{"bones?": [{"armature": str, **_RECORD}], "left_out": _REASONS, "errors": _REASONS},
+    "run?": {"addon": str, "options": dict},
+    "blender": (str,),
+    "total?": {"findings?": _FINDINGS["findings"]},
+    "file": (str,),
+    "status": str,
+    "frame": str,
+    "objects": [_RECORD],
+    "flat?": [_FLAT],
+    "assemblies?": [_RECORD],
+    "bones?": [{"armature": str, **_RECORD}],
+    "left_out": _REASONS,
+    "errors": _REASONS,
 }
 _NAMES = {
     dict: "an object",
@@ -107,7 +97,9 @@ _NAMES = {
 
 
 class _WrongError(ValueError):
-    """A value of another shape than expected. path: the keys and indices that lead to it, the innermost first."""
+    """A value of another shape than expected. path: the keys and indices that lead to it, the
+    innermost first.
+    """
 
     def __init__(self, message: str) -> None:
         super().__init__(message)
@@ -118,7 +110,10 @@ class _WrongError(ValueError):
 
 
 def parse_json(text: str, line: int = 1) -> Any:
-    """Return the content of a JSON text with finite numbers. ValueError if it is no such text. line: its first line."""
+    """Return the content of a JSON text with finite numbers.
+
+    ValueError if it is no such text. line: its first line.
+    """
     try:
         return json.loads(text, parse_constant=_not_finite, parse_float=_finite)
     except json.JSONDecodeError as error:
@@ -129,7 +124,9 @@ def parse_json(text: str, line: int = 1) -> Any:
 
 
 def check_document(document: Any) -> None:
-    """Raise ValueError, with the place in the document, if it has not the shape of a document of this program."""
+    """Raise ValueError, with the place in the document, if it has not the shape of a document of
+    this program.
+    """
     _check(document, {"schema": str})
     if document["schema"] != SCHEMA:
         raise ValueError("schema is {}, not {}".format(document["schema"], SCHEMA))

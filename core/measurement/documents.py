@@ -4,8 +4,9 @@
 
 A public contract, `body-moments/1`.
 
-A document is the result of one file: one record for each object, their total, and the objects that could not be
-measured. Nothing here needs numpy or Blender, so that a process that only gathers results can write documents, too.
+A document is the result of one file: one record for each object, their total, and the objects that
+could not be measured. Nothing here needs numpy or Blender, so that a process that only gathers
+results can write documents, too.
 """
 
 from __future__ import annotations
@@ -32,8 +33,9 @@ FLAT_SPECTRUM_ARRAYS = (
     "origin",
 )  # Additional arrays of a flat shape: its plane in the world.
 
-# An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break, so none matches.
-# Patterns are compiled at their first use: registration reads the constants of this module alone.
+# An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break,
+# so none matches. Patterns are compiled at their first use: registration reads the constants of
+# this module alone.
 _NUMBER_ROWS = r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|null))*)\n\s*\]"
 
 # Beginnings of formulas, as OWASP lists them, or an apostrophe of the text itself.
@@ -41,7 +43,9 @@ _FORMULA = r"['\t\r\n]|\s*[=+\-@\uff1d\uff0b\uff0d\uff20]"
 
 
 def plain(value: Any) -> Any:
-    """Return a value as JSON can hold it: arrays as lists, keys as text, and None for numbers that are not finite."""
+    """Return a value as JSON can hold it: arrays as lists, keys as text, and None for numbers that
+    are not finite.
+    """
     if hasattr(value, "tolist"):  # an array, or a number of one
         value = value.tolist()
     if isinstance(value, dict):
@@ -67,9 +71,9 @@ def document(
 ) -> dict[str, Any]:
     """Return the document of one file, with the objects sorted by name.
 
-    `file` is None for a scene that was never saved. errors, left_out: names and reasons of objects that could not be
-    measured, or were excluded. status: one of `STATUSES`, by default according to the errors. run: the add-on's
-    version and the given options, None outside of the command line.
+    `file` is None for a scene that was never saved. errors, left_out: names and reasons of objects
+    that could not be measured, or were excluded. status: one of `STATUSES`, by default according to
+    the errors. run: the add-on's version and the given options, None outside of the command line.
     """
     errors = list(errors)
     if frame != "world":
@@ -89,7 +93,9 @@ def document(
 
 
 def failed_document(file: str, reason: str, status: str, **values: Any) -> dict[str, Any]:
-    """Return the document of a file that was not measured; values: of `document`, such as `blender` and `frame`."""
+    """Return the document of a file that was not measured; values: of `document`, such as `blender`
+    and `frame`.
+    """
     total: dict[str, Any] = {"mass": 0.0, "volume": 0.0, "area": 0.0}
     total |= dict.fromkeys(
         ("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry")
@@ -100,7 +106,9 @@ def failed_document(file: str, reason: str, status: str, **values: Any) -> dict[
 
 
 def radius_of_gyration(record: dict[str, Any]) -> float | None:
-    """Return the radius of gyration of a body's record in m, or None without a positive mass and known moments."""
+    """Return the radius of gyration of a body's record in m, or None without a positive mass and
+    known moments.
+    """
     mass = record["mass"]
     moments = record["principal_moments"]
     if not mass or not moments or None in moments:
@@ -110,7 +118,9 @@ def radius_of_gyration(record: dict[str, Any]) -> float | None:
 
 
 def bound_of(record: dict[str, Any], name: str) -> float | None:
-    """Return the error bound of a record's number, rounding plus input, or None if neither is known."""
+    """Return the error bound of a record's number, rounding plus input, or None if neither is
+    known.
+    """
     bounds = record["error_bound"] or {}
     known = [
         one for one in (bounds.get(name), (bounds.get("input") or {}).get(name)) if one is not None
@@ -129,7 +139,9 @@ def count_findings(document: dict[str, Any]) -> Counter[tuple[str, str]]:
 
 
 def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield the text of one document, or of an array of several, indented, with each row of numbers on one line."""
+    """Yield the text of one document, or of an array of several, indented, with each row of numbers
+    on one line.
+    """
     waiting, several = "", False
     for number, entry in enumerate(documents):
         text = json.dumps(entry, indent=2, ensure_ascii=False, allow_nan=False)
@@ -157,11 +169,12 @@ def to_json_lines(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     """Yield a header and one row for each object; `documents` is iterated twice.
 
-    Unmeasured objects have a row too, with the reason under `error`, and so do excluded ones, with the reason under
-    `left_out`.
+    Unmeasured objects have a row too, with the reason under `error`, and so do excluded ones, with
+    the reason under `left_out`.
 
-    Spreadsheets take text that begins with =, +, -, @ and the like for a formula. Such text gets an apostrophe before
-    it, and so does text that begins with one: a reader removes one apostrophe from the start of a text.
+    Spreadsheets take text that begins with =, +, -, @ and the like for a formula. Such text gets an
+    apostrophe before it, and so does text that begins with one: a reader removes one apostrophe
+    from the start of a text.
     """
     names = dict.fromkeys(_COLUMNS)
     for row in _csv_rows(documents):
@@ -171,7 +184,9 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield CSV with these columns, a row for each mapping, escaped as in `to_csv`; missing entries stay empty."""
+    """Yield CSV with these columns, a row for each mapping, escaped as in `to_csv`; missing entries
+    stay empty.
+    """
     yield _line(header)
     for row in rows:
         yield _line(_cell(row.get(name, "")) for name in header)
@@ -182,25 +197,26 @@ def _csv_rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
         place = {"file": file_document["file"], "frame": file_document["frame"]}
         for name in ("objects", "assemblies", "bones"):
             for entry in file_document.get(name, ()):
-                yield {**place, **_columns(entry)}
+                yield (place | _columns(entry))
         for entry in file_document.get("flat", ()):
-            yield {**place, **_flat_columns(entry)}
+            yield (place | _flat_columns(entry))
         for column, entries in (
             ("left_out", file_document["left_out"]),
             ("error", file_document["errors"]),
         ):
             for entry in entries:
-                yield {**place, "name": entry["name"], column: entry["reason"]}
+                yield (place | {"name": entry["name"], column: entry["reason"]})
 
 
 _COLUMNS = (
-    "file", "frame", "name", "type", "kind", "verdict", "method", "density", "mass", "volume", "area",
+    *("file", "frame", "name", "type", "kind", "verdict", "method"),
+    *("density", "mass", "volume", "area"),
     *(f"center_of_mass_{axis}" for axis in "xyz"),
     *(f"inertia_{name}" for name, *_ in TENSOR),
     *(f"principal_moment_{number}" for number in (1, 2, 3)),
     *(f"principal_axis_{number}_{axis}" for number in (1, 2, 3) for axis in "xyz"),
     "symmetry",
-)  # fmt: skip
+)
 _OPTIONAL_COLUMNS = (
     "armature",
     "density_from",
@@ -226,7 +242,9 @@ def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
 
 
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
-    """Return an object's record as a row: a dict with a column for each entry of its lists and tables."""
+    """Return an object's record as a row: a dict with a column for each entry of its lists and
+    tables.
+    """
     row = {name: entry[name] for name in (*_COLUMNS, *_OPTIONAL_COLUMNS) if name in entry}
     row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["center_of_mass"])}
     row |= {f"inertia_{name}": entry["inertia"][i][j] for name, i, j in TENSOR}
@@ -277,7 +295,9 @@ def _nested(prefix: str, values: dict[Any, Any]) -> dict[str, Any]:
 
 
 def _line(cells: Iterable[Any]) -> str:
-    """Return a line of CSV. Before Python 3.13 the csv module quotes only line breaks that it ends a row with."""
+    """Return a line of CSV. Before Python 3.13 the csv module quotes only line breaks that it ends
+    a row with.
+    """
     import csv  # Registration reads the constants of this module alone.
 
     text = io.StringIO()

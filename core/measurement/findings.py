@@ -8,7 +8,8 @@ DENSITY_FROM_VALUE = note("density_from_value", "one value")
 DENSITY_FROM_MASS = note("density_from_mass", "given mass")
 NO_VOLUME = error(
     "no_volume",
-    "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a flat shape.",
+    "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a "
+    "flat shape.",
 )
 ZERO_QUANTITY = error("zero_quantity", "The {quantity:word} is zero. Set it.")
 WALL_UNSUPPORTED = error(
@@ -17,12 +18,14 @@ WALL_UNSUPPORTED = error(
 )
 LARGE_BOUND = warning(
     "large_bound",
-    "The error bound of the {quantity:word} is {share:percent} of its {whole:word}. Do not rely on it, or move "
+    "The error bound of the {quantity:word} is {share:percent} of its {whole:word}. Do not rely on "
+    "it, or move "
     "vertices nearer to the object's origin.",
 )
 AXES_FROM_THIRD_ORDER = warning(
     "axes_from_third_order",
-    "The principal axes use moments to order 3 only, as the mesh has many faces; Apply to Object and --pose use "
+    "The principal axes use moments to order 3 only, as the mesh has many faces; Apply to Object "
+    "and --pose use "
     "higher orders and may differ.",
 )
 DENSITY_FROM_MEMBERS = note("density_from_members", "members")

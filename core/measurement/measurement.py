@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A body of any kind as moments, and the results of measuring it: numbers, their methods and their error bounds."""
+"""A body of any kind as moments, and the results of measuring it: numbers, their methods and their
+error bounds.
+"""
 
 from __future__ import annotations
 
@@ -29,14 +31,16 @@ UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = (
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """The moments of a whole object, in SI units and world axes; the base class knows them to third order only.
+    """The moments of a whole object, in SI units and world axes; the base class knows them to third
+    order only.
 
-    `volume`: known to third order at least. `length`: of a wire. `wall`: the material of a shell of real thickness.
-    `mass`: moments in kg of a body of varying density; `higher_mass`: these moments to the requested order, above
-    third. `density_from`: source of a varying density, with a code ``density_from_…``. `density_key`: settings of a
-    varying density, for the fingerprint; `materials`: full names of the materials read. `estimated`: true if the error
-    bounds are estimates. `display_volume`: volume of the display mesh, m³, for a body that is measured without it.
-    `face_count`: number of measured triangles and quads.
+    `volume`: known to third order at least. `length`: of a wire. `wall`: the material of a shell of
+    real thickness. `mass`: moments in kg of a body of varying density; `higher_mass`: these moments
+    to the requested order, above third. `density_from`: source of a varying density, with a code
+    ``density_from_…``. `density_key`: settings of a varying density, for the fingerprint;
+    `materials`: full names of the materials read. `estimated`: true if the error bounds are
+    estimates. `display_volume`: volume of the display mesh, m³, for a body that is measured without
+    it. `face_count`: number of measured triangles and quads.
     """
 
     any_order: ClassVar[bool] = False  # true if `moments` gives any order
@@ -59,20 +63,28 @@ class Body:
     face_count: int = 0
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments of the volume, and of the area if wanted, to an order; ReadError if they are unknown."""
+        """Return the moments of the volume, and of the area if wanted, to an order; ReadError if
+        they are unknown.
+        """
         raise ReadError(WALL_UNSUPPORTED, quantity="A moment above third order or of the area")
 
     def third_order(self) -> Moments:
-        """Return the moments of a solid or a wire that its principal frame is computed from, with exact third order."""
+        """Return the moments of a solid or a wire that its principal frame is computed from, with
+        exact third order.
+        """
         return self.volume
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments that fix the axes; a single surface under a similarity keeps its own coordinates."""
+        """Return the moments that fix the axes; a single surface under a similarity keeps its own
+        coordinates.
+        """
         volume, areas = self.moments(order, area)
         return volume if areas is None else areas
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
-        """Yield the surfaces of the solid, or the unchanged sheets, in world coordinates as float64."""
+        """Yield the surfaces of the solid, or the unchanged sheets, in world coordinates as
+        float64.
+        """
         return iter(())
 
 
@@ -80,22 +92,23 @@ class Body:
 class Measurement:
     """One object in SI units and world axes.
 
-    kind: "solid", "shell" or "wire". method: the verdict and its source: polygons, B-spline patches measured instead of
+    kind: "solid", "shell" or "wire". method: the verdict and its source: polygons, B-spline patches
+    measured instead of
         their display mesh, or a grid.
-    density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area
-    in m².
-    volume_moments: to order 3, None for a thin shell; area_moments: to order 3 for a shell, else order 0; both to a
+    density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times
+    thickness), area in m². volume_moments: to order 3, None for a thin shell; area_moments: to
+    order 3 for a shell, else order 0; both to a
         higher order if requested.
-    mass_moments: the moments that carry the mass, and the mass in kg per unit of them.
-    higher_mass: moments in kg to the requested order, above third, if the density varies.
-    rotation, location: (3, 3) and (3,), the object frame without scale.
-    error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"
+    mass_moments: the moments that carry the mass, and the mass in kg per unit of them. higher_mass:
+    moments in kg to the requested order, above third, if the density varies. rotation, location:
+    (3, 3) and (3,), the object frame without scale. error_bound: absolute bounds "volume", "area",
+    "center_of_mass", "inertia" of rounding, and the same under "input"
         for storing coordinates as float32; "estimated": True if those of rounding are estimates.
-    findings: decisions during the measurement.
-    fingerprint: fingerprint of the input.
-    length: of a wire, m, else None. A wire's `density` is 0; its linear density is mass per length, kg/m.
+    findings: decisions during the measurement. fingerprint: fingerprint of the input. length: of a
+    wire, m, else None. A wire's `density` is 0; its linear density is mass per length, kg/m.
     display_volume: the volume of the display mesh of B-spline patches, m³; None if not requested.
-    density_from: the source of the density, with a code `density_from_…`. materials: names of the materials considered
+    density_from: the source of the density, with a code `density_from_…`. materials: names of the
+    materials considered
         for it.
     """
 
@@ -124,7 +137,9 @@ class Measurement:
     higher_mass: Moments | None = None
 
     def moments_of_mass(self, order: int) -> Moments | None:
-        """Return the moments of the mass, kg, to an order; None if they are not known to that order."""
+        """Return the moments of the mass, kg, to an order; None if they are not known to that
+        order.
+        """
         moments, factor = self.mass_moments
         if order <= moments.order:
             return replace(moments.truncate(order), measure=Measure.MASS) * factor

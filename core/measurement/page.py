@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Documents as one HTML file that needs no network: a table of all bodies to sort and to filter, with pictures.
+"""Documents as one HTML file that needs no network: a table of all bodies to sort and to filter,
+with pictures.
 
-Standard library only. Everything that comes from files is escaped, and the page's security policy allows no script but
-its own.
+Standard library only. Everything that comes from files is escaped, and the page's security policy
+allows no script but its own.
 """
 
 from __future__ import annotations
@@ -42,9 +43,11 @@ h1{font-size:1.3rem;margin:0 0 .3rem}
 p{margin:.3rem 0}
 input,select{font:inherit;padding:.2rem .4rem;margin-right:.5rem}
 table{border-collapse:collapse;margin-top:1rem;width:100%}
-th,td{text-align:left;vertical-align:top;padding:.3rem .6rem;border-bottom:1px solid #8884;overflow-wrap:anywhere}
+th,td{text-align:left;vertical-align:top;padding:.3rem .6rem}
+th,td{border-bottom:1px solid #8884;overflow-wrap:anywhere}
 th{white-space:nowrap;position:sticky;top:0;background:Canvas}
-th button{font:inherit;font-weight:600;border:0;background:none;color:inherit;padding:0;cursor:pointer}
+th button{font:inherit;font-weight:600;border:0;background:none;color:inherit}
+th button{padding:0;cursor:pointer}
 th[aria-sort=ascending] button::after{content:" \\25b2"}
 th[aria-sort=descending] button::after{content:" \\25bc"}
 td.number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
@@ -55,7 +58,8 @@ td img,td svg{width:96px;height:96px;display:block}
 """
 _SCRIPT = """
 "use strict";
-const body=document.querySelector("tbody"),rows=[...body.rows],count=document.getElementById("count");
+const body=document.querySelector("tbody"),rows=[...body.rows];
+const count=document.getElementById("count");
 const text=document.getElementById("text"),status=document.getElementById("status");
 function filter(){
   const words=text.value.toLowerCase().split(/\\s+/).filter(Boolean);let shown=0;
@@ -100,10 +104,10 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
         origins[_origin(document)] += 1
         codes += count_findings(document)
     digest = base64.b64encode(hashlib.sha256(_SCRIPT.encode()).digest()).decode()
-    policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{}'".format(
-        digest
-    )
-    yield '<!doctype html><!-- Body Moments: report -->\n<html lang="en"><head><meta charset="utf-8">\n'
+    policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-"
+    policy += digest + "'"
+    yield "<!doctype html><!-- Body Moments: report -->\n"
+    yield '<html lang="en"><head><meta charset="utf-8">\n'
     yield '<meta http-equiv="Content-Security-Policy" content="{}">\n'.format(policy)
     yield "<title>Body Moments</title><style>{}</style></head><body>\n".format(_STYLE)
     counts = ", ".join("{} {}".format(number, status) for status, number in statuses.most_common())
@@ -209,7 +213,9 @@ def _row(
 
 
 def _picture(entry: dict[str, Any]) -> str:
-    """Return HTML of the record's thumbnail, else of the box of equal inertia with its axes; empty without mass."""
+    """Return HTML of the record's thumbnail, else of the box of equal inertia with its axes; empty
+    without mass.
+    """
     thumbnail = entry.get("thumbnail")
     if isinstance(thumbnail, str) and _PICTURE.fullmatch(thumbnail):
         return '<img alt="" src="{}">'.format(thumbnail)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Text for terminals and pages, made safe.
 
-Names come from files: a terminal would obey an escape sequence in a name, a line break would forge a line of output,
-and characters that set the direction of writing would show another name.
+Names come from files: a terminal would obey an escape sequence in a name, a line break would forge
+a line of output, and characters that set the direction of writing would show another name.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ _DIRECTIONS = {*"\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2
 
 
 def visible(text: str) -> str:
-    r"""Return the text on one line, with control and direction characters escaped as \x1b, \n, \u202e."""
+    r"""Return the text on one line, with control and direction characters escaped as \x1b, \n,
+    \u202e.
+    """
     return "".join(
         character.encode("unicode_escape").decode()
         if character in _DIRECTIONS or unicodedata.category(character) in _ESCAPED

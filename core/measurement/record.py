@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurements as records, the parts of a document (`documents.py`). A public contract, `body-moments/1`.
+"""Measurements as records, the parts of a document (`documents.py`).
+
+A public contract, `body-moments/1`.
 
 All numbers are SI. Centers, tensors, axes and moments are in the world frame or in each
 object's own frame (its location and rotation, unit scale); objects do not share their frames, so
@@ -50,8 +52,9 @@ def record(
 
     frame: "world" or "object". order: adds `moments`, volume moments up to that order, which the
     measurement must have, about the frame's origin; of a thin shell, area moments times thickness.
-    surface: its area moments, world frame, listed beside them. more: further entries. about: "center", "origin",
-    "world", or a point in the frame: adds `inertia_about`, and the moments are about it.
+    surface: its area moments, world frame, listed beside them. more: further entries. about:
+    "center", "origin", "world", or a point in the frame: adds `inertia_about`, and the moments are
+    about it.
     """
     properties = measurement.mass_properties if frame == "world" else measurement.in_object_frame()
     entry = {
@@ -113,7 +116,9 @@ def record(
 
 
 def described(findings: Iterable[Finding]) -> dict[str, list]:
-    """Return a record's `findings` as data, and their messages: `notes` for notes, `warnings` for severer ones."""
+    """Return a record's `findings` as data, and their messages: `notes` for notes, `warnings` for
+    severer ones.
+    """
     entry = {"findings": [], "warnings": [], "notes": []}
     add_findings(entry, findings)
     return entry
@@ -138,7 +143,9 @@ def add_findings(entry: dict[str, Any], findings: Iterable[Finding]) -> None:
 
 
 def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ()) -> dict[str, Any]:
-    """Return the `total` entry: all objects as one body in the world frame, and findings about it."""
+    """Return the `total` entry: all objects as one body in the world frame, and findings about
+    it.
+    """
     entry = {
         "mass": math.fsum(measurement.mass_properties.mass for measurement in measurements),
         "volume": math.fsum(measurement.volume for measurement in measurements),
@@ -173,7 +180,9 @@ def _point(
     properties: MassProperties,
     frame: str,
 ) -> NDArray[np.float64]:
-    """Return the (3,) coordinates of the point `about` in the frame, by default the frame's origin."""
+    """Return the (3,) coordinates of the point `about` in the frame, by default the frame's
+    origin.
+    """
     if about == "center":
         return properties.center
     if about == "origin" and frame == "world":
@@ -190,7 +199,9 @@ def _moments_record(
     powers: NDArray,
     rows: slice | NDArray = slice(None),
 ) -> dict[str, Any]:
-    """Return a record's `moments` by powers "p,q,r", (K, d); rows: their places among the moments."""
+    """Return a record's `moments` by powers "p,q,r", (K, d); rows: their places among the
+    moments.
+    """
     keys = [",".join(map(str, exponents)) for exponents in powers.tolist()]
 
     def tables(name: str) -> dict[str, dict[str, float]]:
@@ -218,9 +229,10 @@ def flat_record(
 ) -> dict[str, Any]:
     """Return one shape's record.
 
-    kind: the object's type. moments: about the centroid, along the plane's axes, to second order at least.
-    order: adds `moments`, about the projection of the frame's origin or of the point `about` (as in `record`) on the
-    plane. frame: its name, and the object frame's axes and origin. more: further entries.
+    kind: the object's type. moments: about the centroid, along the plane's axes, to second order at
+    least. order: adds `moments`, about the projection of the frame's origin or of the point `about`
+    (as in `record`) on the plane. frame: its name, and the object frame's axes and origin. more:
+    further entries.
     """
     axes, location = (np.eye(3), np.zeros(3)) if frame[0] == "world" else frame[1:]
 
@@ -260,12 +272,14 @@ def flat_record(
         ]
     entry |= more or {}
     rounding = _bounds(central, central.rounding_error, U * float(np.linalg.norm(centroid)))
-    entry["error_bound"] = {**rounding, "input": _bounds(central, central.input_error, 0.0)}
+    entry["error_bound"] = rounding | {"input": _bounds(central, central.input_error, 0.0)}
     return plain(entry) | described(findings)
 
 
 def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict[str, float]:
-    """Return bounds of area, centroid coordinates and second moments. bounds: of the central moments."""
+    """Return bounds of area, centroid coordinates and second moments. bounds: of the central
+    moments.
+    """
     first, second = (
         float(np.linalg.norm([bounds[monomial_index(*row)] for row in rows]))
         for rows in (_FIRST, _SECOND)
@@ -284,7 +298,9 @@ def _plane_point(
     location: NDArray,
     own: NDArray,
 ) -> NDArray[np.float64]:
-    """Return the (3,) world position of the point `about`, not yet on the plane. own: the object's origin."""
+    """Return the (3,) world position of the point `about`, not yet on the plane. own: the object's
+    origin.
+    """
     if about == "center":
         return centroid
     if about in ("origin", "world"):

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings of one measurement: all values that influence its results, besides the geometry.
 
-A fingerprint is a text that stands for all inputs of stored numbers: geometry, transform and settings.
+A fingerprint is a text that stands for all inputs of stored numbers: geometry, transform and
+settings.
 """
 
 from __future__ import annotations
@@ -19,10 +20,10 @@ VERSION = "v1"
 class RequestedResults:
     """Results that a measurement has on request.
 
-    order: of the moments; None for the order that mass properties need. surface: area moments, too. pose: the principal
-    frame follows the shape to sixth order, for any number of faces. compare: bodies that need no display mesh are
-    compared with it. axes: True to choose ambiguous principal axes by moments above third order; else any of them may
-    result.
+    order: of the moments; None for the order that mass properties need. surface: area moments, too.
+    pose: the principal frame follows the shape to sixth order, for any number of faces. compare:
+    bodies that need no display mesh are compared with it. axes: True to choose ambiguous principal
+    axes by moments above third order; else any of them may result.
     """
 
     order: int | None = None
@@ -37,9 +38,10 @@ class RequestedResults:
 class Settings(RequestedResults):
     """Settings of one object's measurement, in SI units; at most one of density and mass is given.
 
-    kind: "solid", "shell" or "wire". density: kg/m³, of a wire kg/m; mass: kg. thickness: of a shell, m. overlap:
-    "signed" or "union". wall: of a shell, "thin", "inward", "outward" or "centered". unit: meters per Blender unit.
-    varying: text of the settings that decide a varying density or a given center or inertia.
+    kind: "solid", "shell" or "wire". density: kg/m³, of a wire kg/m; mass: kg. thickness: of a
+    shell, m. overlap: "signed" or "union". wall: of a shell, "thin", "inward", "outward" or
+    "centered". unit: meters per Blender unit. varying: text of the settings that decide a varying
+    density or a given center or inertia.
     """
 
     kind: str = "solid"
@@ -53,7 +55,9 @@ class Settings(RequestedResults):
 
     @property
     def digest(self) -> str:
-        """Digest of the settings behind stored results, without those that have no effect on this kind of body."""
+        """Digest of the settings behind stored results, without those that have no effect on this
+        kind of body.
+        """
         is_shell = self.kind == "shell"
         density = None if self.varying else self.density
         # Blender's properties hold values with the shortest decimals.

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A test, piece by piece, that faces close: no edges are sorted, nor kept.
 
-Every place has a keyed 64-bit hash of its coordinates. Every side of a face has a hash of its two ends, with a sign for
-its direction. Sides that run along each other in opposite directions cancel: the sum over all sides, modulo 2^64, is
-zero if every edge is used equally often both ways. Otherwise it is zero by a chance below 2^-50, whatever the faces,
-because each process draws new keys. (A sum of normals is zero for many surfaces that are open.)
+Every place has a keyed 64-bit hash of its coordinates. Every side of a face has a hash of its two
+ends, with a sign for its direction. Sides that run along each other in opposite directions cancel:
+the sum over all sides, modulo 2^64, is zero if every edge is used equally often both ways.
+Otherwise it is zero by a chance below 2^-50, whatever the faces, because each process draws new
+keys. (A sum of normals is zero for many surfaces that are open.)
 """
 
 from __future__ import annotations
@@ -35,7 +36,10 @@ class BoundarySum:
         return not self._total
 
     def add(self, piece: Surface | NDArray[np.floating]) -> None:
-        """Add the faces of a piece, or (m, 3, 3) corners of triangles. Points at the same place are one."""
+        """Add the faces of a piece, or (m, 3, 3) corners of triangles.
+
+        Points at the same place are one.
+        """
         if not isinstance(piece, Surface):
             for start in range(0, len(piece), FACES_PER_BLOCK):
                 block = piece[start : start + FACES_PER_BLOCK]

@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shells with a tree of boxes each, to locate places inside them and to find shells that go through each other.
+"""Shells with a tree of boxes each, to locate places inside them and to find shells that go through
+each other.
 
-The winding number locates a place; it is counted along a ray that is parallel to no axis. The crossings are counted in
-the plane across the ray, with signs that neighboring triangles share, so that no ray slips through between two of them
-(half-open edges, the watertight rule of rasterizers). Both searches walk down the trees with all pairs and points at
-once, in bounded pieces of work. Pairs of single boxes that meet are found by a sweep along the best axis.
+The winding number locates a place; it is counted along a ray that is parallel to no axis. The
+crossings are counted in the plane across the ray, with signs that neighboring triangles share, so
+that no ray slips through between two of them (half-open edges, the watertight rule of rasterizers).
+Both searches walk down the trees with all pairs and points at once, in bounded pieces of work.
+Pairs of single boxes that meet are found by a sweep along the best axis.
 """
 
 from __future__ import annotations
@@ -86,7 +88,9 @@ def sort_components(
 
 
 def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return the stable order of integers below 2^32, 16 bits at a time: numpy sorts 16-bit integers by counting."""
+    """Return the stable order of integers below 2^32, 16 bits at a time: numpy sorts 16-bit
+    integers by counting.
+    """
     order = np.argsort(values.astype(np.uint16), kind="stable")
     if values.max() > 0xFFFF:
         order = order[np.argsort((values >> 16).astype(np.uint16)[order], kind="stable")]
@@ -94,12 +98,13 @@ def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
 
 
 class Bvh:
-    """One bounding-volume tree for each wanted component: perfect binary trees over triangles in Morton order.
+    """One bounding-volume tree for each wanted component: perfect binary trees over triangles in
+    Morton order.
 
-    vertex_columns: (3, n) the vertices about `origin`; ids: (3, m) the vertices of the sorted triangles; bottom, top:
-    (3, m) their boxes.
-    root: (c,) root node of each component's tree, or -1. A node's first child is `child`, -1 for leaves; the second one
-    follows. A leaf holds triangles `first` to `last`. low, high: (n, 3) boxes of nodes; inverted if a node is empty.
+    vertex_columns: (3, n) the vertices about `origin`; ids: (3, m) the vertices of the sorted
+    triangles; bottom, top: (3, m) their boxes. root: (c,) root node of each component's tree, or
+    -1. A node's first child is `child`, -1 for leaves; the second one follows. A leaf holds
+    triangles `first` to `last`. low, high: (n, 3) boxes of nodes; inverted if a node is empty.
     """
 
     def __init__(
@@ -115,7 +120,9 @@ class Bvh:
         self._build_nodes(self._sort(components, selected), selected)
 
     def _sort(self, components: SortedComponents, selected: NDArray[np.bool_]) -> NDArray[np.intp]:
-        """Sort the triangles by selected component and Morton order, set their boxes, and return (m,) components."""
+        """Sort the triangles by selected component and Morton order, set their boxes, and return
+        (m,) components.
+        """
         ids = components.triangles
         component = components.component
         if not selected.all():
@@ -188,7 +195,9 @@ class Bvh:
 
     @cached_property
     def _shadows(self) -> NDArray[np.float64]:
-        """The (5, n) top heights of the nodes' boxes, and the least and largest `_across` coordinates in them."""
+        """The (5, n) top heights of the nodes' boxes, and the least and largest `_across`
+        coordinates in them.
+        """
         (*low, bottom) = self.low.T
         (*high, top) = self.high.T
         sides = [
@@ -245,7 +254,9 @@ class Bvh:
         winding: NDArray,
         sure: NDArray,
     ) -> None:
-        """Add the rays' crossings with triangles of leaves to `winding`; update `sure`. query: (3, k) ray starts."""
+        """Add the rays' crossings with triangles of leaves to `winding`; update `sure`. query: (3,
+        k) ray starts.
+        """
         first = self.first.take(leaf)
         size = self.last.take(leaf) - first
         triangle = np.repeat(first, size) + segment_ranges(size)
@@ -258,7 +269,8 @@ class Bvh:
         positive = np.empty(ids.shape, bool)
         for k in range(3):
             i, j = (k + 1) % 3, (k + 2) % 3
-            # Judged from the edge's lower vertex, so that both its triangles see one number; zero counts as positive.
+            # Judged from the edge's lower vertex, so that both its triangles see one number; zero
+            # counts as positive.
             back = ids[i] > ids[j]
             area = np.where(back, u[j] * v[i] - u[i] * v[j], u[i] * v[j] - u[j] * v[i])
             edge[k] = np.where(back, -area, area)
@@ -278,7 +290,9 @@ class Bvh:
     def distances(
         self, query_points: NDArray[np.float64], component: NDArray[np.intp], within: float = np.inf
     ) -> NDArray[np.float64]:
-        """Return the (k,) distances of places (about `origin`) from the surfaces of components; inf beyond `within`."""
+        """Return the (k,) distances of places (about `origin`) from the surfaces of components; inf
+        beyond `within`.
+        """
         nearest = np.full(len(query_points), np.nextafter(within, np.inf))
         pieces = _batches(np.arange(len(query_points)), self.root[component])
         while pieces:
@@ -308,7 +322,9 @@ class Bvh:
 def intersecting_pairs(
     tree: Bvh, first: NDArray, second: NDArray, tolerance: float, vertex: NDArray | None = None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return (k,) masks of pairs in which an edge pierces the other by the tolerance, and of undecided pairs."""
+    """Return (k,) masks of pairs in which an edge pierces the other by the tolerance, and of
+    undecided pairs.
+    """
     intersects, unfinished = np.zeros((2, len(first)), bool)
     pieces = _batches(np.arange(len(first)), tree.root[first], tree.root[second])
     work = 0
@@ -360,7 +376,9 @@ def _intersect_leaves(
     intersects: NDArray,
     vertex: NDArray | None,
 ) -> None:
-    """Mark, in `intersects`, the pairs with a triangle in one leaf that is pierced by an edge in the other."""
+    """Mark, in `intersects`, the pairs with a triangle in one leaf that is pierced by an edge in
+    the other.
+    """
     size_a = tree.last[a] - tree.first[a]
     size_b = tree.last[b] - tree.first[b]
     k = segment_ranges(size_a * size_b)
@@ -390,7 +408,9 @@ def _intersect_leaves(
 def _edges_cross_triangles(
     corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.intp]:
-    """Return the indices of triangles (3, k, 3) with an edge through their partner by over the tolerance."""
+    """Return the indices of triangles (3, k, 3) with an edge through their partner by over the
+    tolerance.
+    """
     normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
     length = np.linalg.norm(normal, axis=1)[:, None]
     normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)
@@ -437,7 +457,9 @@ def _batches(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArra
 
 
 def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (k,) boxes, sorted along the best axis, and (k,) counts of later boxes that begin before each one ends."""
+    """Return (k,) boxes, sorted along the best axis, and (k,) counts of later boxes that begin
+    before each one ends.
+    """
     sweeps: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
     for axis in range(3):
         order = np.argsort(low[:, axis], kind="stable")
@@ -449,7 +471,9 @@ def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp]
 def overlapping_box_pairs(
     low: NDArray, high: NDArray, margin: float, most: int
 ) -> tuple[NDArray, NDArray, int]:
-    """Return about `most` pairs (k,), (k,) of boxes that overlap by over `margin`, and the count of untested pairs."""
+    """Return about `most` pairs (k,), (k,) of boxes that overlap by over `margin`, and the count of
+    untested pairs.
+    """
     order, count = _sweep(low, high, margin)
     left = [np.empty(0, np.intp)]
     right = [np.empty(0, np.intp)]
@@ -467,7 +491,9 @@ def overlapping_box_pairs(
 
 
 def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
-    """Return whether any two of k boxes, (k, 3) centers and half sides, overlap by more than rounding."""
+    """Return whether any two of k boxes, (k, 3) centers and half sides, overlap by more than
+    rounding.
+    """
     extents = extents * (1.0 - ROUNDING)
     low = centers - extents
     high = centers + extents

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Correspondences of two meshes: the similarities that lay one onto the other, and the elements that meet.
+"""Correspondences of two meshes: the similarities that lay one onto the other, and the elements
+that meet.
 
-The images of two vertices and the handedness fix a similarity. Two vertices of one mesh that few others resemble are
-paired with all similar vertices of the other mesh, so that every symmetry is found. Each candidate is proven on all
-vertices, edges and faces, which may be numbered in any order.
+The images of two vertices and the handedness fix a similarity. Two vertices of one mesh that few
+others resemble are paired with all similar vertices of the other mesh, so that every symmetry is
+found. Each candidate is proven on all vertices, edges and faces, which may be numbered in any
+order.
 """
 
 from __future__ import annotations
@@ -25,9 +27,11 @@ Indices = NDArray[np.intp]
 
 
 class Elements:
-    """A mesh: (n, 3) points, (e, 2) edges, (c,) vertices of the corners, (f + 1,) first corners of the faces.
+    """A mesh: (n, 3) points, (e, 2) edges, (c,) vertices of the corners, (f + 1,) first corners of
+    the faces.
 
-    unit_points: the points about their middle, in units of the radius. scores: (n,) numbers that no similarity changes.
+    unit_points: the points about their middle, in units of the radius. scores: (n,) numbers that no
+    similarity changes.
     """
 
     def __init__(
@@ -51,7 +55,8 @@ class Elements:
 
 @dataclass(frozen=True, eq=False)
 class Correspondence:
-    """The similarity p → linear · p + offset that lays one mesh onto another, and the elements that meet.
+    """The similarity p → linear · p + offset that lays one mesh onto another, and the elements that
+    meet.
 
     vertices, edges, faces, corners: the other mesh's index for each element.
     """
@@ -82,10 +87,11 @@ def correspondences(
     tolerance: float,
     labels: tuple[NDArray, NDArray] | None = None,
 ) -> Iterator[Correspondence]:
-    """Yield the correspondences of two meshes with equal counts; tolerance: relative to the second mesh's radius.
+    """Yield the correspondences of two meshes with equal counts; tolerance: relative to the second
+    mesh's radius.
 
-    labels: (n,) numbers, the same for equal vertices. The correspondence that keeps the numbers of all vertices comes
-    first, if there is one; then come those that turn least.
+    labels: (n,) numbers, the same for equal vertices. The correspondence that keeps the numbers of
+    all vertices comes first, if there is one; then come those that turn least.
     """
     count = len(first.points)
     loose = 4.0 * tolerance
@@ -111,7 +117,9 @@ def correspondences(
 
 
 def _first_near(points: NDArray, targets: NDArray, tolerance: float) -> Indices:
-    """Return for each of (n, 3) points the first of the (m, 3) targets within the tolerance, or m."""
+    """Return for each of (n, 3) points the first of the (m, 3) targets within the tolerance, or
+    m.
+    """
     along = targets @ DIRECTION
     places = points @ DIRECTION
     reach = 2.0 * tolerance
@@ -130,7 +138,9 @@ def _first_near(points: NDArray, targets: NDArray, tolerance: float) -> Indices:
 def _candidate_turns(
     points: NDArray, targets: NDArray, scores: list[NDArray], tolerance: float
 ) -> Iterator[NDArray[np.float64]]:
-    """Yield orthogonal (3, 3) maps that may lay points onto targets with the same scores: turns first, least first."""
+    """Yield orthogonal (3, 3) maps that may lay points onto targets with the same scores: turns
+    first, least first.
+    """
     near = RESEMBLANCE * tolerance
     pair = _anchors(points, scores[0], near)
     if pair is None:
@@ -177,7 +187,9 @@ def _anchors(points: NDArray, scores: NDArray, near: float) -> tuple[int, int] |
 
 
 def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
-    """Return (k, 3, 3) right-handed frames, as columns: x along `first`, `second` in the plane of x and y."""
+    """Return (k, 3, 3) right-handed frames, as columns: x along `first`, `second` in the plane of x
+    and y.
+    """
     x = first / np.linalg.norm(first, axis=1, keepdims=True)
     z = np.cross(x, second)
     z /= np.maximum(np.linalg.norm(z, axis=1, keepdims=True), np.finfo(float).tiny)
@@ -237,7 +249,9 @@ def _prove(
 
 
 def _similarity(source: NDArray, target: NDArray, mirrored: bool) -> tuple[NDArray, NDArray]:
-    """Return map and offset of the similarity, of this handedness, that moves (n, 3) points nearest to others."""
+    """Return map and offset of the similarity, of this handedness, that moves (n, 3) points nearest
+    to others.
+    """
     middle = source.mean(axis=0)
     other = target.mean(axis=0)
     a, b = source - middle, target - other
@@ -250,7 +264,9 @@ def _similarity(source: NDArray, target: NDArray, mirrored: bool) -> tuple[NDArr
 def _match_faces(
     first: Elements, second: Elements, places: Indices, others: Indices, mirrored: bool
 ) -> tuple[Indices, Indices] | None:
-    """Return the second mesh's face and corner for each of the first's; of a mirror image, corners run backward."""
+    """Return the second mesh's face and corner for each of the first's; of a mirror image, corners
+    run backward.
+    """
     faces = np.empty(len(first.sizes), np.intp)
     corners = np.empty(len(first.corners), np.intp)
     for size in np.unique(first.sizes):
@@ -269,7 +285,9 @@ def _match_faces(
 
 
 def _from_least(keys: Indices, corners: Indices) -> tuple[Indices, Indices]:
-    """Return the (k, s) keys and corners of faces, each row turned so that it begins with its least key."""
+    """Return the (k, s) keys and corners of faces, each row turned so that it begins with its least
+    key.
+    """
     turned = (keys.argmin(axis=1)[:, None] + np.arange(keys.shape[1])) % keys.shape[1]
     return np.take_along_axis(keys, turned, axis=1), np.take_along_axis(corners, turned, axis=1)
 
@@ -288,7 +306,9 @@ def _match_rows(rows: Indices, others: Indices) -> Indices | None:
 def _triangulates_alike(
     first: Elements, second: Elements, found: Correspondence, limit: float
 ) -> bool:
-    """Return whether faces that begin at another corner, and so may have other triangles, are flat."""
+    """Return whether faces that begin at another corner, and so may have other triangles, are
+    flat.
+    """
     begins = second.starts[found.faces]
     turned = (first.sizes > 3) & (found.corners[first.starts[:-1]] != begins)
     for size in np.unique(first.sizes[turned]):

@@ -1,18 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Connections of faces: edges, the cheap proof of closedness, connected parts, consistent orientation.
+"""Connections of faces: edges, the cheap proof of closedness, connected parts, consistent
+orientation.
 
-A surface bounds a body exactly when every edge is used equally often in both directions. If a mesh names the edge at
-each of its corners, one scatter proves the common case (each edge once each way) without sorting: there is one slot for
-each direction of an edge, and the corners fill as many slots as there are corners. Without named edges, the sides of
-faces are paired through a table. Each side is written into the row of its start, at a place that a hash of its stop
-gives, so that neighbors in the mesh stay in the cache. Its partner is looked up in the row of its stop, by the hash of
-its start. Two sides that find each other so are partners, because each starts at the stop of the other, whatever the
-hashes. Sides whose places are taken try again with another hash; sides left after some rounds (around a vertex of many
-faces) are sorted.
+A surface bounds a body exactly when every edge is used equally often in both directions. If a mesh
+names the edge at each of its corners, one scatter proves the common case (each edge once each way)
+without sorting: there is one slot for each direction of an edge, and the corners fill as many slots
+as there are corners. Without named edges, the sides of faces are paired through a table. Each side
+is written into the row of its start, at a place that a hash of its stop gives, so that neighbors in
+the mesh stay in the cache. Its partner is looked up in the row of its stop, by the hash of its
+start. Two sides that find each other so are partners, because each starts at the stop of the other,
+whatever the hashes. Sides whose places are taken try again with another hash; sides left after some
+rounds (around a vertex of many faces) are sorted.
 
-Orientation is decided by connected parts on the double cover: each face becomes two nodes, one for each orientation. A
-part is orientable if its two covers stay apart.
+Orientation is decided by connected parts on the double cover: each face becomes two nodes, one for
+each orientation. A part is orientable if its two covers stay apart.
 """
 
 from __future__ import annotations
@@ -44,7 +46,9 @@ Sides = tuple[NDArray[np.int32], NDArray[np.integer], NDArray[np.integer]]
 
 
 def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
-    """Return the (2, e) mesh faces beside the used edges if each has two, run in opposite directions; else None."""
+    """Return the (2, e) mesh faces beside the used edges if each has two, run in opposite
+    directions; else None.
+    """
     corners = surface.corner_vertices
     edges = surface.corner_edges
     if corners is None or edges is None or not len(corners) == len(edges) > 0:
@@ -56,7 +60,8 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
         int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1
     )  # a negative edge becomes a large one
     if count > 2 * len(corners) or count > np.iinfo(edges.dtype).max // 2:
-        return None  # most of them without faces, or too many for their type: the table would cost more than a search
+        # Most of them without faces, or too many for their type: a table costs more than a search.
+        return None
     sides = np.full(2 * count, -1, np.int32)
     for start in range(0, len(corners), EDGES_PER_BLOCK):
         faces, upward = sides_at(start)
@@ -73,7 +78,9 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
 def _sides_at(
     surface: Surface, corners: NDArray[np.integer]
 ) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
-    """Return a function from a block's first corner to faces and directions of its corners; None if they do not fit."""
+    """Return a function from a block's first corner to faces and directions of its corners; None if
+    they do not fit.
+    """
     quads = len(surface.quads)
     triangles = len(surface.triangles)
     if not triangles and surface.quad_faces is None:
@@ -110,7 +117,9 @@ def _sides_at(
 def ring_sizes(
     triangle_faces: NDArray[np.integer], quad_faces: NDArray[np.integer], count: int = 0
 ) -> NDArray[np.intp]:
-    """Return (count or more,) corner counts of mesh faces, found from their triangles or quads; 0 for missing faces."""
+    """Return (count or more,) corner counts of mesh faces, found from their triangles or quads; 0
+    for missing faces.
+    """
     pieces = np.bincount(triangle_faces, minlength=max(count, int(quad_faces.max(initial=-1)) + 1))
     sizes = np.where(pieces > 0, pieces + 2, 0)
     sizes[quad_faces] = 4
@@ -119,10 +128,12 @@ def ring_sizes(
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """The undirected edges of m triangles. Side 3t + i runs from corner i of triangle t to the next one.
+    """The undirected edges of m triangles.
 
-    of_side: (3m,) the edge of each side; upward: (3m,) if the side runs from the lower vertex to the higher; first:
-    (e,) the first side of each edge, ascending; count: (e,) number of sides.
+    Side 3t + i runs from corner i of triangle t to the next one.
+
+    of_side: (3m,) the edge of each side; upward: (3m,) if the side runs from the lower vertex to
+    the higher; first: (e,) the first side of each edge, ascending; count: (e,) number of sides.
     """
 
     of_side: NDArray[np.intp]
@@ -131,7 +142,9 @@ class Edges:
     count: NDArray[np.intp]
 
     def signed_use_count(self, flipped: NDArray[np.bool_]) -> NDArray[np.float64]:
-        """Return (e,) upward sides minus downward sides of each edge, once the `flipped` triangles are reversed."""
+        """Return (e,) upward sides minus downward sides of each edge, once the `flipped` triangles
+        are reversed.
+        """
         return sums_by_index(self.of_side, np.where(self.upward ^ np.repeat(flipped, 3), 1.0, -1.0))
 
     def manifold_side_pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -142,7 +155,9 @@ class Edges:
         return self.first[two], last[two]
 
     def adjacency(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return pairs of triangles as two (k,) arrays; the pairs connect all triangles at an edge."""
+        """Return pairs of triangles as two (k,) arrays; the pairs connect all triangles at an
+        edge.
+        """
         side = np.arange(len(self.of_side))
         first = self.first[self.of_side]
         later = first != side
@@ -155,13 +170,17 @@ class Edges:
     def boundary_ends(
         self, triangles: NDArray[np.integer]
     ) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-        """Return the start vertices and the end vertices of the boundary sides of (m, 3) triangles."""
+        """Return the start vertices and the end vertices of the boundary sides of (m, 3)
+        triangles.
+        """
         side = self.boundary_sides()
         return triangles.ravel()[side], triangles.take(NEXT_AXIS, 1).ravel()[side]
 
 
 def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
-    """Return the edges of (m, 3) triangles; the last 2 * `quads` are halves with diagonals of their own."""
+    """Return the edges of (m, 3) triangles; the last 2 * `quads` are halves with diagonals of their
+    own.
+    """
     start = triangles.ravel()
     stop = triangles.take(NEXT_AXIS, 1).ravel()
     low = np.minimum(start, stop)
@@ -190,7 +209,8 @@ def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
 def uncancelled_sides(
     triangles: NDArray[np.integer], owner: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Return (k,) owners, starts and ends of the sides of (m, 3) triangles that no opposite one of their owner cancels.
+    """Return (k,) owners, starts and ends of the sides of (m, 3) triangles that no opposite one of
+    their owner cancels.
 
     They are in the order of the sides. owner: (m,) of each triangle.
     """
@@ -217,7 +237,9 @@ def consistent_orientation(
     misoriented: NDArray[np.bool_],
     weight: NDArray[np.float64],
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return (count,) masks of faces to turn, the smaller area (weight), and of faces that cannot agree."""
+    """Return (count,) masks of faces to turn, the smaller area (weight), and of faces that cannot
+    agree.
+    """
     flipped, twisted = np.zeros((2, count), bool)
     if not misoriented.any():
         return flipped, twisted
@@ -242,9 +264,10 @@ def group_components(
 ) -> tuple[NDArray[np.intp], int]:
     """Return (m,) components of triangles, made of whole parts, and their number.
 
-    part: (m,) parts connected across edges of two sides; even: (e,) mask of edges of one side that gaps close. A part
-    that closes by itself is a component, though it may share edges (two boxes that meet in an edge). Parts that do not
-    close by themselves and share an edge are one component (a box with an inner wall).
+    part: (m,) parts connected across edges of two sides; even: (e,) mask of edges of one side that
+    gaps close. A part that closes by itself is a component, though it may share edges (two boxes
+    that meet in an edge). Parts that do not close by themselves and share an edge are one component
+    (a box with an inner wall).
     """
     non_manifold = edges.count > 2
     if not non_manifold.any():
@@ -262,7 +285,9 @@ def group_components(
 
 
 def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray[np.int32] | None:
-    """Return the (n, k) faces across the sides of (n, k) faces; None unless every edge has two opposite sides."""
+    """Return the (n, k) faces across the sides of (n, k) faces; None unless every edge has two
+    opposite sides.
+    """
     if 2 * vertex_count > faces.size or faces.size % 2:  # a vertex has one face
         return None
     bits = int(2 * faces.size // vertex_count).bit_length()
@@ -316,7 +341,9 @@ class _Table:
         return self.sides.take(places, mode="clip") - np.int32(1)
 
     def factors_by_distinct_places(self, faces: NDArray[np.integer]) -> list[int]:
-        """Return the hash factors, those that give sides around some vertices the most distinct places first."""
+        """Return the hash factors, those that give sides around some vertices the most distinct
+        places first.
+        """
         flat = faces.ravel()
         first = len(self.sides) >> self.bits + 1
         number = np.flatnonzero((flat >= first) & (flat < first + SAMPLED_VERTICES))
@@ -335,7 +362,10 @@ def _pair(
     factor: np.uint32,
     partner: NDArray[np.int32],
 ) -> Sides | None:
-    """Pair the sides in `left` (None: all) by a hash. Return the sides still unpaired; None if a side occurs twice."""
+    """Pair the sides in `left` (None: all) by a hash.
+
+    Return the sides still unpaired; None if a side occurs twice.
+    """
 
     def blocks() -> Iterator[Sides]:
         return _all_sides(faces, FACES_PER_BLOCK) if left is None else _slices(left)

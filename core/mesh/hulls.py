@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Convex hulls of points in space, by quickhull with many points at a time and exact decisions.
 
-Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Each round here adds, in a few
-operations on arrays, all such points that see no face in common, and no face across another point's horizon. Their
-order does not matter, because a face over a horizon's edge is a positive combination of the two faces at the edge.
+Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Each round
+here adds, in a few operations on arrays, all such points that see no face in common, and no face
+across another point's horizon. Their order does not matter, because a face over a horizon's edge is
+a positive combination of the two faces at the edge.
 
-The points are rounded to a grid of 2^29 steps over the largest extent. On this grid, integers decide without rounding
-on which side of a face a point lies, so the result is always a closed convex surface. The points themselves are not
-changed.
+The points are rounded to a grid of 2^29 steps over the largest extent. On this grid, integers
+decide without rounding on which side of a face a point lies, so the result is always a closed
+convex surface. The points themselves are not changed.
 """
 
 from __future__ import annotations
@@ -33,10 +34,11 @@ PAIRS_PER_BLOCK = 1 << 18
 class ConvexHull:
     """A closed convex surface of triangles; for points in one plane, both sides of their polygon.
 
-    points, indices: (h, 3) corners as given, and (h,) their indices in the input. triangles: (m, 3) rows of `points`,
-    counter-clockwise from outside. neighbors: (m, 3) the triangle across each side: from corner 0 to 1, from 1 to 2,
-    from 2 to 0. is_flat: True if all points are in one plane. gap: bound of the distances of points from the hull,
-    above the tolerance if the limit of corners was reached.
+    points, indices: (h, 3) corners as given, and (h,) their indices in the input. triangles: (m, 3)
+    rows of `points`, counter-clockwise from outside. neighbors: (m, 3) the triangle across each
+    side: from corner 0 to 1, from 1 to 2, from 2 to 0. is_flat: True if all points are in one
+    plane. gap: bound of the distances of points from the hull, above the tolerance if the limit of
+    corners was reached.
     """
 
     points: NDArray[np.float64]
@@ -47,7 +49,9 @@ class ConvexHull:
     gap: float
 
     def transform(self, linear: ArrayLike) -> ConvexHull:
-        """Return the hull of the images of the points under (3, 3) `linear` @ x, which may mirror, but not flatten."""
+        """Return the hull of the images of the points under (3, 3) `linear` @ x, which may mirror,
+        but not flatten.
+        """
         matrix = float_array("linear", linear, 3, 3, finite=True)
         is_mirrored = bool(np.linalg.det(matrix) < 0.0)
         return replace(
@@ -69,7 +73,8 @@ def convex_hull(
     points : (n, 3) array_like
         Finite.
     tolerance : float
-        Relative to the largest extent: points outside by less are left out. Below 1e-8 the grid's steps show.
+        Relative to the largest extent: points outside by less are left out. Below 1e-8 the grid's
+        steps show.
     max_corners : int, optional
         Limit of the corners; the points that are outside by the least are left out.
 
@@ -115,7 +120,8 @@ def convex_hull(
 def hull_volumes(
     points: NDArray[np.float64], starts: NDArray[np.intp], tolerance: float
 ) -> NDArray[np.float64]:
-    """Return the hull volumes of (k,) sets of points, which begin at the rows `starts`; all hulls grow at once.
+    """Return the hull volumes of (k,) sets of points, which begin at the rows `starts`; all hulls
+    grow at once.
 
     tolerance: relative to the extent of each set, as for `convex_hull`. A flat set has no volume.
     """
@@ -154,7 +160,9 @@ def hull_volumes(
 
 
 def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
-    """Return four points that span a volume; three or two if all are nearer than `least` to their plane or line."""
+    """Return four points that span a volume; three or two if all are nearer than `least` to their
+    plane or line.
+    """
     ends = np.concatenate([grid.argmin(axis=0), grid.argmax(axis=0)])
     apart = np.linalg.norm(grid[ends][:, None] - grid[ends], axis=2)
     first, second = (int(ends[place]) for place in np.unravel_index(apart.argmax(), apart.shape))
@@ -177,17 +185,21 @@ def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
 
 
 def _farthest(distances: NDArray, reach: NDArray, least: float) -> int:
-    """Return the index of the largest distance; among distances equal within `least`, the largest reach: a corner."""
+    """Return the index of the largest distance; among distances equal within `least`, the largest
+    reach: a corner.
+    """
     equal = np.flatnonzero(distances >= distances.max() - least)
     return int(equal[reach[equal].argmax()])
 
 
 class _GrowingHull:
-    """Hulls on the grid, one for each set of points; and the points still outside, each with a face that it sees.
+    """Hulls on the grid, one for each set of points; and the points still outside, each with a face
+    that it sees.
 
-    first: (k, 4) corners of a tetrahedron in each set. owner: (n,) the set of each point, or -1 to leave it out.
-    corners: (m, 3) of the faces. normals: (m, 3) exact integers. outside, seen, height: the outside points, their
-    faces, and their heights in steps of the grid. reach: squared distances of all points from the middle.
+    first: (k, 4) corners of a tetrahedron in each set. owner: (n,) the set of each point, or -1 to
+    leave it out. corners: (m, 3) of the faces. normals: (m, 3) exact integers. outside, seen,
+    height: the outside points, their faces, and their heights in steps of the grid. reach: squared
+    distances of all points from the middle.
     """
 
     def __init__(
@@ -205,13 +217,17 @@ class _GrowingHull:
         )
 
     def _set_normals(self, kept: NDArray[np.int64], added: NDArray[np.intp]) -> None:
-        """Set the normals of the faces: `kept`, then the normals of new ones, below 2^60, so exact."""
+        """Set the normals of the faces: `kept`, then the normals of new ones, below 2^60, so
+        exact.
+        """
         a, b, c = (self.grid[added[:, k]].T for k in range(3))
         self.normals = np.concatenate([kept, np.stack(cross(b - a, c - a), axis=1)])
         self.lengths = np.linalg.norm(self.normals.astype(np.float64), axis=1)
 
     def _heights(self, points: NDArray[np.intp], faces: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Return (k,) normal · (point - corner), rounded but of the right sign; zero only in the plane."""
+        """Return (k,) normal · (point - corner), rounded but of the right sign; zero only in the
+        plane.
+        """
         offset = self.grid[points] - self.grid[self.corners[faces, 0]]
         normal = self.normals[faces]
         high = np.einsum("ij,ij->i", normal >> GRID_BITS, offset)
@@ -222,7 +238,9 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """Return outside points, the highest face below each (of `counts` from `firsts` on), and their heights."""
+        """Return outside points, the highest face below each (of `counts` from `firsts` on), and
+        their heights.
+        """
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
             number = counts[block]
@@ -238,12 +256,16 @@ class _GrowingHull:
         return points, faces, height
 
     def add_points(self, most: int | None = None) -> bool:
-        """Add at most `most` farthest points whose visible faces do not touch. Return whether there were any."""
+        """Add at most `most` farthest points whose visible faces do not touch.
+
+        Return whether there were any.
+        """
         if not len(self.outside):
             return False
         farthest = np.zeros(len(self.corners))
         np.maximum.at(farthest, self.seen, self.height)
-        # Of points that are equally far within the tolerance, take a corner: the one farthest from the middle.
+        # Of points that are equally far within the tolerance, take a corner: the one farthest from
+        # the middle.
         place = np.flatnonzero(self.height >= farthest[self.seen] - self.step)
         order = np.lexsort((self.reach[self.outside[place]], self.seen[place]))
         seen = self.seen[place[order]]
@@ -264,7 +286,9 @@ class _GrowingHull:
     def _visible_faces(
         self, apexes: NDArray[np.intp], faces: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return (k, 2) pairs of an apex and a visible face, and (l, 3) borders: apex, visible face and its side."""
+        """Return (k, 2) pairs of an apex and a visible face, and (l, 3) borders: apex, visible face
+        and its side.
+        """
         size = len(self.corners)
         front = np.stack([np.arange(len(apexes)), faces], axis=1)
         known = np.sort(front[:, 0] * size + front[:, 1])
@@ -360,7 +384,9 @@ def _flat_hull(points: NDArray[np.float64], corners: list[int], tolerance: float
 
 
 def convex_polygon(points: NDArray[np.float64], tolerance: float = 0.0) -> NDArray[np.intp]:
-    """Return (k,) indices of the counter-clockwise corners of (n, 2) points; two on a line, one if all are the same."""
+    """Return (k,) indices of the counter-clockwise corners of (n, 2) points; two on a line, one if
+    all are the same.
+    """
     ends = np.lexsort((points[:, 1], points[:, 0]))[[0, -1]]
     least = tolerance * float(np.ptp(points, axis=0).max())
     if np.abs(points[ends[1]] - points[ends[0]]).max() <= least:

@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faces that are not flat, and faces without area.
 
-A face that is not flat has no volume under it until somebody chooses its diagonals. For a quad the two choices differ
-by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6. For a polygon, the fans from its first and its second corner
-differ by tetrahedra that join the edge of these two corners to each other edge. A face counts as not flat if its
-diagonals pass each other by more than its coordinates' own errors and a millionth of its size, and it has an area.
+A face that is not flat has no volume under it until somebody chooses its diagonals. For a quad the
+two choices differ by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6. For a polygon, the
+fans from its first and its second corner differ by tetrahedra that join the edge of these two
+corners to each other edge. A face counts as not flat if its diagonals pass each other by more than
+its coordinates' own errors and a millionth of its size, and it has an area.
 
-The kernel of the moments hands most of these numbers to a `PlanarityAccumulator`, a block at a time. A quad's normal is
-the sum of its triangles' normals, of lengths p and q. It is at most p + q long, and at least 0.7 (p + q) unless the
-triangles face away from each other. Faces that this does not decide are classified one by one.
+The kernel of the moments hands most of these numbers to a `PlanarityAccumulator`, a block at a
+time. A quad's normal is the sum of its triangles' normals, of lengths p and q. It is at most p + q
+long, and at least 0.7 (p + q) unless the triangles face away from each other. Faces that this does
+not decide are classified one by one.
 """
 
 from __future__ import annotations
@@ -40,8 +42,8 @@ TRIANGLE = ((1, 0), (2, 0))
 class Planarity:
     """Planarity of the faces of a surface.
 
-    non_planar_count: faces that are not planar; volume_spread: the volume that the choice of their diagonals can
-    change; degenerate_faces: (k,) the faces without area.
+    non_planar_count: faces that are not planar; volume_spread: the volume that the choice of their
+    diagonals can change; degenerate_faces: (k,) the faces without area.
     """
 
     non_planar_count: int
@@ -51,7 +53,9 @@ class Planarity:
 
 @dataclass(frozen=True, eq=False)
 class _PlanarityPartial:
-    """Results of one block: counts of faces and of surely non-planar ones, 6 times their spread, and undecided rows."""
+    """Results of one block: counts of faces and of surely non-planar ones, 6 times their spread,
+    and undecided rows.
+    """
 
     count: int
     non_planar_count: int
@@ -60,10 +64,12 @@ class _PlanarityPartial:
 
 
 class PlanarityAccumulator:
-    """Planarity of a surface's quads, and of its polygons if it has the mesh's corners. Safe in threads.
+    """Planarity of a surface's quads, and of its polygons if it has the mesh's corners.
 
-    error: bound of the distance of points from their intended places (unit). cones: sums, absolute and
-    signed, of the cones from the reference point over all faces; None if unknown.
+    Safe in threads.
+
+    error: bound of the distance of points from their intended places (unit). cones: sums, absolute
+    and signed, of the cones from the reference point over all faces; None if unknown.
     """
 
     def __init__(self, surface: Surface, error: float):
@@ -73,12 +79,15 @@ class PlanarityAccumulator:
         self.quads: dict[int, _PlanarityPartial] = {}
         self.triangles: dict[int, _PlanarityPartial] = {}
         self.cones: tuple[float, float] | None = None
-        # Faces classified one by one are scaled to about size 1, because sixth powers of small lengths underflow.
+        # Faces classified one by one are scaled to about size 1, because sixth powers of small
+        # lengths underflow.
         self.exponent = int(np.frexp(max(size, float(np.finfo(np.float32).tiny)))[1])
 
     @cached_property
     def degenerate_limit(self) -> float:
-        """The largest length of the normal, for a quad the sum of its triangles' normals, of a face without area."""
+        """The largest length of the normal, for a quad the sum of its triangles' normals, of a face
+        without area.
+        """
         longest = 3.0 * self.extent * self.extent  # no face is longer than √3 times the extent
         return float(2.0 * np.sqrt(_degenerate_limit(longest, self.error)))
 
@@ -87,8 +96,9 @@ class PlanarityAccumulator:
     ) -> None:
         """Add the quads from row `start` on.
 
-        lengths: (2, k) of both triangles' normals. volume: (k,) 6 times the corners' tetrahedra, overwritten. folded:
-        columns whose triangles may face away from each other. room: (2, k) scratch.
+        lengths: (2, k) of both triangles' normals. volume: (k,) 6 times the corners' tetrahedra,
+        overwritten. folded: columns whose triangles may face away from each other. room: (2, k)
+        scratch.
         """
         volume = np.abs(volume, out=volume)
         normal = np.add(lengths[0], lengths[1], out=room[0])
@@ -114,14 +124,18 @@ class PlanarityAccumulator:
         )
 
     def add_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
-        """Add every `step`-th triangle from each row in `starts` on. lengths: (len(starts), k) of their normals."""
+        """Add every `step`-th triangle from each row in `starts` on. lengths: (len(starts), k) of
+        their normals.
+        """
         for start, normal in zip(starts, lengths):
             self.triangles[start] = _PlanarityPartial(
                 len(normal), 0, 0.0, start + step * np.flatnonzero(normal <= self.degenerate_limit)
             )
 
     def planarity(self) -> Planarity:
-        """Return the planarity from the kernel's reports, and from a pass over the faces that these leave undecided."""
+        """Return the planarity from the kernel's reports, and from a pass over the faces that these
+        leave undecided.
+        """
         surface = self.surface
         triangle_faces = self.surface.triangle_faces
         non_planar_count = 0
@@ -161,7 +175,9 @@ class PlanarityAccumulator:
     def _polygon_tetrahedra(
         self, pieces: NDArray[np.integer]
     ) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
-        """Return (m,) faces and (m, 4) corners of the polygons' tetrahedra. pieces: the triangles of each mesh face."""
+        """Return (m,) faces and (m, 4) corners of the polygons' tetrahedra. pieces: the triangles
+        of each mesh face.
+        """
         quad_faces, triangle_faces = face_of_each(self.surface)
         ring = self.surface.corner_vertices
         sizes = ring_sizes(triangle_faces, quad_faces)
@@ -173,7 +189,9 @@ class PlanarityAccumulator:
 
 @dataclass(frozen=True, eq=False)
 class StackPlanarity:
-    """`Planarity` of each of n surfaces; (f,) the faces without area, and whether each surface has such faces."""
+    """`Planarity` of each of n surfaces; (f,) the faces without area, and whether each surface has
+    such faces.
+    """
 
     non_planar_counts: NDArray[np.intp]
     volume_spread: NDArray[np.float64]
@@ -190,7 +208,9 @@ class StackPlanarity:
 
 
 def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
-    """Classify the faces of a stack one by one, as `PlanarityAccumulator` does for undecided faces."""
+    """Classify the faces of a stack one by one, as `PlanarityAccumulator` does for undecided
+    faces.
+    """
     count = len(stack.face_counts)
     face_count = int(stack.face_counts.sum())
     low, high = stack.box
@@ -242,7 +262,9 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
 def _classify_rows(
     points: NDArray, corners: NDArray, pairs: tuple, error: float | NDArray, exponent: int | NDArray
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return (m,) 6 times the scaled tetrahedra of faces' corners, 0 if flat, and a mask of faces without area."""
+    """Return (m,) 6 times the scaled tetrahedra of faces' corners, 0 if flat, and a mask of faces
+    without area.
+    """
     volumes = [np.empty(0)]
     bare = [np.empty(0, bool)]
     for start in range(0, len(corners), FACES_PER_BLOCK):
@@ -269,7 +291,9 @@ def _classify_rows(
 def _tetrahedra(
     ring: NDArray[np.integer], begin: NDArray[np.integer], sizes: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
-    """Return (m,) polygons and (m, 4) corners of the tetrahedra of polygons that stand in `ring` from `begin` on."""
+    """Return (m,) polygons and (m, 4) corners of the tetrahedra of polygons that stand in `ring`
+    from `begin` on.
+    """
     steps = sizes - 3
     row = np.repeat(np.arange(len(sizes)), steps)
     at = begin[row] + 2 + segment_ranges(steps)
@@ -277,12 +301,16 @@ def _tetrahedra(
 
 
 def _sum_in_order(volumes: NDArray[np.float64]) -> float:
-    """Return the sum, added one by one as in a stack of bodies; `np.add.reduce` adds in another order."""
+    """Return the sum, added one by one as in a stack of bodies; `np.add.reduce` adds in another
+    order.
+    """
     return float(sums_by_index(np.zeros(len(volumes), np.intp), volumes, 1)[0])
 
 
 def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _PlanarityPartial:
-    """Merge the partial results of `count` rows in the order of the rows; if some are missing, all are undecided."""
+    """Merge the partial results of `count` rows in the order of the rows; if some are missing, all
+    are undecided.
+    """
     partials = [blocks[start] for start in sorted(blocks)]
     if sum([block.count for block in partials]) != count:
         return _PlanarityPartial(count, 0, 0.0, np.arange(count))
@@ -295,5 +323,7 @@ def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _Planarit
 
 
 def _degenerate_limit(longest: NDArray | float, error: float | NDArray) -> NDArray | float:
-    """Return the largest squared normal of a face without area, from its squared longest edge or diagonal."""
+    """Return the largest squared normal of a face without area, from its squared longest edge or
+    diagonal.
+    """
     return longest * (error * error + ZERO_AREA_RTOL * ZERO_AREA_RTOL * longest)

@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Distances of points from triangles, in double precision, and generalized winding numbers about points.
+"""Distances of points from triangles, in double precision, and generalized winding numbers about
+points.
 
-Trees that find the nearest triangle work in single precision, and go wrong on triangles that are long and thin by as
-much as their width.
+Trees that find the nearest triangle work in single precision, and go wrong on triangles that are
+long and thin by as much as their width.
 
-Winding numbers are sums of solid angles, which open surfaces have, too, unlike the counts of `bvh.Bvh`.
+Winding numbers are sums of solid angles, which open surfaces have, too, unlike the counts of
+`bvh.Bvh`.
 """
 
 from __future__ import annotations
@@ -21,7 +23,9 @@ TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 
 def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float64]:
-    """Return the (m,) distances of (m, 3) points, or of one point, each from its own of (m, 3, 3) triangles."""
+    """Return the (m,) distances of (m, 3) points, or of one point, each from its own of (m, 3, 3)
+    triangles.
+    """
     point = np.asarray(points, np.float64).T
     ends = np.ascontiguousarray(corners.transpose(1, 2, 0))
     if point.ndim == 1:
@@ -58,7 +62,9 @@ def winding_number(
 def solid_angles(
     points: NDArray, triangles: NDArray[np.integer], point: ArrayLike = 0.0
 ) -> NDArray[np.float64]:
-    """Return (m,) signed solid angles of triangles seen from a point, by van Oosterom and Strackee (1983), eq. 8."""
+    """Return (m,) signed solid angles of triangles seen from a point, by van Oosterom and Strackee
+    (1983), eq. 8.
+    """
     a, b, c = (points[triangles[:, k]] - np.asarray(point) for k in range(3))
     la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
     volume = (a * np.cross(b, c)).sum(axis=1)

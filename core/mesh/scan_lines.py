@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Crossings of parallel lines with the faces of bodies.
 
-The lines run along the shortest side of a body's box, a little aslant, so that they are parallel to none of the box's
-faces. Across the box they form a lattice of rows and columns. As in drawing a picture, a row crosses a triangle between
-two of its edges, and the columns between these meet it: only faces with corners in several rows and columns cause work.
-A row crosses an edge if one end is above the row. The place is computed from the vertex with the lower index on, so
-that triangles that share the edge get the same place, and no line slips through between them.
+The lines run along the shortest side of a body's box, a little aslant, so that they are parallel to
+none of the box's faces. Across the box they form a lattice of rows and columns. As in drawing a
+picture, a row crosses a triangle between two of its edges, and the columns between these meet it:
+only faces with corners in several rows and columns cause work. A row crosses an edge if one end is
+above the row. The place is computed from the vertex with the lower index on, so that triangles that
+share the edge get the same place, and no line slips through between them.
 
-Several bodies share a scan, each with its own lines and the same result as alone. Rows of a body are left out if the
-work would exceed the limit for its number of triangles.
+Several bodies share a scan, each with its own lines and the same result as alone. Rows of a body
+are left out if the work would exceed the limit for its number of triangles.
 """
 
 from __future__ import annotations
@@ -40,9 +41,9 @@ MAX_CROSSINGS = 16384, 0.5  # pairs of lines and triangles; likewise
 class LineGrids:
     """The lines through each of b bodies.
 
-    `axes`: (b, 3) the points' axes from row to row, along a row, and along the lines; `center`: (b, 3) in that order.
-    `cell`: (b, 2) height of rows and width of columns; `origin`: (b, 2) row and column of the center, counted from 0.
-    `rows`, `columns`: the largest numbers of any body.
+    `axes`: (b, 3) the points' axes from row to row, along a row, and along the lines; `center`: (b,
+    3) in that order. `cell`: (b, 2) height of rows and width of columns; `origin`: (b, 2) row and
+    column of the center, counted from 0. `rows`, `columns`: the largest numbers of any body.
     """
 
     axes: NDArray[np.intp]
@@ -70,7 +71,9 @@ class LineGrids:
 
     @classmethod
     def through_points(cls, points: NDArray[np.float64], sizes: NDArray[np.float64]) -> LineGrids:
-        """Make a grid of a single line for each body, through (b, 3) points; sizes: (b,) of the bodies."""
+        """Make a grid of a single line for each body, through (b, 3) points; sizes: (b,) of the
+        bodies.
+        """
         count = len(points)
         cell = np.repeat(4.0 * sizes[:, None], 2, axis=1)
         return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
@@ -78,7 +81,9 @@ class LineGrids:
     def places(
         self, points: NDArray[np.floating], body: NDArray[np.integer] | None
     ) -> NDArray[np.float64]:
-        """Return the (3, n) rows, columns and lengths along the lines of points. body: (n,), None for a single body."""
+        """Return the (3, n) rows, columns and lengths along the lines of points. body: (n,), None
+        for a single body.
+        """
         if body is None:
             places = points.T[self.axes[0]].astype(np.float64)
             center = self.center.T
@@ -105,7 +110,9 @@ class LineGrids:
         column: NDArray[np.intp],
         along: NDArray[np.float64],
     ) -> NDArray[np.float64]:
-        """Return the (k,) squared distances of places on lines from the centers of their bodies (unit²)."""
+        """Return the (k,) squared distances of places on lines from the centers of their bodies
+        (unit²).
+        """
         across = np.stack([row, column], axis=1) - self.origin[body]
         across[:, 1] += COLUMN_SLOPE * across[:, 0]
         across = across * self.cell[body] + np.multiply.outer(along, LINE_SLOPES)
@@ -116,10 +123,9 @@ class LineGrids:
 class Crossings:
     """The k crossings of lines (`body`, `row`, `column`) with the triangles of b bodies.
 
-    `triangle`: 2q and 2q + 1 for quad q, then the triangles. `along`: the distance along the line from the body's
-    center.
-    `sign`: 1 if a line enters and -1 if it leaves a body that faces outward. `rows_apart`: (b,) distance of the
-    rows that were taken.
+    `triangle`: 2q and 2q + 1 for quad q, then the triangles. `along`: the distance along the line
+    from the body's center. `sign`: 1 if a line enters and -1 if it leaves a body that faces
+    outward. `rows_apart`: (b,) distance of the rows that were taken.
     """
 
     body: NDArray[np.intp]
@@ -139,7 +145,9 @@ def line_counts(triangles: NDArray[np.integer]) -> NDArray[np.intp]:
 def find_crossings(
     surface: Surface, grids: LineGrids, body: NDArray[np.integer] | None = None
 ) -> Crossings:
-    """Find the crossings of lines with faces of bodies, unordered. body: (n,) of the points, None for a single body."""
+    """Find the crossings of lines with faces of bodies, unordered. body: (n,) of the points, None
+    for a single body.
+    """
     triangles, number = _crossed_triangles(surface, _cells(surface.points, grids, body))
     corners = triangles.ravel()
     count = triangles.shape[1]
@@ -215,14 +223,18 @@ def _count_faces(
 def _rows_apart(
     work: NDArray[np.float64], limit: tuple[int, float], faces: NDArray[np.intp]
 ) -> NDArray[np.intp]:
-    """Return the (b,) distances, in rows, between the scanned rows of bodies, so that the work stays within a limit."""
+    """Return the (b,) distances, in rows, between the scanned rows of bodies, so that the work
+    stays within a limit.
+    """
     return np.maximum(np.ceil(work / (limit[0] + limit[1] * faces)), 1).astype(np.intp)
 
 
 def _crossed_triangles(
     surface: Surface, cells: tuple[NDArray[np.integer], NDArray[np.integer]]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (3, k) corners, and indices, of the triangles, or halves of quads, that span several rows and columns."""
+    """Return (3, k) corners, and indices, of the triangles, or halves of quads, that span several
+    rows and columns.
+    """
     triangles = [np.empty((3, 0), np.intp)]
     number = [np.empty(0, np.intp)]
     quads = surface.quads
@@ -263,7 +275,9 @@ def _cross_row(
     higher: NDArray[np.bool_],
     row: NDArray[np.intp],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
-    """Return the points, (2, k), at which a row enters and leaves triangles, and the sign of the crossings."""
+    """Return the points, (2, k), at which a row enters and leaves triangles, and the sign of the
+    crossings.
+    """
     first, second, third = higher
     single = (first ^ second ^ third) & ~(first & second & third)
     lone = np.where(first == second, 2, first == third)  # the corner on a side of its own

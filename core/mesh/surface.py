@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The polygons of one body as arrays: the result of every reader and the input of every measurement.
+"""The polygons of one body as arrays: the result of every reader and the input of every
+measurement.
 
-Quads stay quads, because two triangles that share a diagonal cost less than two loose ones. They are cut along
-the diagonal that Blender draws, so that the body measured is the body seen.
+Quads stay quads, because two triangles that share a diagonal cost less than two loose ones. They
+are cut along the diagonal that Blender draws, so that the body measured is the body seen.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ INDEX_SHAPES = {
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Triangles and quads over shared points, counter-clockwise from outside: the input of every measurement.
+    """Triangles and quads over shared points, counter-clockwise from outside.
 
     Parameters
     ----------
@@ -50,7 +51,8 @@ class Surface:
     triangle_faces, quad_faces : integer arrays, optional
         The mesh face that each row belongs to; None if face i is row i.
     corner_vertices, corner_edges : (c,) integer arrays, optional
-        The mesh's own corners, and the edge from each one to the next. They prove closedness without sorting.
+        The mesh's own corners, and the edge from each one to the next. They prove closedness
+        without sorting.
     displacement : (3,) array, optional
         See `coordinate_error`.
 
@@ -59,7 +61,9 @@ class Surface:
     >>> from body_moments.core import Surface
     >>> cube = Surface(
     ...     np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]),
-    ...     quads=np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]),
+    ...     quads=np.array(
+    ...         [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    ...     ),
     ... )
     >>> cube.box[1].tolist(), len(cube.all_triangles()[0])
     ([1.0, 1.0, 1.0], 12)
@@ -77,14 +81,16 @@ class Surface:
     def __post_init__(self) -> None:
         if not has_form(self.points, POINT_TYPES, (3,)):
             points = number_array("points", self.points, "n", 3)
-            # Files have float32 in either byte order: it must be known as such; other numbers become float64.
+            # Files have float32 in either byte order: it must be known as such; other numbers
+            # become float64.
             kind = np.float32 if points.dtype.newbyteorder("=") == np.float32 else np.float64
             object.__setattr__(self, "points", points.astype(kind, copy=False))
         for name, shape in INDEX_SHAPES.items():
             values = getattr(self, name)
             if values is not None and not has_form(values, INDEX_TYPES, shape[1:]):
                 indices = index_array(name, values, *shape)
-                # Numbers of faces, edges and vertices are added to others, which must neither overflow nor round.
+                # Numbers of faces, edges and vertices are added to others, which must neither
+                # overflow nor round.
                 kind = indices.dtype if indices.dtype in INDEX_TYPES else np.int64
                 object.__setattr__(self, name, indices.astype(kind, copy=False))
         if self.displacement is not None:
@@ -94,7 +100,9 @@ class Surface:
 
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Smallest and largest coordinates of the points, (3,) each, unused points included; NaN if any is NaN."""
+        """Smallest and largest coordinates of the points, (3,) each, unused points included; NaN if
+        any is NaN.
+        """
         rows = np.ascontiguousarray(
             self.points.T
         )  # along rows of three numpy is twenty times as slow
@@ -104,9 +112,11 @@ class Surface:
 
     @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:
-        """The (3,) bounds of the points' shift by storing: half an ulp of the largest float32 coordinate by axis.
+        """The (3,) bounds of the points' shift by storing: half an ulp of the largest float32
+        coordinate by axis.
 
-        `displacement` holds it for points that were float32 before; otherwise it is zero for float64 points.
+        `displacement` holds it for points that were float32 before; otherwise it is zero for
+        float64 points.
         """
         if self.displacement is not None:
             return self.displacement
@@ -127,9 +137,11 @@ class Surface:
         ]
 
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
-        """Map the points by (3, 3) `linear` @ x + (3,) `offset` in float64; the surface is then one of triangles alone.
+        """Map the points by (3, 3) `linear` @ x + (3,) `offset` in float64; the surface is then one
+        of triangles alone.
 
-        A mirroring map reverses the faces, so that outward stays outward; the diagonals stay as Blender drew them.
+        A mirroring map reverses the faces, so that outward stays outward; the diagonals stay as
+        Blender drew them.
         """
         rows = float_array("linear", linear, 3, 3)
         offset = float_array("offset", offset, 3)
@@ -152,7 +164,8 @@ class Surface:
 
     @classmethod
     def from_triangles(cls, points: ArrayLike, triangles: ArrayLike) -> Surface:
-        """Make a surface of (m, 3) triangles, counter-clockwise from outside, over (n, 3) points, float32 or float64.
+        """Make a surface of (m, 3) triangles, counter-clockwise from outside, over (n, 3) points,
+        float32 or float64.
 
         ValueError if the shapes or types differ, or an index has no point.
         """
@@ -160,7 +173,9 @@ class Surface:
         return cls(points, index_array("triangles", triangles, "m", 3, count=len(points)))
 
     def all_triangles(self) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-        """Return (m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of each."""
+        """Return (m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of
+        each.
+        """
         quad_faces, faces = face_of_each(self)
         if not len(self.quads):
             return self.triangles, faces
@@ -194,7 +209,9 @@ def triangle_areas(
 
 
 def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
-    """Join surfaces, in the same coordinates, into one of float64 triangles; the numbers of their faces continue."""
+    """Join surfaces, in the same coordinates, into one of float64 triangles; the numbers of their
+    faces continue.
+    """
     points = []
     triangles = []
     faces = []
@@ -216,17 +233,24 @@ def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
 
 
 def half_ulp(largest: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return half an ulp of float32 numbers. From 2^127 on it is that of 2^127, which stays finite."""
+    """Return half an ulp of float32 numbers.
+
+    From 2^127 on it is that of 2^127, which stays finite.
+    """
     return np.spacing(np.minimum(largest, 2.0**127).astype(np.float32)).astype(np.float64) / 2.0
 
 
 def turned_quads(points: NDArray, quads: NDArray) -> NDArray:
-    """Return (q, 4) quads turned so that Blender cuts them from their first corners to their third: into `HALVES`."""
+    """Return (q, 4) quads turned so that Blender cuts them from their first corners to their third:
+    into `HALVES`.
+    """
     return np.where(flipped_quads(points, quads)[:, None], quads.take(NEXT_CORNER, 1), quads)
 
 
 def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
-    """Return a (q,) mask of quads that Blender (is_quad_flip_v3_first_third_fast) cuts from the second corner on."""
+    """Return a (q,) mask of quads that Blender (is_quad_flip_v3_first_third_fast) cuts from the
+    second corner on.
+    """
     with np.errstate(over="ignore", invalid="ignore"):
         points = points.astype(np.float32, copy=False)
         a, b, c, d = (points[quads[:, i]] for i in range(4))

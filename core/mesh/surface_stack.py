@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many small surfaces as one: their arrays one after the other, so that numpy is called once for all of them."""
+"""Many small surfaces as one: their arrays one after the other, so that numpy is called once for
+all of them.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,8 @@ from .surface import HALVES, Surface, face_of_each, half_ulp, turned_quads
 
 @dataclass(frozen=True, eq=False)
 class TriangleStack:
-    """The triangles of n surfaces, with indices into their concatenated points; each surface has some.
+    """The triangles of n surfaces, with indices into their concatenated points; each surface has
+    some.
 
     `points` are (p, 3), float32 or float64, `triangles` (t, 3), the counts (n,).
     """
@@ -76,18 +79,23 @@ class TriangleStack:
 
     @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:
-        """(n, 3) half an ulp of each surface's largest coordinate on each axis: its `Surface.coordinate_error`."""
+        """(n, 3) half an ulp of each surface's largest coordinate on each axis: its
+        `Surface.coordinate_error`.
+        """
         low, high = self.box
         return half_ulp(np.maximum(high, -low))
 
 
 @dataclass(frozen=True, eq=False)
 class SurfaceStack(TriangleStack):
-    """The arrays of n surfaces, by `from_surfaces`. Faces are the meshes' own, numbered on from surface to surface.
+    """The arrays of n surfaces, by `from_surfaces`.
 
-    `triangles`: (t, 3) all faces, quads cut as drawn; of each surface first its triangles, then its quads.
-    `triangle_faces`, `quad_faces`: the face of each triangle, (t,), and of each of the (q, 4) quads.
-    `corner_vertices`, `corner_edges`: (c,) the meshes' corners and the edges that start there.
+    Faces are the meshes' own, numbered on from surface to surface.
+
+    `triangles`: (t, 3) all faces, quads cut as drawn; of each surface first its triangles, then its
+    quads. `triangle_faces`, `quad_faces`: the face of each triangle, (t,), and of each of the (q,
+    4) quads. `corner_vertices`, `corner_edges`: (c,) the meshes' corners and the edges that start
+    there.
     """
 
     triangle_faces: NDArray[np.intp]
@@ -102,7 +110,9 @@ class SurfaceStack(TriangleStack):
 
     @staticmethod
     def takes(surfaces: Sequence[Surface], most: int) -> list[bool]:
-        """Return which surfaces can be stacked: `most` triangles, float32 points, the mesh's own corners and edges."""
+        """Return which surfaces can be stacked: `most` triangles, float32 points, the mesh's own
+        corners and edges.
+        """
         fits = [
             surface.points.dtype == np.float32
             and surface.displacement is None
@@ -200,7 +210,9 @@ class SurfaceStack(TriangleStack):
 
     @cached_property
     def face_sizes(self) -> NDArray[np.intp]:
-        """The (f,) corner counts of faces, found from their triangles and quads; 0 for faces without any."""
+        """The (f,) corner counts of faces, found from their triangles and quads; 0 for faces
+        without any.
+        """
         return ring_sizes(self.triangle_faces, self.quad_faces, int(self.face_counts.sum()))
 
     def uses_all_points(self) -> NDArray[np.bool_]:
@@ -261,9 +273,10 @@ class SurfaceStack(TriangleStack):
 class Connections:
     """Connections of the faces of n surfaces, by their meshes' own edges.
 
-    `is_closed`: every edge with faces has two, which run oppositely; `is_open`: or some have one face.
-    `component_counts`: (n,); meaningless unless closed or open. `component`: (f,) of each face, by first face.
-    `open_sides`: (2, k) start and end vertices of the sides with no other side, for the open surfaces.
+    `is_closed`: every edge with faces has two, which run oppositely; `is_open`: or some have one
+    face. `component_counts`: (n,); meaningless unless closed or open. `component`: (f,) of each
+    face, by first face. `open_sides`: (2, k) start and end vertices of the sides with no other
+    side, for the open surfaces.
     """
 
     is_closed: NDArray[np.bool_]

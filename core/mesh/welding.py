@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertices at the same position, and faces on the same vertices, as in triangle soup, text and NURBS meshes.
+"""Vertices at the same position, and faces on the same vertices, as in triangle soup, text and
+NURBS meshes.
 
-Positions that differ by rounding are found on eight grids, each shifted by half a cell along some of the axes: points
-that are within half a cell along each axis share a cell of at least one of them. Within a cell, points are compared
-only with its first one. Only points with neighbors along a line enter grids: most meshes have none. Faces are copies if
-the sums of two hashes over their vertices agree.
+Positions that differ by rounding are found on eight grids, each shifted by half a cell along some
+of the axes: points that are within half a cell along each axis share a cell of at least one of
+them. Within a cell, points are compared only with its first one. Only points with neighbors along a
+line enter grids: most meshes have none. Faces are copies if the sums of two hashes over their
+vertices agree.
 """
 
 from __future__ import annotations
@@ -16,7 +18,8 @@ from numpy.typing import NDArray
 from ..numerics.arrays import NEXT_AXIS, first_occurrence, hash_uint64, lengths
 from ..numerics.graph import connected_components
 
-# Points near to each other are near along this direction, too; planes and axes of usual bodies are not across it.
+# Points near to each other are near along this direction, too; planes and axes of usual bodies are
+# not across it.
 DIRECTION = 0.5477, 0.3163, 0.7746
 REACH_MARGIN = 1.01  # allows for the rounding of places along the direction, and of its length
 CELL_DIAGONAL = 3.5  # tolerances, two to a side: farther apart than any two points of one cell
@@ -35,7 +38,9 @@ def may_have_neighbor(
     reach: float | NDArray[np.float64],
     owner: NDArray[np.integer] | None = None,
 ) -> NDArray[np.bool_]:
-    """Return an (n,) mask of all points with another point of their owner within `reach`, and of some more points."""
+    """Return an (n,) mask of all points with another point of their owner within `reach`, and of
+    some more points.
+    """
     x, y, z = points.T.astype(np.float64)
     along = x * DIRECTION[0] + y * DIRECTION[1] + z * DIRECTION[2]
     order = along.argsort() if owner is None else np.lexsort((along, owner))
@@ -52,7 +57,9 @@ def may_have_neighbor(
 def first_at_near_position(
     points: NDArray[np.floating], tolerance: NDArray[np.float64]
 ) -> NDArray[np.intp]:
-    """Return (n,) for each point the first of its cluster of points nearer to each other than (n,) tolerances."""
+    """Return (n,) for each point the first of its cluster of points nearer to each other than (n,)
+    tolerances.
+    """
     place = points.astype(np.float64)
     place = place - place.min(axis=0)
     cell = 2.0 * tolerance.max()
@@ -91,7 +98,9 @@ def vertex_tolerance(
     vertices: NDArray[np.integer],
     tolerance: float,
 ) -> NDArray[np.float64]:
-    """Return the (k,) distances that `vertices` may move: `tolerance`, less if the triangles around them are small."""
+    """Return the (k,) distances that `vertices` may move: `tolerance`, less if the triangles around
+    them are small.
+    """
     requested = np.zeros(len(points), bool)
     requested[vertices] = True
     triangles = triangles[requested[triangles].any(axis=1)]
@@ -105,7 +114,9 @@ def vertex_tolerance(
 def same_vertices_groups(
     triangles: NDArray[np.integer], faces: NDArray[np.integer]
 ) -> NDArray[np.intp]:
-    """Return for m triangles the first mesh faces on the same vertices as their own mesh faces, `faces` (m,)."""
+    """Return for m triangles the first mesh faces on the same vertices as their own mesh faces,
+    `faces` (m,).
+    """
     width = int(faces.max()) + 1
     pieces = np.bincount(faces)
     single = pieces[faces] == 1

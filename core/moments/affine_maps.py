@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Affine maps of a functional F[p,q,r] = ∫ x^p y^q z^r dm, m a volume, area, length or mass.
 
-Multiplying the integrand by the linear form l(x) = t + a·x sends F to (lF)[α] = t F[α] + Σ_i a_i F[α+e_i], one order
-shorter; the moments of the image are (l0^p l1^q l2^r F)[0,0,0]. Horner's scheme does that for any order and for many
-maps at once; `moments.image` is faster for a single map.
+Multiplying the integrand by the linear form l(x) = t + a·x sends F to (lF)[α] = t F[α] + Σ_i a_i
+F[α+e_i], one order shorter; the moments of the image are (l0^p l1^q l2^r F)[0,0,0]. Horner's scheme
+does that for any order and for many maps at once; `moments.image` is faster for a single map.
 """
 
 from __future__ import annotations
@@ -27,7 +27,8 @@ from .exponents import (
 )
 
 # If the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
-# float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
+# float32 entries alone may have made it: such a matrix cannot be distinguished from one that
+# flattens.
 SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 SIMILARITY_RTOL = (
     1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
@@ -47,14 +48,18 @@ def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np
 def distinct_linear_parts(
     matrices: NDArray,
 ) -> Iterator[tuple[NDArray[np.float64], NDArray[np.intp]]]:
-    """Yield each distinct (3, 3) linear part of (k, 4, 4) maps with the (j,) indices of the maps that have it."""
+    """Yield each distinct (3, 3) linear part of (k, 4, 4) maps with the (j,) indices of the maps
+    that have it.
+    """
     linear, which = np.unique(matrices[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
     for i, row in enumerate(linear):
         yield row.reshape(3, 3), np.flatnonzero(which.ravel() == i)
 
 
 def similarity_groups(matrices: NDArray) -> Iterator[tuple[NDArray[np.intp], bool]]:
-    """Yield the indices of all similarities of (k, 4, 4) maps and True, then of each uneven linear part and False."""
+    """Yield the indices of all similarities of (k, 4, 4) maps and True, then of each uneven linear
+    part and False.
+    """
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield np.flatnonzero(even), True
@@ -63,7 +68,9 @@ def similarity_groups(matrices: NDArray) -> Iterator[tuple[NDArray[np.intp], boo
 
 
 def affine_matrices(linear: NDArray, offsets: ArrayLike = 0.0) -> NDArray[np.float64]:
-    """Return (..., 4, 4) maps with these (..., 3, 3) linear parts and (..., 3) offsets, either of which may be one."""
+    """Return (..., 4, 4) maps with these (..., 3, 3) linear parts and (..., 3) offsets, either of
+    which may be one.
+    """
     matrices = np.zeros((*np.broadcast_shapes(linear.shape[:-2], np.shape(offsets)[:-1]), 4, 4))
     matrices[..., :3, :3] = linear
     matrices[..., :3, 3] = offsets
@@ -74,7 +81,9 @@ def affine_matrices(linear: NDArray, offsets: ArrayLike = 0.0) -> NDArray[np.flo
 def placed_boxes(
     box: tuple[NDArray, NDArray], matrices: NDArray
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (k, 3) middles and half sides of boxes around the images of a box, (3,) and (3,), by (k, 4, 4) maps."""
+    """Return (k, 3) middles and half sides of boxes around the images of a box, (3,) and (3,), by
+    (k, 4, 4) maps.
+    """
     (low, high) = box
     linear = matrices[:, :3, :3]
     return linear @ ((low + high) / 2.0) + matrices[:, :3, 3], np.abs(linear) @ ((high - low) / 2.0)
@@ -83,7 +92,9 @@ def placed_boxes(
 def transform_by_horner(
     values: NDArray, order: int, linear: NDArray, offset: NDArray
 ) -> NDArray[np.float64]:
-    """Return (K, k) images of functionals, (K, 1) or (K, k), under maps with (3, 3, k) `linear` and (3, k) `offset`."""
+    """Return (K, k) images of functionals, (K, 1) or (K, k), under maps with (3, 3, k) `linear` and
+    (3, k) `offset`.
+    """
     forms = [(offset[i], *linear[i]) for i in range(3)]
     out = np.zeros((len(values), offset.shape[1]))
     by_p = np.broadcast_to(values, out.shape)
@@ -102,7 +113,9 @@ def transform_by_horner(
 def multiply_by_linear_form(
     form: tuple[NDArray, ...], values: NDArray, order: int
 ) -> NDArray[np.float64]:
-    """Return a functional times the linear form (t, a, b, c), one order shorter: empty if `order` is 0."""
+    """Return a functional times the linear form (t, a, b, c), one order shorter: empty if `order`
+    is 0.
+    """
     if not order:
         return values[:0]
     t, a, b, c = form
@@ -116,7 +129,9 @@ def multiply_by_linear_form(
 
 
 def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
-    """Map functionals (..., m, K): the first of m by the map (..., 3, 3), its bounds by the map's absolute value."""
+    """Map functionals (..., m, K): the first of m by the map (..., 3, 3), its bounds by the map's
+    absolute value.
+    """
     out = np.array(values)
     for part, table in _image_coefficients(np.stack([linear, np.abs(linear)], axis=-3), order):
         out[..., 0, part] = np.add.reduce(table[..., 0, :, :] * values[..., 0, None, part], axis=-1)
@@ -127,7 +142,9 @@ def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.flo
 
 
 def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.float64]:
-    """Return (..., K) moments of bodies after rotations (..., 3, 3), from their moments `raw`; no error bounds."""
+    """Return (..., K) moments of bodies after rotations (..., 3, 3), from their moments `raw`; no
+    error bounds.
+    """
     if raw.ndim + 1 == rotation.ndim == 3 and len(rotation) == len(raw) > ROTATIONS_PER_BLOCK:
         blocks = [
             slice(start, start + ROTATIONS_PER_BLOCK)
@@ -144,7 +161,9 @@ def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.fl
 
 
 def _image_coefficients(forms: NDArray, order: int) -> Iterator[tuple[slice, NDArray[np.float64]]]:
-    """Yield, by degree from 1, the slice of its monomials, and the (..., rows, rows) coefficients of their images."""
+    """Yield, by degree from 1, the slice of its monomials, and the (..., rows, rows) coefficients
+    of their images.
+    """
     table = np.ones((*forms.shape[:-2], 1, 1))
     for degree in range(1, order + 1):
         table = _raise_polynomials(table, degree, forms)
@@ -152,7 +171,9 @@ def _image_coefficients(forms: NDArray, order: int) -> Iterator[tuple[slice, NDA
 
 
 def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:
-    """Return (..., rows, rows) coefficients of the images of a degree's monomials. table: those one degree lower."""
+    """Return (..., rows, rows) coefficients of the images of a degree's monomials. table: those one
+    degree lower.
+    """
     if degree == 1:
         return forms
     count = count_of_degree(degree)
@@ -177,7 +198,9 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[n
 def _terms(
     order: int,
 ) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]]:
-    """Return, by axis, the terms of all shifted monomials: (t,) old indices, powers, binomials; (K,) first terms."""
+    """Return, by axis, the terms of all shifted monomials: (t,) old indices, powers, binomials;
+    (K,) first terms.
+    """
     powers = monomials(order)
     tables = []
     for axis in range(3):
@@ -195,7 +218,9 @@ def _terms(
 
 
 def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
-    """Return (..., K) values F[(x+t)^α] of functionals F, (..., K), each with its own offset t, (..., 3)."""
+    """Return (..., K) values F[(x+t)^α] of functionals F, (..., K), each with its own offset t,
+    (..., 3).
+    """
     moved = offsets.any(axis=-1)
     if not moved.all():  # most images are about the image of their point
         values = values.copy()
@@ -217,9 +242,12 @@ def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[
 
 
 def are_singular(linear: NDArray) -> NDArray[np.bool_]:
-    """Return a (k,) mask of the (k, 3, 3) maps that are singular to the accuracy of float32 entries."""
+    """Return a (k,) mask of the (k, 3, 3) maps that are singular to the accuracy of float32
+    entries.
+    """
     columns = np.asarray(linear, np.float64).transpose(1, 2, 0).copy()
-    # Divide by the largest entry first, so that no square of a very small or large scale leaves float64's range.
+    # Divide by the largest entry first, so that no square of a very small or large scale leaves
+    # float64's range.
     largest = np.abs(columns).max(axis=0)
     columns /= np.where(largest > 0.0, largest, 1.0)
     lengths = np.sqrt((columns * columns).sum(axis=0))
@@ -256,7 +284,9 @@ def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
-    """Return a (k,) mask of the (k, 3, 3) maps that are similarities to the accuracy of float32 entries."""
+    """Return a (k,) mask of the (k, 3, 3) maps that are similarities to the accuracy of float32
+    entries.
+    """
     return (
         anisotropy(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0)))
         <= SIMILARITY_RTOL
@@ -264,7 +294,9 @@ def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
 
 
 def anisotropy(linear: NDArray) -> NDArray[np.float64]:
-    """Return (k,) bounds of the variation of (3, 3, k) maps' squared stretch, relative to its mean; infinite for 0."""
+    """Return (k,) bounds of the variation of (3, 3, k) maps' squared stretch, relative to its mean;
+    infinite for 0.
+    """
     columns = linear.transpose(1, 0, 2)
     a, b, c = [np.add.reduce(column * column) for column in columns]
     ab, ac, bc = [

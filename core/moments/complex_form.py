@@ -4,9 +4,10 @@
 
     c_pq = ∫ (x + iy)^p (x - iy)^q dA,    c_qp = conj(c_pq).
 
-Turned by θ a shape has c_pq exp(i(p-q)θ), and its mirror image has conj(c_pq). So products in which the p - q add up to
-zero are invariants, with imaginary parts that distinguish hands: Flusser's basis (Pattern Recognition 33, 2000) c_pq
-c_12^(p-q), complete if c_12 is not zero, and Hu's seven (IRE Transactions on Information Theory 8, 1962).
+Turned by θ a shape has c_pq exp(i(p-q)θ), and its mirror image has conj(c_pq). So products in which
+the p - q add up to zero are invariants, with imaginary parts that distinguish hands: Flusser's
+basis (Pattern Recognition 33, 2000) c_pq c_12^(p-q), complete if c_12 is not zero, and Hu's seven
+(IRE Transactions on Information Theory 8, 1962).
 """
 
 from __future__ import annotations
@@ -30,7 +31,9 @@ SUM_ROUNDINGS = 8  # rounding of a sum of a few products, in units u, besides on
 
 @dataclass(frozen=True)
 class ComplexBound:
-    """A complex number and a bound of its error; `*` multiplies the numbers and bounds the error of the product."""
+    """A complex number and a bound of its error; `*` multiplies the numbers and bounds the error of
+    the product.
+    """
 
     value: complex
     bound: float
@@ -73,7 +76,9 @@ class Invariant:
 def complex_moments(
     moments: Moments, bounds: NDArray[np.float64] | None = None
 ) -> dict[tuple[int, int], ComplexBound]:
-    """Return {(p, q): c_pq}, p ≥ q, of a plane shape (z = 0). bounds: (K,) errors, by default `rounding_error`."""
+    """Return {(p, q): c_pq}, p ≥ q, of a plane shape (z = 0). bounds: (K,) errors, by default
+    `rounding_error`.
+    """
     bounds = moments.rounding_error if bounds is None else bounds
     found = {}
     for (p, q), positions, factors in _expansions(moments.order):
@@ -88,7 +93,9 @@ def complex_moments(
 def _expansions(
     order: int,
 ) -> list[tuple[tuple[int, int], NDArray[np.int64], NDArray[np.complex128]]]:
-    """Return, by degree, each (p, q), p ≥ q, with the indices and factors of the real moments that make up c_pq."""
+    """Return, by degree, each (p, q), p ≥ q, with the indices and factors of the real moments that
+    make up c_pq.
+    """
     expansions = []
     for n in range(order + 1):
         for q in range(n // 2 + 1):
@@ -127,10 +134,11 @@ def hu_invariants(moments: Moments) -> list[Invariant]:
 
 
 def flusser_invariants(moments: Moments) -> list[Invariant]:
-    """Return Flusser's basis c_pq c_12^(p-q), p ≥ q, by degree from second order on; a mirror image has its conjugates.
+    """Return Flusser's basis c_pq c_12^(p-q), p ≥ q, by degree from second order on; a mirror image
+    has its conjugates.
 
-    The moments are a plane shape's, normalized, to third order at least. If it has a rotational symmetry, c_12 is zero,
-    and with it every invariant except those with p = q.
+    The moments are a plane shape's, normalized, to third order at least. If it has a rotational
+    symmetry, c_12 is zero, and with it every invariant except those with p = q.
     """
     names = [(p, q) for (p, q), *_ in _expansions(moments.order) if p + q > 1]
 
@@ -153,7 +161,9 @@ def flusser_invariants(moments: Moments) -> list[Invariant]:
 
 
 def _both(moments: Moments, products) -> list[tuple[ComplexBound, ComplexBound]]:
-    """Return products with bounds of rounding alone, paired with products that have bounds of the input errors too."""
+    """Return products with bounds of rounding alone, paired with products that have bounds of the
+    input errors too.
+    """
     return list(
         zip(
             products(moments.rounding_error), products(moments.rounding_error + moments.input_error)
@@ -162,19 +172,23 @@ def _both(moments: Moments, products) -> list[tuple[ComplexBound, ComplexBound]]
 
 
 def _name(p: int, q: int) -> str:
-    """Return the invariant's name, such as c11, c20 c12², or c10,3 c12⁷: with a comma if digits would run together."""
+    """Return the invariant's name, such as c11, c20 c12², or c10,3 c12⁷: with a comma if digits
+    would run together.
+    """
     first = "c{:d}{:s}{:d}".format(p, "," if p > 9 else "", q)
     power = "" if p - q == 1 else str(p - q).translate(SUPERSCRIPTS)
     return first if p == q else "{:s} c12{:s}".format(first, power)
 
 
 def normalize(moments: Moments, by: str = "size") -> Moments:
-    """Return the central moments without unit, about (0, 0, 0): independent of place and size of the body.
+    """Return the central moments without unit, about (0, 0, 0): independent of place and size of
+    the body.
 
-    by: "size" for μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas, for degree n, as if the body were scaled to a
-    volume, or area, of 1; "gyration" for μ / (m R^n) with R² = ∫ r² dm / m, from second order on, as if it were scaled
-    to a radius of gyration and a mass of 1. The bounds hold for the body's true center. ValueError if `by` is neither
-    or does not fit, MeasureError if there is too little to divide by.
+    by: "size" for μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas, for degree n, as if the body
+    were scaled to a volume, or area, of 1; "gyration" for μ / (m R^n) with R² = ∫ r² dm / m, from
+    second order on, as if it were scaled to a radius of gyration and a mass of 1. The bounds hold
+    for the body's true center. ValueError if `by` is neither or does not fit, MeasureError if there
+    is too little to divide by.
     """
     if by not in ("size", "gyration"):
         raise ValueError("by not 'size', 'gyration': {!r}".format(by))

@@ -32,7 +32,10 @@ def order_from_count(count: int) -> int:
 
 
 def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int, ...]:
-    """Return the exponents. TypeError if not `dimension` integers, IndexError if negative or beyond the order."""
+    """Return the exponents.
+
+    TypeError if not `dimension` integers, IndexError if negative or beyond the order.
+    """
     powers = tuple(exponents) if isinstance(exponents, (tuple, list, np.ndarray)) else ()
     if len(powers) != dimension or not all(
         isinstance(power, (int, np.integer)) for power in powers
@@ -44,7 +47,9 @@ def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int,
 
 
 def monomial_index(p: Index, q: Index, r: Index) -> Index:
-    """Return the index of the monomial x^p y^q z^r, sorted by degree, within a degree by (q + r, r)."""
+    """Return the index of the monomial x^p y^q z^r, sorted by degree, within a degree by (q + r,
+    r).
+    """
     negative = (p | q | r) < 0
     if negative if isinstance(negative, bool) else negative.any():
         raise IndexError("negative exponents: {}".format((p, q, r)))
@@ -104,7 +109,9 @@ def count_of_degree(degree: int) -> int:
 
 @lru_cache
 def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
-    """Return (3, rows) indices, within the degree below, of x^α / x, x^α / y, x^α / z; `missing` without the factor."""
+    """Return (3, rows) indices, within the degree below, of x^α / x, x^α / y, x^α / z; `missing`
+    without the factor.
+    """
     table = monomials(degree)[-count_of_degree(degree) :]
     r = table[:, 2]
     s = table[:, 1] + table[:, 2]
@@ -116,7 +123,9 @@ def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
 
 @lru_cache
 def product_indices(order: int) -> tuple[NDArray[np.int64], ...]:
-    """Return three arrays: the indices of the products with x, y and z of each monomial of a degree below `order`."""
+    """Return three arrays: the indices of the products with x, y and z of each monomial of a degree
+    below `order`.
+    """
     lower = monomials(order - 1)
     return tuple(
         np.array([monomial_index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int)
@@ -125,7 +134,9 @@ def product_indices(order: int) -> tuple[NDArray[np.int64], ...]:
 
 @lru_cache
 def tensor_index(degree: int) -> NDArray[np.int64]:
-    """Return the (3, ..., 3) indices in `Moments.raw` of the entries of the symmetric tensor of a degree; read-only."""
+    """Return the (3, ..., 3) indices in `Moments.raw` of the entries of the symmetric tensor of a
+    degree; read-only.
+    """
     axes = np.indices((3,) * degree)
     table = monomial_index(*((axes == axis).sum(axis=0) for axis in range(3)))
     table.flags.writeable = False

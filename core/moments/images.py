@@ -23,7 +23,8 @@ MAPS_PER_BLOCK = (
 def sum_of_images(moments: Moments, matrices: ArrayLike) -> Moments:
     """Return the summed moments of one body's images under (k, 4, 4) affine maps, at least one.
 
-    Its point is the mean of the images of `moments.about`. ValueError if a map of areas or lengths is no similarity.
+    Its point is the mean of the images of `moments.about`. ValueError if a map of areas or lengths
+    is no similarity.
     """
     matrices = float_array("matrices", matrices, "k", 4, 4, finite=True)
     check_filled("matrices", matrices)
@@ -80,11 +81,13 @@ def _image_error_bounds(
     weight_error: NDArray,
     uneven: NDArray,
 ) -> tuple[NDArray, NDArray]:
-    """Return (K,) `rounding_error`, including the rounding of the maps, and (K,) `input_error` of the sum of k images.
+    """Return (K,) `rounding_error`, including the rounding of the maps, and (K,) `input_error` of
+    the sum of k images.
 
-    By degree: if the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product of
-    n linear forms has binomial(n, j) stretch^j reach^(n-j) moments of degree j, each at most the largest one. An offset
-    that may be off by `tolerance` changes it by at most n `tolerance` times n-1 forms.
+    By degree: if the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`,
+    both (k,), a product of n linear forms has binomial(n, j) stretch^j reach^(n-j) moments of
+    degree j, each at most the largest one. An offset that may be off by `tolerance` changes it by
+    at most n `tolerance` times n-1 forms.
     """
     order = moments.order
     degree = monomials(order).sum(axis=1)

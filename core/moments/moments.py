@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Raw moments about a stated point: the common representation of every body.
 
-raw[p,q,r] = ∫ (x-ox)^p (y-oy)^q (z-oz)^r dm, positive integrals, p+q+r ≤ order. Moments add, scale by a density,
-and map linearly under an affine map (`affine_maps`), so a sum of objects is a sum and an instance is a map
-(`images`). Two bounds go with every number and add and map as it does: `rounding_error`, for rounding (or a stated
-truncation), and `input_error`, for storing coordinates as float32.
+raw[p,q,r] = ∫ (x-ox)^p (y-oy)^q (z-oz)^r dm, positive integrals, p+q+r ≤ order. Moments add, scale
+by a density, and map linearly under an affine map (`affine_maps`), so a sum of objects is a sum and
+an instance is a map (`images`). Two bounds go with every number and add and map as it does:
+`rounding_error`, for rounding (or a stated truncation), and `input_error`, for storing coordinates
+as float32.
 """
 
 from __future__ import annotations
@@ -44,7 +45,8 @@ from .exponents import (
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
 TINY = np.finfo(np.float64).tiny  # smaller numbers lack digits
 FLOAT32_HALF_ULP = 2.0**-24  # relative rounding error of float32
-# In units u: numpy adds up contiguous rows pairwise, from sums of at most 128 numbers in 8 lanes, so this is generous.
+# In units u: numpy adds up contiguous rows pairwise, from sums of at most 128 numbers in 8 lanes,
+# so this is generous.
 PAIRWISE_SUM_ROUNDINGS = 64
 
 
@@ -70,36 +72,40 @@ class Measure(StrEnum):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Moments:
-    """Raw moments of one body about a stated point, ∫ (x-ox)^p (y-oy)^q (z-oz)^r dm, with error bounds.
+    """Raw moments ∫ (x-ox)^p (y-oy)^q (z-oz)^r dm of one body, with error bounds.
 
-    The point is the middle of the body's bounding box unless the measurement was given another one; `about_point`,
-    `about_center` and `in_frame` lead to others. Moments add (`+`), scale by a density (`*`) and follow affine maps
-    (`transform`). `moments[p, q, r]` is one moment; iteration yields all (p, q, r), like the keys of a mapping. All
-    arrays may have the same leading axes: then they belong to a stack of bodies, and the arguments and results of
-    methods have these axes too.
+    The point is the middle of the body's bounding box unless another was given; `about_point`,
+    `about_center` and `in_frame` lead to others. Moments add (`+`), scale by a density (`*`) and
+    follow affine maps (`transform`). `moments[p, q, r]` is one moment; iteration yields all (p, q,
+    r), like the keys of a mapping. All arrays may have the same leading axes: then they belong to a
+    stack of bodies, and the arguments and results of methods have these axes too.
 
     Parameters
     ----------
     raw : (K,) array
-        The moments with p+q+r ≤ order, in the order of `monomials` and in unit^(dimension of `measure` + degree).
+        The moments with p+q+r ≤ order, in the order of `monomials` and in unit^(dimension of
+        `measure` + degree).
     about : (3,) array
         The point that the moments are taken about, in the body's coordinates.
     measure : Measure
         Integrals over volume, area, length or mass.
     rounding_error : (K,) array, optional
-        Bounds of ``|raw - exact|`` for the coordinates as given: rounding, and truncation if a source states so. Zero
-        by default.
+        Bounds of ``|raw - exact|`` for the coordinates as given: rounding, and truncation if a
+        source states so. Zero by default.
     input_error : (K,) array, optional
-        Bounds of the change when every coordinate moves by half an ulp of its float32 value. Zero by default, and for
-        float64 sources.
+        Bounds of the change when every coordinate moves by half an ulp of its float32 value. Zero
+        by default, and for float64 sources.
 
     Examples
     --------
     >>> from body_moments.core import Surface, polyhedron_moments
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> volume, _ = polyhedron_moments(surface, about=(0, 0, 0))
-    >>> round(volume.total * 6, 12), round(volume[2, 0, 0] * 60, 12), np.round(volume.center, 12).tolist()
-    (1.0, 1.0, [0.25, 0.25, 0.25])
+    >>> round(volume.total * 6, 12), round(volume[2, 0, 0] * 60, 12)
+    (1.0, 1.0)
+    >>> volume.center.round(12).tolist()
+    [0.25, 0.25, 0.25]
     >>> round((volume * 7850.0 + volume.about_center() * 1000.0).total * 6, 9)
     8850.0
     """
@@ -159,7 +165,9 @@ class Moments:
         return (tuple(row) for row in monomials(self.order).tolist())
 
     def to_dense(self) -> NDArray[np.float64]:
-        """Return (order + 1, order + 1, order + 1) array[p, q, r] as in `skimage.measure.moments`; 0 elsewhere."""
+        """Return (order + 1, order + 1, order + 1) array[p, q, r] as in `skimage.measure.moments`;
+        0 elsewhere.
+        """
         dense = np.zeros((*self.raw.shape[:-1], *3 * (self.order + 1,)))
         dense[(..., *monomials(self.order).T)] = self.raw
         return dense
@@ -170,7 +178,9 @@ class Moments:
         return self.raw[..., 0] if self.raw.ndim > 1 else float(self.raw[0])
 
     def at(self, which: int | slice | list[int] | NDArray | None) -> Moments:
-        """Return the bodies of a stack that an index selects; None turns a single body into a stack of one."""
+        """Return the bodies of a stack that an index selects; None turns a single body into a stack
+        of one.
+        """
         raw = self.raw
         about = self.about
         rounding = self.rounding_error
@@ -224,7 +234,9 @@ class Moments:
         return sum_moments([self, other.about_point(self.about)])
 
     def about_point(self, point: ArrayLike) -> Moments:
-        """Return the moments of the same body about another point, (3,) finite, by the binomial theorem."""
+        """Return the moments of the same body about another point, (3,) finite, by the binomial
+        theorem.
+        """
         point = float_array("point", point, *self.about.shape, finite=True)
         offset = self.about - point
         if not offset.any():
@@ -250,25 +262,27 @@ class Moments:
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> Moments:
         """Return the moments in another frame, about its origin, (3,).
 
-        rotation: (3, 3) the frame's axes as columns, determinant 1. ValueError if it is no rotation, or the origin not
-        finite.
+        rotation: (3, 3) the frame's axes as columns, determinant 1. ValueError if it is no
+        rotation, or the origin not finite.
         """
         inverse = rotation_array("rotation", rotation).swapaxes(-1, -2)
         origin = float_array("origin", origin, *self.about.shape, finite=True)
         matrix = np.concatenate([inverse, -inverse @ origin[..., None]], axis=-1)
-        # A change of axes stretches nothing, whatever is measured and however the rotation was rounded.
+        # A change of axes stretches nothing, whatever is measured and however the rotation was
+        # rounded.
         return replace(
             image(replace(self, measure=Measure.MASS), matrix, np.zeros(self.about.shape)),
             measure=self.measure,
         )
 
     def transform(self, matrix: ArrayLike) -> Moments:
-        """Return the moments of the body's image under matrix[:3, :3] @ x + matrix[:3, 3], about the image of `about`.
+        """Return the moments of the body's image under matrix[:3, :3] @ x + matrix[:3, 3], about
+        the image of `about`.
 
-        Volume and mass follow any map, mass unchanged and volume by ``|det|``. Areas and lengths follow a similarity
-        only; the deviation of a float32 rotation from one goes into `rounding_error`. ValueError if the matrix is not
-        finite (4, 4), or no similarity although one is needed; MeasureError if the image is too small for its measure
-        to be a number.
+        Volume and mass follow any map, mass unchanged and volume by ``|det|``. Areas and lengths
+        follow a similarity only; the deviation of a float32 rotation from one goes into
+        `rounding_error`. ValueError if the matrix is not finite (4, 4), or no similarity although
+        one is needed; MeasureError if the image is too small for its measure to be a number.
         """
         affine = float_array("matrix", matrix, *self.about.shape[:-1], 4, 4, finite=True)
         return image(
@@ -283,7 +297,9 @@ def unchecked_moments(
     rounding_error: NDArray[np.float64],
     input_error: NDArray[np.float64],
 ) -> Moments:
-    """Return moments of float64 arrays that fit each other, as the core computes them, without a check."""
+    """Return moments of float64 arrays that fit each other, as the core computes them, without a
+    check.
+    """
     moments = object.__new__(Moments)
     names = "raw", "about", "measure", "rounding_error", "input_error"
     moments.__dict__.update(zip(names, (raw, about, measure, rounding_error, input_error)))
@@ -311,7 +327,9 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
 
 
 def stack_moments(parts: Sequence[Moments]) -> Moments:
-    """Stack moments of one measure, each about its own point, along a leading axis, to the lowest of their orders."""
+    """Stack moments of one measure, each about its own point, along a leading axis, to the lowest
+    of their orders.
+    """
     order = min([part.order for part in parts])
     return join_moments([part.truncate(order).at(None) for part in parts])
 
@@ -329,11 +347,12 @@ def join_moments(stacks: Sequence[Moments]) -> Moments:
 
 @np.errstate(over="ignore", invalid="ignore")  # callers check for overflow
 def image(moments: Moments, matrices: NDArray, center: NDArray | None = None) -> Moments:
-    """Return the moments of a body's image under an affine map, or of each stacked body's image under its own map.
+    """Return the moments of a body's image under an affine map, or of each stacked body's image
+    under its own map.
 
-    `matrices` are (..., 4, 4) or (..., 3, 4) and finite; `center`, (..., 3), is the point of the result, by default the
-    image of `about`. ValueError if a map of areas or lengths is no similarity, MeasureError if an image is too small
-    for its measure to be a number.
+    `matrices` are (..., 4, 4) or (..., 3, 4) and finite; `center`, (..., 3), is the point of the
+    result, by default the image of `about`. ValueError if a map of areas or lengths is no
+    similarity, MeasureError if an image is too small for its measure to be a number.
     """
     order, about = moments.order, moments.about
     linear = matrices[..., :3, :3]
@@ -387,7 +406,9 @@ def image(moments: Moments, matrices: NDArray, center: NDArray | None = None) ->
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (k,) factors by which (3, 3, k) maps scale a measure, bounds of rounding, and bounds of unevenness."""
+    """Return (k,) factors by which (3, 3, k) maps scale a measure, bounds of rounding, and bounds
+    of unevenness.
+    """
     exact = np.zeros(linear.shape[2])
     if measure == Measure.MASS:
         return np.ones(linear.shape[2]), exact, exact
@@ -406,5 +427,6 @@ def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, N
     if np.any(uneven > SIMILARITY_RTOL):
         raise ValueError("not a similarity")
     power = 1 if measure == Measure.LENGTH else 2
-    # AᵀA = s²(1 + E): a face of normal n grows by ½ (tr E / 3 - n·En) more than det^⅔, an edge along n by as much less.
+    # AᵀA = s²(1 + E): a face of normal n grows by ½ (tr E / 3 - n·En) more than det^⅔, an edge
+    # along n by as much less.
     return np.cbrt(det) ** power, 8 * U * np.cbrt(permanent) ** power, uneven * (0.5 + uneven)

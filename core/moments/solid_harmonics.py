@@ -1,12 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments against solid harmonics, ∫ r^(2j) conj(r^l Y_lm) dV, from raw moments: they turn degree by degree.
+"""Moments against solid harmonics, ∫ r^(2j) conj(r^l Y_lm) dV, from raw moments: they turn degree
+by degree.
 
-Under a rotation the 2l+1 of them with one j and l mix among themselves only, by Wigner's unitary matrix; so their sum
-of squares is invariant, and so is any coupling of three of them to l = 0 (with 3j symbols). Y_lm are orthonormal, with
-the Condon-Shortley phase, and their polynomials are (Varshalovich et al., Quantum Theory of Angular Momentum, 5.1)
+Under a rotation the 2l+1 of them with one j and l mix among themselves only, by Wigner's unitary
+matrix; so their sum of squares is invariant, and so is any coupling of three of them to l = 0 (with
+3j symbols). Y_lm are orthonormal, with the Condon-Shortley phase, and their polynomials are
+(Varshalovich et al., Quantum Theory of Angular Momentum, 5.1)
 
-    r^l Y_lm = sqrt((2l+1)/4π (l+m)! (l-m)!) Σ_k (-(x+iy)/2)^(k+m) ((x-iy)/2)^k z^(l-m-2k) / ((k+m)! k! (l-m-2k)!).
+    r^l Y_lm = sqrt((2l+1)/4π (l+m)! (l-m)!) Σ_k (-(x+iy)/2)^(k+m) ((x-iy)/2)^k z^(l-m-2k) / ((k+m)!
+    k! (l-m-2k)!).
 """
 
 from __future__ import annotations
@@ -23,7 +26,9 @@ Multiplets = dict[tuple[int, int], NDArray[np.complex128]]
 
 
 def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
-    """Return {(n, l): (2l+1, …)} ∫ r^(n-l) conj(r^l Y_lm) for l ≤ n ≤ order, n-l even, from raw (K, …) moments."""
+    """Return {(n, l): (2l+1, …)} ∫ r^(n-l) conj(r^l Y_lm) for l ≤ n ≤ order, n-l even, from raw (K,
+    …) moments.
+    """
     result = {}
     for j in range(order // 2 + 1):
         for l in range(order - 2 * j + 1):
@@ -39,7 +44,9 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
 
 
 def along_first(table: NDArray, values: NDArray) -> NDArray:
-    """Return `table` with trailing axes of length 1, so that it multiplies `values` along their first axis."""
+    """Return `table` with trailing axes of length 1, so that it multiplies `values` along their
+    first axis.
+    """
     return table.reshape(*table.shape, *[1] * (values.ndim - 1))
 
 
@@ -51,7 +58,9 @@ def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]
 
 
 def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    """Return (…) Σ (l l' l''; m m' m'') a_m b_m' c_m'' of multiplets (2l+1, …); a pseudoscalar for odd l + l' + l''."""
+    """Return (…) Σ (l l' l''; m m' m'') a_m b_m' c_m'' of multiplets (2l+1, …); a pseudoscalar for
+    odd l + l' + l''.
+    """
     l, k, n = ((len(multiplet) - 1) // 2 for multiplet in (a, b, c))
     symbols, (i, j, m) = _nonzero_three_j(l, k, n)
     value = np.add.reduce(along_first(symbols, a) * a[i] * b[j] * c[m])
@@ -60,7 +69,9 @@ def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
 
 @lru_cache
 def _solid(l: int) -> NDArray[np.complex128]:
-    """Return the (l+1, (l+1)(l+2)/2) coefficients of r^l Y_lm for m = 0..l in the ordered monomials of degree l."""
+    """Return the (l+1, (l+1)(l+2)/2) coefficients of r^l Y_lm for m = 0..l in the ordered monomials
+    of degree l.
+    """
     start = monomial_count(l - 1)
     table = np.zeros((l + 1, monomial_count(l) - start), complex)
     for m in range(l + 1):

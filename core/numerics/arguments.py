@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Arguments of public functions, converted to arrays or refused by name.
 
-Another shape or content is a ValueError that names the parameter, the shape that it must have and the given one; an
-object of another class is a TypeError. In a shape a letter stands for any length, a leading `...` for leading axes.
+Another shape or content is a ValueError that names the parameter, the shape that it must have and
+the given one; an object of another class is a TypeError. In a shape a letter stands for any length,
+a leading `...` for leading axes.
 """
 
 from __future__ import annotations
@@ -57,7 +58,9 @@ def index_array(
 
 
 def has_form(values: object, types: tuple[np.dtype, ...], row: tuple[Length, ...]) -> bool:
-    """Return whether values are an array of one of these types with rows of this shape: it needs no conversion."""
+    """Return whether values are an array of one of these types with rows of this shape: it needs no
+    conversion.
+    """
     return (
         type(values) is np.ndarray
         and values.dtype in types

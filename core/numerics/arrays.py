@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vectors in rows, ranges of segments, pairs in bounded pieces, hashes of rows, first occurrences, Morton order."""
+"""Vectors in rows, ranges of segments, pairs in bounded pieces, hashes of rows, first occurrences,
+Morton order.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ PREVIOUS_AXIS = np.array([2, 0, 1])
 
 
 def cross_rows(u: NDArray, v: NDArray) -> NDArray:
-    """Return the cross products of vectors (..., 3), equal to those of `np.cross`, whose overhead is ten times this."""
+    """Return the cross products of vectors (..., 3), equal to those of `np.cross`, whose overhead
+    is ten times this.
+    """
     after = u.take(NEXT_AXIS, -1) * v.take(PREVIOUS_AXIS, -1)
     before = u.take(PREVIOUS_AXIS, -1) * v.take(NEXT_AXIS, -1)
     return after - before
@@ -31,7 +35,9 @@ def lengths(vectors: NDArray) -> NDArray:
 
 
 def as_rows(vectors: list[NDArray]) -> NDArray:
-    """Return the vectors (..., k) as rows (..., m, k): `np.stack` along the axis before the last, in less time."""
+    """Return the vectors (..., k) as rows (..., m, k): `np.stack` along the axis before the last,
+    in less time.
+    """
     return np.concatenate([vector[..., None, :] for vector in vectors], axis=-2)
 
 
@@ -46,7 +52,9 @@ def as_unsigned(indices: NDArray[np.integer]) -> NDArray[np.unsignedinteger]:
 
 
 def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return 10-bit numbers with two zero bits inserted after each bit: a third of a Morton code."""
+    """Return 10-bit numbers with two zero bits inserted after each bit: a third of a Morton
+    code.
+    """
     value = (value | value << 16) & 0x030000FF
     value = (value | value << 8) & 0x0300F00F
     value = (value | value << 4) & 0x030C30C3
@@ -80,7 +88,9 @@ def power_table(values: NDArray[np.float64], order: int) -> list[NDArray[np.floa
 
 
 def batches(weights: NDArray, size: float) -> Iterator[slice]:
-    """Yield slices of consecutive items with weights that add up to about `size`, at least one item each."""
+    """Yield slices of consecutive items with weights that add up to about `size`, at least one item
+    each.
+    """
     total = np.cumsum(weights)
     start = 0
     while start < len(total):
@@ -93,7 +103,9 @@ def batches(weights: NDArray, size: float) -> Iterator[slice]:
 def following_pairs(
     order: NDArray[np.intp], counts: NDArray[np.intp], size: int
 ) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
-    """Yield pairs of each item of `order`, (n,), with the next `counts`, (n,), items, about `size` at a time."""
+    """Yield pairs of each item of `order`, (n,), with the next `counts`, (n,), items, about `size`
+    at a time.
+    """
     for part in batches(counts, size):
         row = np.repeat(np.arange(part.start, part.stop), counts[part])
         if len(row):
@@ -103,7 +115,9 @@ def following_pairs(
 def first_occurrence(
     *columns: NDArray, slots: NDArray[np.integer] | None = None
 ) -> NDArray[np.intp]:
-    """Return (n,) indices of the first row with the bits of each row. slots: (n,) hash slots of the first round."""
+    """Return (n,) indices of the first row with the bits of each row. slots: (n,) hash slots of the
+    first round.
+    """
     bits_of = [column.view(np.uint64) for column in columns]
     salt = 0
     first = rest = np.arange(len(columns[0]), dtype=np.min_scalar_type(-len(columns[0])))
@@ -148,14 +162,18 @@ def hash_uint64(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
 
 
 def unique_pairs(pairs: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return (k, 2) rows of two numbers from 0 to 2³¹, sorted, each once: as `np.unique` along an axis, but faster."""
+    """Return (k, 2) rows of two numbers from 0 to 2³¹, sorted, each once: as `np.unique` along an
+    axis, but faster.
+    """
     width = int(pairs.max(initial=0)) + 1
     key = np.unique(pairs[:, 0].astype(np.int64) * width + pairs[:, 1])
     return np.stack(np.divmod(key, width), axis=1).astype(np.intp, copy=False)
 
 
 def distinct_arrays(arrays: NDArray, within: float) -> NDArray[np.float64]:
-    """Return the (n, ...) vectors or matrices that differ from all earlier ones by at least `within` in some entry."""
+    """Return the (n, ...) vectors or matrices that differ from all earlier ones by at least
+    `within` in some entry.
+    """
     same = (
         np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
     )

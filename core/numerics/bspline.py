@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """B-splines of one parameter: function spaces, their values and derivatives.
 
-A `SplineSpace` is the function space of a direction of Soldea, Elber and Rivlin (Exact and efficient computation of
-moments of free-form surface and trivariate based geometry, section 2): order and knots, without control points. The
-basis is evaluated by the triangular scheme of Cox and de Boor, for many parameters at once.
+A `SplineSpace` is the function space of a direction of Soldea, Elber and Rivlin (Exact and
+efficient computation of moments of free-form surface and trivariate based geometry, section 2):
+order and knots, without control points. The basis is evaluated by the triangular scheme of Cox and
+de Boor, for many parameters at once.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from .arguments import float_array
 
 @dataclass(frozen=True)
 class SplineSpace:
-    """The B-splines of one order over one knot vector: a direction's function space, without control points.
+    """The B-splines of one order over one knot vector, without control points.
 
     Parameters
     ----------
@@ -29,8 +30,8 @@ class SplineSpace:
     order : int
         The degree plus one, at least 1.
     count : int
-        Control points. Basis function i takes control point i mod count, so a closed direction has order - 1 more basis
-        functions than control points.
+        Control points. Basis function i takes control point i mod count, so a closed direction has
+        order - 1 more basis functions than control points.
 
     Raises
     ------
@@ -96,7 +97,9 @@ class SplineSpace:
         return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
 
     def uniform_parameters(self, per_span: int) -> NDArray[np.float64]:
-        """Return (spans * per_span + 1,) parameters at equal steps in every span, both ends of the domain included."""
+        """Return (spans * per_span + 1,) parameters at equal steps in every span, both ends of the
+        domain included.
+        """
         low, high = self.intervals.T
         inner = low[:, None] + (high - low)[:, None] * (np.arange(per_span) / per_span)
         return np.append(inner.ravel(), high[-1])
@@ -113,16 +116,19 @@ class SplineSpace:
 
     @cached_property
     def bezier_extraction(self) -> NDArray[np.float64]:
-        """(s, order, order) weights of the acting control points in each Bézier control point of a span."""
+        """(s, order, order) weights of the acting control points in each Bézier control point of a
+        span.
+        """
         return self.bezier_weights(self.spans, self.intervals)
 
     def bezier_weights(
         self, spans: NDArray[np.integer], intervals: ArrayLike
     ) -> NDArray[np.float64]:
-        """Return (s, order, order) weights of the acting control points in the Bézier control points of intervals.
+        """Return (s, order, order) weights of the acting control points in the Bézier control
+        points of intervals.
 
-        There is an interval (s, 2) within each span (s,). The recursion of Cox and de Boor takes the interval's
-        beginning or its end in each of its steps: Bézier's b-th point takes b ends.
+        There is an interval (s, 2) within each span (s,). The recursion of Cox and de Boor takes
+        the interval's beginning or its end in each of its steps: Bézier's b-th point takes b ends.
         """
         knots = np.asarray(self.knots)
         near = knots[np.asarray(spans)[:, None] + np.arange(2 - self.order, self.order)]
@@ -144,20 +150,24 @@ class SplineSpace:
         return (np.asarray(spans)[..., None] + np.arange(1 - self.order, 1)) % self.count
 
     def find_spans(self, parameters: NDArray) -> NDArray[np.int64]:
-        """Return the span of each parameter, or the nearest span if a parameter is outside the domain."""
+        """Return the span of each parameter, or the nearest span if a parameter is outside the
+        domain.
+        """
         inner = self.intervals[1:, 0]
         return self.spans[np.searchsorted(inner, parameters, side="right")]
 
     def derivatives(
         self, spans: NDArray[np.integer], parameters: NDArray, highest: int
     ) -> list[NDArray[np.float64]]:
-        """Return `highest` + 1 arrays (..., order): values and derivatives of the basis functions that act in spans.
+        """Return `highest` + 1 arrays (..., order): values and derivatives of the basis functions
+        that act in spans.
 
         spans, parameters: broadcast against each other to some shape (...).
         """
         knots = np.asarray(self.knots)
         t = np.asarray(parameters, np.float64)
-        # The knots from j - order + 2 to j + order - 1, gathered once for each span, however many parameters it has.
+        # The knots from j - order + 2 to j + order - 1, gathered once for each span, however many
+        # parameters it has.
         near = knots[np.asarray(spans)[..., None] + np.arange(2 - self.order, self.order)]
         lower = [np.ones((*t.shape, 1))]  # by order, from 1
         for order in range(2, self.order + 1):
@@ -181,7 +191,9 @@ class SplineSpace:
         return by_derivative + [np.zeros_like(lower[-1]) for _ in range(self.order, highest + 1)]
 
     def _adjacent_knots(self, near: NDArray, order: int) -> tuple[NDArray, NDArray]:
-        """Return the first and the last knot of the order - 1 functions, one order lower, that act in a span."""
+        """Return the first and the last knot of the order - 1 functions, one order lower, that act
+        in a span.
+        """
         return near[..., self.order - order : self.order - 1], near[
             ..., self.order - 1 : self.order + order - 2
         ]
@@ -189,9 +201,11 @@ class SplineSpace:
     def collocation_matrix(
         self, parameters: ArrayLike, derivative: int = 0, spans: NDArray[np.integer] | None = None
     ) -> NDArray[np.float64]:
-        """Return (n, count) weights of the control points in the value, or a derivative, at n parameters.
+        """Return (n, count) weights of the control points in the value, or a derivative, at n
+        parameters.
 
-        spans: (n,) the span of each parameter; by default a parameter at a knot is in the span that begins there.
+        spans: (n,) the span of each parameter; by default a parameter at a knot is in the span that
+        begins there.
         """
         parameters = float_array("parameters", parameters, "n")
         spans = self.find_spans(parameters) if spans is None else spans

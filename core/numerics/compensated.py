@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sums and products of float64 with their rounding errors (Dekker 1971, Knuth), for use if an ulp would be too much."""
+"""Sums and products of float64 with their rounding errors (Dekker 1971, Knuth), for use if an ulp
+would be too much.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ def two_sum(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def two_product(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray]:
-    """Return the rounded product and its error; their sum is exactly `a * b`, for products from 1e-290 to 1e290."""
+    """Return the rounded product and its error; their sum is exactly `a * b`, for products from
+    1e-290 to 1e290.
+    """
     product = a * b
     (ah, al), (bh, bl) = _split(a), _split(b)
     return product, al * bl - (((product - ah * bh) - al * bh) - ah * bl)
@@ -32,7 +36,9 @@ def _split(a: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    """Return (3, k) (b-a) x (c-a) for corners (3, k), relatively accurate to about u however thin the triangles are."""
+    """Return (3, k) (b-a) x (c-a) for corners (3, k), relatively accurate to about u however thin
+    the triangles are.
+    """
     (u, ul), (v, vl) = two_sum(b, -a), two_sum(c, -a)
     coordinates = []
     for y, z in ((1, 2), (2, 0), (0, 1)):
@@ -46,7 +52,9 @@ def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float6
 
 
 def phase_factors(q: NDArray, x: NDArray) -> NDArray[np.complex128]:
-    """Return (m,) exp(-i q·x) for q (m, n) and x (n,), accurate to a few u, however large the phase."""
+    """Return (m,) exp(-i q·x) for q (m, n) and x (n,), accurate to a few u, however large the
+    phase.
+    """
     total, rest = two_product(q[:, 0], x[0])
     for axis in range(1, q.shape[1]):
         product, low = two_product(q[:, axis], x[axis])

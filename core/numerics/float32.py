@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers that Blender stores as float32 and a person typed as decimals. Read while panels draw: without numpy."""
+"""Numbers that Blender stores as float32 and a person typed as decimals.
+
+Read while panels draw: without numpy.
+"""
 
 from functools import lru_cache
 from struct import pack
@@ -10,7 +13,9 @@ FLOAT32_MAX = 3e38  # larger numbers, rounded to fewer digits, may leave the ran
 
 @lru_cache(maxsize=1024)  # settings, read at every redraw
 def shortest_decimal(value: float) -> float:
-    """Return the shortest decimal that is stored as this float32: 0.001 for 0.0010000000474974513."""
+    """Return the shortest decimal that is stored as this float32: 0.001 for
+    0.0010000000474974513.
+    """
     if abs(value) < FLOAT32_MAX:
         stored = pack("f", value)
         for digits in range(1, 9):

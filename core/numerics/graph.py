@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Connected components of a graph.
 
-Components are found by hooking (after Shiloach and Vishkin, J. Algorithms 3, 1982): every node takes its lowest
-neighbor as its parent if that is lower, which cannot make a cycle; pointer jumping halves the paths; the trees become
-the nodes of the next round. A node that a round leaves alone has a lower neighbor after it, so two rounds at least
-halve the trees. With any lower neighbor in place of the lowest, a star could take as many rounds as it has links.
+Components are found by hooking (after Shiloach and Vishkin, J. Algorithms 3, 1982): every node
+takes its lowest neighbor as its parent if that is lower, which cannot make a cycle; pointer jumping
+halves the paths; the trees become the nodes of the next round. A node that a round leaves alone has
+a lower neighbor after it, so two rounds at least halve the trees. With any lower neighbor in place
+of the lowest, a star could take as many rounds as it has links.
 """
 
 from __future__ import annotations
@@ -13,7 +14,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-# Links, or corners of faces, at a time: enough for threads to help; a multiple of 3 and 4, so that no face is split.
+# Links, or corners of faces, at a time: enough for threads to help; a multiple of 3 and 4, so that
+# no face is split.
 EDGES_PER_BLOCK = 3 << 16
 NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 
@@ -21,7 +23,9 @@ NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 def connected_components(
     count: int, a: NDArray[np.integer], b: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], int]:
-    """Return (count,) components of nodes joined by links a-b, (k,), numbered by first nodes, and their number."""
+    """Return (count,) components of nodes joined by links a-b, (k,), numbered by first nodes, and
+    their number.
+    """
     label, number = None, count
     while True:
         blocks = [
@@ -51,7 +55,9 @@ def connected_components(
 
 
 def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
-    """Return (n,) components of nodes with (n, k) neighbors, and their number; each link is listed at both its ends."""
+    """Return (n,) components of nodes with (n, k) neighbors, and their number; each link is listed
+    at both its ends.
+    """
     count = len(neighbors)
     parent = np.arange(count, dtype=neighbors.dtype)
     for column in neighbors.T:
@@ -71,12 +77,16 @@ def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp
 
 
 def _zeros(count: int, dtype: DTypeLike) -> NDArray:
-    """Return a read-only array (count,) of zeros that takes no memory, like `np.broadcast_to` but in less time."""
+    """Return a read-only array (count,) of zeros that takes no memory, like `np.broadcast_to` but
+    in less time.
+    """
     return np.ndarray((count,), dtype, bytes(8), strides=(0,))
 
 
 def _trees(parent: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
-    """Return the root of each node's tree, and the number of trees. parent: no higher than the node; overwritten."""
+    """Return the root of each node's tree, and the number of trees. parent: no higher than the
+    node; overwritten.
+    """
     roots = np.flatnonzero(parent == np.arange(len(parent), dtype=parent.dtype))
     if len(roots) == 1:  # all paths downward end there
         return _zeros(len(parent), parent.dtype), 1

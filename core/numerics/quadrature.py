@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rules of quadrature that are exact for polynomials: on a line and over a triangle; directions all around."""
+"""Rules of quadrature that are exact for polynomials: on a line and over a triangle; directions all
+around.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ from numpy.typing import NDArray
 
 @lru_cache
 def gauss_legendre(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return read-only nodes and weights, (points,), of the rule on [0, 1] that is exact to degree 2 points - 1."""
+    """Return read-only nodes and weights, (points,), of the rule on [0, 1] that is exact to degree
+    2 points - 1.
+    """
     nodes, weights = leggauss(points)
     nodes = (nodes + 1.0) / 2.0
     weights = weights / 2.0
@@ -23,7 +27,9 @@ def gauss_legendre(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64
 
 @lru_cache
 def gauss_legendre_with_ends(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the rule of `gauss_legendre` with the nodes 0 and 1 of weight 0 added at its ends; read-only."""
+    """Return the rule of `gauss_legendre` with the nodes 0 and 1 of weight 0 added at its ends;
+    read-only.
+    """
     nodes, weights = gauss_legendre(points)
     nodes = np.concatenate([[0.0], nodes, [1.0]])
     weights = np.concatenate([[0.0], weights, [0.0]])
@@ -33,10 +39,12 @@ def gauss_legendre_with_ends(points: int) -> tuple[NDArray[np.float64], NDArray[
 
 @lru_cache
 def triangle_rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (3, k) barycentric points and (k,) weights, of sum 1/2, of a rule exact to degree 2n - 1 over a triangle.
+    """Return (3, k) barycentric points and (k,) weights, of sum 1/2, of a rule exact to degree 2n -
+    1 over a triangle.
 
-    It has n² points, for n = 3 the seven of Radon (1948): the Gauss-Legendre rule across the triangle times the Gauss-
-    Jacobi rule towards its tip, for the weight 1 - u by which it narrows (nodes by Golub and Welsch, 1969).
+    It has n² points, for n = 3 the seven of Radon (1948): the Gauss-Legendre rule across the
+    triangle times the Gauss- Jacobi rule towards its tip, for the weight 1 - u by which it narrows
+    (nodes by Golub and Welsch, 1969).
     """
     if n == 3:
         root = np.sqrt(15.0)
@@ -68,7 +76,9 @@ def triangle_rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 @lru_cache
 def spread_directions(count: int) -> NDArray[np.float64]:
-    """Return read-only (count, 3) unit directions, spread evenly over the sphere: Fibonacci's lattice."""
+    """Return read-only (count, 3) unit directions, spread evenly over the sphere: Fibonacci's
+    lattice.
+    """
     index = np.arange(count) + 0.5
     height = 1.0 - 2.0 * index / count
     turn = np.pi * (1.0 + 5.0**0.5) * index

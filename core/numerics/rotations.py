@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Conversions of rotations between matrix and quaternion, in double precision; Blender's own are in single."""
+"""Conversions of rotations between matrix and quaternion, in double precision; Blender's own are in
+single.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ ROTATION_ATOL = 1e-5  # a rotation matrix of float32 numbers is orthonormal to a
 
 
 def rotation_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    """Return a parameter as (..., 3, 3) rotations, right-handed and orthonormal as far as float32 goes."""
+    """Return a parameter as (..., 3, 3) rotations, right-handed and orthonormal as far as float32
+    goes.
+    """
     rotation = float_array(name, values, ..., 3, 3, finite=True)
     off = np.abs(rotation.swapaxes(-1, -2) @ rotation - np.eye(3)).max(initial=0.0)
     if off > ROTATION_ATOL or (np.linalg.det(rotation) < 0.0).any():
@@ -22,7 +26,9 @@ def rotation_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 
 def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
-    """Convert quaternions (..., 4), w, x, y, z of any length but zero, to rotation matrices (..., 3, 3)."""
+    """Convert quaternions (..., 4), w, x, y, z of any length but zero, to rotation matrices (...,
+    3, 3).
+    """
     q = float_array("quaternion", quaternion, ..., 4)  # before the norm: mathutils returns float32
     w, x, y, z = (q / np.sqrt(np.add.reduce(q * q, axis=-1))[..., None]).T
     rows = (
@@ -93,7 +99,9 @@ MAX_AXIS_COSINE = 1e-5  # float32 rotations never have axes with a larger cosine
 
 
 def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return (k, 3, 3) polar axes (Higham 1986) of (k, 4, 4) maps, left-handed if mirrored, and (k,) who shears."""
+    """Return (k, 3, 3) polar axes (Higham 1986) of (k, 4, 4) maps, left-handed if mirrored, and
+    (k,) who shears.
+    """
     linear = np.asarray(matrices, np.float64)[:, :3, :3]
     length = np.sqrt(np.add.reduce(linear * linear, axis=1, keepdims=True))
     columns = np.divide(linear, length, out=np.zeros_like(linear), where=length > 0.0)

@@ -1,12 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vectors by their coordinates: three numbers of any type, or three arrays of one shape, a vector in each place."""
+"""Vectors by their coordinates: three numbers of any type, or three arrays of one shape, a vector
+in each place.
+"""
 
 from __future__ import annotations
 
 from typing import Any, TypeAlias
 
-# An int, float, Fraction, mpmath's number or an array: Python cannot name the common type of two such.
+# An int, float, Fraction, mpmath's number or an array: Python cannot name the common type of two
+# such.
 Number: TypeAlias = Any
 Vector: TypeAlias = Any  # x, y, z: a tuple, a list, a row, or an array with three rows
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of B-spline curves, and of bodies bounded by patches (Soldea, Elber and Rivlin, sections 2 and 3)."""
+"""Moments of B-spline curves, and of bodies bounded by patches (Soldea, Elber and Rivlin, sections
+2 and 3).
+"""
 
 from ..lazy import lazy_names
 

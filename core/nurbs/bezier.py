@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Bézier patches that B-spline patches consist of, many at once, and their values at Gauss points.
+"""The Bézier patches that B-spline patches consist of, many at once, and their values at Gauss
+points.
 
-Between its knots a B-spline patch is a Bézier patch; its control points are the B-spline's, weighted by the blossoms of
-its basis (`SplineSpace.bezier_extraction`). From there on no knots are needed: all patches of the same orders are one
-array, the tables at Gauss points are those of Bernstein's polynomials, and half a patch is a Bézier patch again.
+Between its knots a B-spline patch is a Bézier patch; its control points are the B-spline's,
+weighted by the blossoms of its basis (`SplineSpace.bezier_extraction`). From there on no knots are
+needed: all patches of the same orders are one array, the tables at Gauss points are those of
+Bernstein's polynomials, and half a patch is a Bézier patch again.
 """
 
 from __future__ import annotations
@@ -30,7 +32,8 @@ Rule = tuple[
     tuple[int, ...], tuple[int, ...]
 ]  # along s and t the points of a Gauss rule, or of two side by side
 Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
-# Up to this many cells of a patch keep a common anchor: none is so small that rounding by the patch's size matters.
+# Up to this many cells of a patch keep a common anchor: none is so small that rounding by the
+# patch's size matters.
 SMALL_CELL_COUNT = 32
 POINTS_PER_BLOCK = 12288  # points at a time: their arrays stay in the cache
 MAX_CELLS = 8192  # Cells built at a time.
@@ -42,10 +45,10 @@ DERIVATIVES = {1: ((0, 0), (1, 0), (0, 1)), 2: ((0, 0), (1, 0), (0, 1), (2, 0), 
 class BezierCells:
     """Bézier patches of the same orders k and k', polynomial or rational.
 
-    net: (3, k, c, k') control points of c patches, or (4, k, c, k') control points times weights, and the weights.
-    anchor: (3, c) or (3, 1) origins of the control points, near them, relative to the common reference point.
-    constant_weights: whether the weights are constant along s, and along t. reach: bound of the distance of any point
-    from the reference point.
+    net: (3, k, c, k') control points of c patches, or (4, k, c, k') control points times weights,
+    and the weights. anchor: (3, c) or (3, 1) origins of the control points, near them, relative to
+    the common reference point. constant_weights: whether the weights are constant along s, and
+    along t. reach: bound of the distance of any point from the reference point.
     """
 
     net: NDArray[np.float64]
@@ -79,7 +82,9 @@ class BezierCells:
         ).about_anchor()
 
     def about_anchor(self) -> BezierCells:
-        """Return the cells anchored at their first control points, so that coordinates are as small as the cell."""
+        """Return the cells anchored at their first control points, so that coordinates are as small
+        as the cell.
+        """
         net = np.empty_like(self.net)
         first = self.net[:3, 0, :, 0]
         if len(net) == 4:
@@ -93,10 +98,12 @@ class BezierCells:
     def evaluate(
         self, rule: Rule, most: int = 1, ends: bool = False
     ) -> tuple[list[NDArray[np.float64]], Weights]:
-        """Evaluate the patches and their derivatives at the points of Gauss rules; return them and the points' weights.
+        """Evaluate the patches and their derivatives at the points of Gauss rules; return them and
+        the points' weights.
 
-        most: the highest derivative, 1 or 2. ends: add the sides, with weight zero. Returns S, S_s, S_t and if most = 2
-        S_ss, S_st, S_tt, each (3, m, c, n), and the weights (m, 1 or 2) and (n, 1 or 2), a column for each rule.
+        most: the highest derivative, 1 or 2. ends: add the sides, with weight zero. Returns S, S_s,
+        S_t and if most = 2 S_ss, S_st, S_tt, each (3, m, c, n), and the weights (m, 1 or 2) and (n,
+        1 or 2), a column for each rule.
         """
         d, k, c, kk = self.net.shape
         s_basis, s_weights = bernstein(k, rule[0], most, ends)
@@ -116,7 +123,9 @@ class BezierCells:
 
 
 def cells_of(patches: Sequence[Patch], about: NDArray) -> Iterator[BezierCells]:
-    """Yield blocks of the Bézier cells of patches, grouped by orders and kind of weights, relative to a point (3,)."""
+    """Yield blocks of the Bézier cells of patches, grouped by orders and kind of weights, relative
+    to a point (3,).
+    """
     groups: dict[tuple, list[Patch]] = {}
     for patch in patches:
         groups.setdefault((patch.spaces, patch.weights is None, patch.constant_weights), []).append(
@@ -136,7 +145,9 @@ def cells_of(patches: Sequence[Patch], about: NDArray) -> Iterator[BezierCells]:
 def _cells_of_group(
     spaces: tuple[SplineSpace, SplineSpace], group: Sequence[Patch], about: NDArray
 ) -> Iterator[BezierCells]:
-    """Yield blocks of the Bézier cells of patches in the same function spaces, relative to a point (3,)."""
+    """Yield blocks of the Bézier cells of patches in the same function spaces, relative to a point
+    (3,).
+    """
     u, v = len(spaces[0].spans), len(spaces[1].spans)
     step = max(1, MAX_CELLS // (u * v))
     spans_per_step = max(1, MAX_CELLS // v)
@@ -175,7 +186,9 @@ def cells_of_nets(
     constant_weights: tuple[bool, bool],
     reach: float,
 ) -> BezierCells:
-    """Return the Bézier cells of control nets (g, count_s, count_t, 3 or 4) over knot spans. anchor: (g, 3) origins."""
+    """Return the Bézier cells of control nets (g, count_s, count_t, 3 or 4) over knot spans.
+    anchor: (g, 3) origins.
+    """
     s = spaces[0].bezier_extraction[spans[0]]
     active_rows = spaces[0].active_controls[spans[0]]
     t = spaces[1].bezier_extraction[spans[1]]
@@ -210,7 +223,9 @@ def _join(parts: Sequence[BezierCells]) -> BezierCells:
 def bernstein(
     order: int, rule: tuple[int, ...], most: int = 1, ends: bool = False
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the derivatives (most + 1, n, order) of Bernstein polynomials at Gauss points, and weights (n, rules)."""
+    """Return the derivatives (most + 1, n, order) of Bernstein polynomials at Gauss points, and
+    weights (n, rules).
+    """
     parts = [
         gauss_legendre_with_ends(points) if ends else gauss_legendre(points) for points in rule
     ]
@@ -226,7 +241,9 @@ def bernstein(
 
 @lru_cache
 def halves(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the two matrices from the control points of a Bézier curve to those of its halves (de Casteljau)."""
+    """Return the two matrices from the control points of a Bézier curve to those of its halves (de
+    Casteljau).
+    """
     first = np.eye(order)
     for row in range(1, order):
         first[row, 0] = first[row - 1, 0] / 2.0
@@ -235,7 +252,9 @@ def halves(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _quotient_derivatives(derivatives: list[NDArray]) -> list[NDArray[np.float64]]:
-    """Return derivatives of a quotient in place, from those of numerator (rows 0 to 2) and denominator (row 3)."""
+    """Return derivatives of a quotient in place, from those of numerator (rows 0 to 2) and
+    denominator (row 3).
+    """
     inverse = 1.0 / derivatives[0][3]
     result = [row[:3] for row in derivatives]
     bottom = [row[3] for row in derivatives]
@@ -268,7 +287,9 @@ def integrand_in_blocks(
 def weighted_monomials(
     place: NDArray, density: NDArray, order: int, more: int = 0
 ) -> NDArray[np.float64]:
-    """Return (K + more, ...) the density times the monomials of points (3, ...), then rows of zeros to be filled."""
+    """Return (K + more, ...) the density times the monomials of points (3, ...), then rows of zeros
+    to be filled.
+    """
     terms = np.empty((monomial_count(order) + more, *density.shape))
     terms[monomial_count(order) :] = 0.0
     terms[0] = density
@@ -288,7 +309,9 @@ def weighted_monomials(
 
 
 def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
-    """Return (rules, K, c) sums of terms (K, m, c, n) over points, with weights (m, 1 or rules) and (n, 1 or rules)."""
+    """Return (rules, K, c) sums of terms (K, m, c, n) over points, with weights (m, 1 or rules) and
+    (n, 1 or rules).
+    """
     count, m, c, n = terms.shape
     s_weights, t_weights = weights
     half = (terms.reshape(-1, n) @ t_weights).reshape(count, m, -1)
@@ -297,7 +320,9 @@ def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
 
 
 def undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
-    """Return (c,) squared diagonals of cells whose weights differ by a factor above `steep`, else 0."""
+    """Return (c,) squared diagonals of cells whose weights differ by a factor above `steep`, else
+    0.
+    """
     lost = np.zeros(len(cells))
     if len(cells.net) == 4:
         weights = cells.net[3]

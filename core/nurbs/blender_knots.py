@@ -1,14 +1,16 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's NURBS: valid settings, their knots, samples of the display mesh; patches of any knots as such patches.
+"""Blender's NURBS: valid settings, their knots, samples of the display mesh; patches of any knots
+as such patches.
 
-Blender's files and its Python interface have no knots: they follow from the number of points, the order and three
-flags (blender/source/blender/blenkernel/intern/curve.cc: calcknots, makeknots, nurb_check_valid; the same in 4.2 to
-5.2). They are small integers, so that float32 and float64 agree.
+Blender's files and its Python interface have no knots: they follow from the number of points, the
+order and three flags (blender/source/blender/blenkernel/intern/curve.cc: calcknots, makeknots,
+nurb_check_valid; the same in 4.2 to 5.2). They are small integers, so that float32 and float64
+agree.
 
-If every knot is inserted until its multiplicity is the degree, a patch consists of Bézier patches side by side, and the
-distances of their knots change its parameters but not its points. So the flags *Bézier* and *Endpoint* describe the
-same surface.
+If every knot is inserted until its multiplicity is the degree, a patch consists of Bézier patches
+side by side, and the distances of their knots change its parameters but not its points. So the
+flags *Bézier* and *Endpoint* describe the same surface.
 """
 
 from __future__ import annotations
@@ -31,7 +33,9 @@ SAME_KNOT_RTOL = (
 
 
 def is_valid(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> bool:
-    """Return whether Blender evaluates a spline direction with these settings; it shows nothing otherwise."""
+    """Return whether Blender evaluates a spline direction with these settings; it shows nothing
+    otherwise.
+    """
     return count >= max(2, order) and (
         not bezier or (count % (order - 1) == 0 if cyclic else endpoint or count > order)
     )
@@ -40,10 +44,17 @@ def is_valid(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool)
 def blender_knots(
     count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool
 ) -> NDArray[np.float64]:
-    """Return the knot vector of a valid direction: count + order knots, and order - 1 more if it is cyclic."""
+    """Return the knot vector of a valid direction: count + order knots, and order - 1 more if it is
+    cyclic.
+    """
     repeat = order - 1 if bezier else 1
-    head = (order - 1 if cyclic else order) if endpoint else (min(2, repeat) if bezier else 1)
-    tail = 2 * order - 1 if cyclic else (order if endpoint else 0)
+    head = min(2, repeat)
+    tail = 0
+    if endpoint:
+        head = order - 1 if cyclic else order
+        tail = order
+    if cyclic:
+        tail = 2 * order - 1
     length = count + order + (order - 1 if cyclic else 0)
     knots = np.zeros(length)
     offset = current = 1 if endpoint and cyclic else 0
@@ -63,7 +74,9 @@ def blender_knots(
 def blender_space(
     count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool
 ) -> SplineSpace | None:
-    """Return the function space of one direction of a Blender spline, or None if Blender shows nothing for it."""
+    """Return the function space of one direction of a Blender spline, or None if Blender shows
+    nothing for it.
+    """
     if not is_valid(count, order, cyclic, bezier, endpoint):
         return None
     knots = blender_knots(count, order, cyclic, bezier, endpoint)
@@ -73,7 +86,9 @@ def blender_space(
 
 
 def display_parameters(space: SplineSpace, resolution: int) -> NDArray[np.float64]:
-    """Return (count * resolution,) parameters of Blender's display mesh, with the drift of its float32 sums."""
+    """Return (count * resolution,) parameters of Blender's display mesh, with the drift of its
+    float32 sums.
+    """
     cyclic = space.function_count > space.count
     total = space.count * resolution
     low = np.float32(space.domain[0])
@@ -97,13 +112,15 @@ def display_table(space: SplineSpace, parameters: NDArray) -> NDArray[np.float64
 def bezier_patches(
     patch: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None]
 ) -> list[Patch]:
-    """Convert a patch with any knots into patches of the same surface with Blender's flags *Bézier* and *Endpoint*.
+    """Convert a patch with any knots into patches of the same surface with Blender's flags *Bézier*
+    and *Endpoint*.
 
-    A surface that may jump, at knots with the multiplicity of the order, gives several patches. domain: (low, high) of
-    s and of t, the part to convert; None for all of it. ValueError if the part is not in the domain, or an order is 1.
+    A surface that may jump, at knots with the multiplicity of the order, gives several patches.
+    domain: (low, high) of s and of t, the part to convert; None for all of it. ValueError if the
+    part is not in the domain, or an order is 1.
 
-    Knots are inserted by Boehm's algorithm, as blossoms: each new control point is the same affine combination of old
-    ones, whether the knots are inserted one at a time or at once.
+    Knots are inserted by Boehm's algorithm, as blossoms: each new control point is the same affine
+    combination of old ones, whether the knots are inserted one at a time or at once.
     """
     pieces = [list(_pieces(space, part)) for space, part in zip(patch.spaces, domain)]
     old_net = patch.points if patch.weights is None else homogeneous(patch.points, patch.weights)
@@ -123,7 +140,9 @@ def bezier_patches(
 
 
 def bezier_curves(curve: Curve, part: tuple[float, float] | None = None) -> list[Curve]:
-    """Convert a part (low, high) of a curve, None for all of it, in the same way, into curves without jumps."""
+    """Convert a part (low, high) of a curve, None for all of it, in the same way, into curves
+    without jumps.
+    """
     net = curve.points
     if curve.weights is not None:
         net = homogeneous(curve.points, curve.weights)
@@ -137,14 +156,18 @@ def bezier_curves(curve: Curve, part: tuple[float, float] | None = None) -> list
 
 
 def bezier_space(count: int, order: int) -> SplineSpace:
-    """Return the space of Bézier pieces side by side that Blender's flags *Bézier* and *Endpoint* describe."""
+    """Return the space of Bézier pieces side by side that Blender's flags *Bézier* and *Endpoint*
+    describe.
+    """
     return cast(
         "SplineSpace", blender_space(count, order, cyclic=False, bezier=True, endpoint=True)
     )
 
 
 def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[NDArray[np.float64]]:
-    """Yield, for each piece without a jump, (n, count) the weights of the old control points in the new ones."""
+    """Yield, for each piece without a jump, (n, count) the weights of the old control points in the
+    new ones.
+    """
     low, high = space.domain if part is None else _snapped(space, part)
     edges = np.clip(space.intervals, low, high)
     inside = edges[:, 0] < edges[:, 1]
@@ -167,7 +190,9 @@ def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[ND
 
 
 def _snapped(space: SplineSpace, part: tuple[float, float]) -> tuple[float, float]:
-    """Return the ends of a part of the domain, moved to a knot if they differ from it by rounding alone."""
+    """Return the ends of a part of the domain, moved to a knot if they differ from it by rounding
+    alone.
+    """
     low, high = space.domain
     knots = np.concatenate([space.intervals[:, 0], [high]])
     tolerance = SAME_KNOT_RTOL * (high - low)

@@ -1,16 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Length moments of B-spline curves (wires), and area moments of the plane regions that closed curves bound.
+"""Length moments of B-spline curves (wires), and area moments of the plane regions that closed
+curves bound.
 
-A region's moments follow from the flux through its boundary, by Green's theorem about a point of its plane,
+A region's moments follow from the flux through its boundary, by Green's theorem about a point of
+its plane,
 
     ∫ x^p y^q z^r dA = 1 / (p+q+r+2) · ∮ x^p y^q z^r n · (C x C') dt,
 
-with an integrand of degree (n + 2) d - 1 for a polynomial curve of degree d: exact by Gauss's rule. For rational
-curves, and for the square root in lengths, rules are compared as in `patch_moments`, and the difference is reported as
-an estimate. Lengths have kinks where curves turn back; two rules may miss them alike. The tangents of a Bézier curve
-lie in the cone of its control polygon's edges (Floater 1992), so that such places are found and halved until they are
-too short to matter.
+with an integrand of degree (n + 2) d - 1 for a polynomial curve of degree d: exact by Gauss's rule.
+For rational curves, and for the square root in lengths, rules are compared as in `patch_moments`,
+and the difference is reported as an estimate. Lengths have kinks where curves turn back; two rules
+may miss them alike. The tangents of a Bézier curve lie in the cone of its control polygon's edges
+(Floater 1992), so that such places are found and halved until they are too short to matter.
 """
 
 from __future__ import annotations
@@ -85,7 +87,9 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
 def plane_moments(
     curves: Sequence[Curve], normal: NDArray, order: int = 3, about: NDArray | None = None
 ) -> Moments:
-    """Return the area moments of the plane region between curves, counter-clockwise about the (3,) unit normal."""
+    """Return the area moments of the plane region between curves, counter-clockwise about the (3,)
+    unit normal.
+    """
     center: NDArray[np.float64] = (
         np.mean([curve.points.mean(axis=0) for curve in curves], axis=0)
         if about is None
@@ -135,10 +139,12 @@ def _integrate(
     tolerance: float,
     kinks: bool = False,
 ) -> tuple[NDArray, float, float]:
-    """Return ∫ density times monomials, the truncation in units of reach^degree, and the total length of the curves.
+    """Return ∫ density times monomials, the truncation in units of reach^degree, and the total
+    length of the curves.
 
-    largest: bound of the density per unit of length. kinks: True if the density has kinks where a curve turns back. A
-    piece is done when two rules agree within the tolerance, relative to its length or to the mean length of pieces.
+    largest: bound of the density per unit of length. kinks: True if the density has kinks where a
+    curve turns back. A piece is done when two rules agree within the tolerance, relative to its
+    length or to the mean length of pieces.
     """
     degree = monomials(order).sum(axis=1)
     unit = reach ** degree.astype(np.float64)
@@ -181,7 +187,9 @@ def _integrate(
 
 
 def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return control points (c, order, 3 or 4) of Bézier pieces from anchors (c, 3), and the anchors, from `about`."""
+    """Return control points (c, order, 3 or 4) of Bézier pieces from anchors (c, 3), and the
+    anchors, from `about`.
+    """
     space = curve.space
     origin = curve.points[0]
     net = curve.points - origin
@@ -194,7 +202,9 @@ def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], N
 def _about_first_control(
     net: NDArray, anchor: NDArray
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the control points and anchors of Bézier curves, anchored anew at their first control points."""
+    """Return the control points and anchors of Bézier curves, anchored anew at their first control
+    points.
+    """
     rational = net.shape[2] == 4
     first = net[:, :1, :3] / net[:, :1, 3:] if rational else net[:, :1]
     points = net[..., :3] - (first * net[..., 3:] if rational else first)
@@ -202,7 +212,9 @@ def _about_first_control(
 
 
 def _doubtful_lengths(net: NDArray, kinks: bool, largest: float) -> NDArray[np.float64]:
-    """Return (c,) bounds of the length that rules may miss: if pieces may turn back, or have very unequal weights."""
+    """Return (c,) bounds of the length that rules may miss: if pieces may turn back, or have very
+    unequal weights.
+    """
     edges = np.diff(net[..., :3] / net[..., 3:] if net.shape[2] == 4 else net, axis=1)
     length = np.sqrt((edges**2).sum(axis=2)).sum(axis=1)
     doubtful = np.zeros(len(net))
@@ -219,7 +231,9 @@ def _doubtful_lengths(net: NDArray, kinks: bool, largest: float) -> NDArray[np.f
 def _piece_integrals(
     net: NDArray, anchor: NDArray, points: int, density: Callable, order: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the (c, K) contributions of pieces of a curve by a Gauss rule, and (c,) their lengths."""
+    """Return the (c, K) contributions of pieces of a curve by a Gauss rule, and (c,) their
+    lengths.
+    """
     tables, weights = bernstein(net.shape[1], (points,))
     place, velocity = np.einsum("jnk,ckd->jdcn", tables, net)
     if len(place) == 4:

@@ -6,7 +6,8 @@ from ..verdict.finding import error, warning
 
 NON_FINITE_CONTROL_POINTS = error(
     "non_finite_control_points",
-    "Some control points have no finite coordinates. Delete them, or fix the modifier or driver that moves them.",
+    "Some control points have no finite coordinates. Delete them, or fix the modifier or driver "
+    "that moves them.",
 )
 NON_POSITIVE_WEIGHTS = error(
     "non_positive_weights",
@@ -22,7 +23,8 @@ CURVES_NOT_COPLANAR = error(
 )
 CURVE_TOO_SMALL = error(
     "curve_too_small",
-    "A curve is smaller than the rounding of its coordinates. Delete it, move it nearer to the origin, or set"
+    "A curve is smaller than the rounding of its coordinates. Delete it, move it nearer to the "
+    "origin, or set"
     " Kind to "
     "Wire.",
 )
@@ -37,31 +39,39 @@ DISCONTINUOUS_PATCH = error(
 )
 ERROR_ESTIMATE_LARGE = warning(
     "error_estimate_large",
-    "The estimated error of the {quantity:word} is above the target; extreme weights or folds are the cause.",
+    "The estimated error of the {quantity:word} is above the target; extreme weights or folds are "
+    "the cause.",
 )
 FLIPPED_PATCHES = warning(
     "flipped_patches",
-    "{count} patch faces against the others and was measured as reversed. Use Segments > Switch Direction.",
-    "{count} patches face against the others and were measured as reversed. Use Segments > Switch Direction.",
+    "{count} patch faces against the others and was measured as reversed. Use Segments > Switch "
+    "Direction.",
+    "{count} patches face against the others and were measured as reversed. Use Segments > Switch "
+    "Direction.",
 )
 AMBIGUOUS_PATCH_SIDES = warning(
     "ambiguous_patch_sides",
-    "{count} patch side meets more than one other, so the orientation is a guess. Make all patches face outward.",
-    "{count} patch sides meet more than one other, so the orientation is a guess. Make all patches face outward.",
+    "{count} patch side meets more than one other, so the orientation is a guess. Make all patches "
+    "face outward.",
+    "{count} patch sides meet more than one other, so the orientation is a guess. Make all patches "
+    "face outward.",
 )
 INVERTED_PATCH_COMPONENTS = warning(
     "inverted_patch_components",
-    "Inside-out components measured as reversed: {count} of {total}. Use Segments > Switch Direction.",
+    "Inside-out components measured as reversed: {count} of {total}. Use Segments > Switch "
+    "Direction.",
 )
 OPEN_PATCH_SIDES = warning(
     "open_patch_sides",
-    "Open patch sides form no loops to cap, or the surface is one-sided. Volume, center of mass and inertia "
+    "Open patch sides form no loops to cap, or the surface is one-sided. Volume, center of mass "
+    "and inertia "
     "depend on "
     "the reference point. Close the surface, or set Kind to Shell.",
 )
 PATCH_HOLES_CAPPED = warning(
     "patch_holes_capped",
-    "Holes capped: {flat} flat, exactly, and {curved} curved, by a cone ({share:percent} of the area). Close the "
+    "Holes capped: {flat} flat, exactly, and {curved} curved, by a cone ({share:percent} of the "
+    "area). Close the "
     "surface.",
 )
 PATCH_BOUNDARY_CROSSES_ITSELF = warning(

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flat faces of a body: regions of a plane, bounded by closed loops of B-spline curves, with holes.
 
-Their moments follow from their boundary (`curve_moments.plane_moments`), however the plane may be parametrized.
+Their moments follow from their boundary (`curve_moments.plane_moments`), however the plane may be
+parametrized.
 """
 
 from __future__ import annotations
@@ -37,8 +38,8 @@ MAX_CHORDS = 8192  # Limit with finer samples.
 class FlatFace:
     """A region of a plane.
 
-    loops: closed boundaries, each of curves end to end, with the region on their left, seen from the side of `normal`,
-    a (3,) unit vector.
+    loops: closed boundaries, each of curves end to end, with the region on their left, seen from
+    the side of `normal`, a (3,) unit vector.
     """
 
     loops: tuple[tuple[Curve, ...], ...]
@@ -46,7 +47,9 @@ class FlatFace:
 
     @classmethod
     def within(cls, loops: Sequence[Sequence[Curve]], toward: ArrayLike) -> FlatFace:
-        """Return the region between loops of any direction, its normal towards `toward`, or raise MeasureError."""
+        """Return the region between loops of any direction, its normal towards `toward`, or raise
+        MeasureError.
+        """
         oriented, normal = planar_loops(loops)
         face = cls(tuple(map(tuple, oriented)), normal)
         return face.reverse_orientation() if float(normal @ np.asarray(toward)) < 0.0 else face
@@ -106,7 +109,9 @@ class FlatFace:
         return plane_moments(self.curves, self.normal, order, self.center).about_point(about)
 
     def volume_moments(self, order: int, about: NDArray) -> Moments:
-        """Return the moments of the cone from a point (3,) to the region: the region's share in a body's moments."""
+        """Return the moments of the cone from a point (3,) to the region: the region's share in a
+        body's moments.
+        """
         area = self.area_moments(order, about)
         degree = monomials(order).sum(axis=1)
         height = float((self.center - about) @ self.normal)
@@ -117,7 +122,9 @@ class FlatFace:
         )
 
     def slab_moments(self, heights: NDArray, steps: NDArray, order: int, about: NDArray) -> Moments:
-        """Return the volume moments of a slab on the region, from its sections at heights (n,) with weights (n,)."""
+        """Return the volume moments of a slab on the region, from its sections at heights (n,) with
+        weights (n,).
+        """
         sections = [self.area_moments(order, about - height * self.normal) for height in heights]
         raw, error = (
             sum(step * row for step, row in zip(steps, rows))
@@ -126,7 +133,9 @@ class FlatFace:
         return Moments(np.asarray(raw), about, Measure.VOLUME, np.asarray(error))
 
     def quads(self, each: int) -> NDArray[np.float64]:
-        """Return (n, 4, 3) corners of trapezoids that fill the polygon through `each` samples per span."""
+        """Return (n, 4, 3) corners of trapezoids that fill the polygon through `each` samples per
+        span.
+        """
         loops = [
             np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in self.loops
         ]
@@ -183,11 +192,13 @@ def split_faces(faces: Sequence[Face]) -> tuple[list[Patch], list[FlatFace]]:
 def planar_region(
     curves: Sequence[Curve], stored: float = 0.0
 ) -> tuple[list[Curve], NDArray[np.float64]]:
-    """Return the curves oriented around a plane region, outer ones counter-clockwise, holes clockwise, and its normal.
+    """Return the curves oriented around a plane region, outer ones counter-clockwise, holes
+    clockwise, and its normal.
 
-    A curve inside an odd number of others is a hole, as in Blender. The first nonzero component of the unit normal (3,)
-    in the order z, y, x is positive. stored: largest displacement of the points by storing them. MeasureError if the
-    curves are not closed, too small, not in one plane, or cross.
+    A curve inside an odd number of others is a hole, as in Blender. The first nonzero component of
+    the unit normal (3,) in the order z, y, x is positive. stored: largest displacement of the
+    points by storing them. MeasureError if the curves are not closed, too small, not in one plane,
+    or cross.
     """
     loops, normal = planar_loops([[curve] for curve in curves], stored)
     return [curve for (curve,) in loops], normal
@@ -196,7 +207,9 @@ def planar_region(
 def planar_loops(
     loops: Sequence[Sequence[Curve]], stored: float = 0.0
 ) -> tuple[list[list[Curve]], NDArray[np.float64]]:
-    """Return loops of curves end to end, oriented as by `planar_region`, and the normal of their plane."""
+    """Return loops of curves end to end, oriented as by `planar_region`, and the normal of their
+    plane.
+    """
     curves = [curve for loop in loops for curve in loop]
     center = curves_center(curves)
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)
@@ -243,7 +256,9 @@ def planar_loops(
 
 
 def self_intersects(loop: NDArray, tolerance: float) -> bool:
-    """Return whether a polygon (n, 2) crosses itself, along an edge or at a corner; touching does not count."""
+    """Return whether a polygon (n, 2) crosses itself, along an edge or at a corner; touching does
+    not count.
+    """
     loop = _without_repeats(loop, tolerance)
     return chords_cross([loop], tolerance, touch=False) or (
         chords_cross([loop], tolerance)
@@ -257,7 +272,9 @@ def _without_repeats(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
 
 
 def chords_cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True) -> bool:
-    """Return whether edges of polygons (n, 2) cross by more than a tolerance or, if `touch`, corners coincide."""
+    """Return whether edges of polygons (n, 2) cross by more than a tolerance or, if `touch`,
+    corners coincide.
+    """
     begin = np.concatenate(loops)
     end = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
     low, high = (

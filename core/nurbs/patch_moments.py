@@ -1,16 +1,19 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of bodies bounded by B-spline patches, of the patches themselves, and of sheets upon them.
+"""Moments of bodies bounded by B-spline patches, of the patches themselves, and of sheets upon
+them.
 
-Soldea, Elber and Rivlin, sections 2 and 3, with the radial flux in place of their z-flux, so that no axis is special:
+Soldea, Elber and Rivlin, sections 2 and 3, with the radial flux in place of their z-flux, so that
+no axis is special:
 
     ∫ x^p y^q z^r dV = 1 / (p+q+r+3) · ∫∫ x^p y^q z^r S · (S_s x S_t) ds dt.
 
-For a polynomial patch of degree d the integrand has degree (n + 3) d - 2 in each parameter for moments of order n (the
-top coefficient of S · (S_s x S_t) cancels), so a Gauss rule of ceil(((n + 3) d - 1) / 2) points in every span is exact.
-A rational integrand, an area's square root and the jacobian of a sheet have no finite degree: there the rules grow by
-halves until two of them agree, and if the finest rule does not suffice, cells are cut in four. The sum of the remaining
-differences is reported as an estimate: it is the coarser rule's error, while the result is the finer one's.
+For a polynomial patch of degree d the integrand has degree (n + 3) d - 2 in each parameter for
+moments of order n (the top coefficient of S · (S_s x S_t) cancels), so a Gauss rule of ceil(((n +
+3) d - 1) / 2) points in every span is exact. A rational integrand, an area's square root and the
+jacobian of a sheet have no finite degree: there the rules grow by halves until two of them agree,
+and if the finest rule does not suffice, cells are cut in four. The sum of the remaining differences
+is reported as an estimate: it is the coarser rule's error, while the result is the finer one's.
 """
 
 from __future__ import annotations
@@ -48,9 +51,11 @@ from .splines import Face, Patch, patches_center, patches_size
 AREA_RTOL = 1e-11
 # Factor on the difference of two rules that do not agree yet when all points are spent.
 UNCONVERGED_FACTOR = 8.0
-# Largest by smallest weight of a cell: beyond these, rules may differ by less than their error, or miss the same part.
+# Largest by smallest weight of a cell: beyond these, rules may differ by less than their error, or
+# miss the same part.
 MAX_WEIGHT_RATIOS = 1e2, 1e6
-# Factor on the difference of two rules: if a patch folds back, its area has kinks, and both rules may err alike.
+# Factor on the difference of two rules: if a patch folds back, its area has kinks, and both rules
+# may err alike.
 FOLD_FACTOR = 8.0
 MIN_REVERSED_NORMAL = (
     1e-9  # a normal that points against its neighbor by less than this is rounding
@@ -67,7 +72,9 @@ SLOPE_SPANS = 8
 
 @dataclass(frozen=True, eq=False)
 class Integral:
-    """An integral over cells: (K,) values, their truncation estimate divided by `unit`, and the cells' total size."""
+    """An integral over cells: (K,) values, their truncation estimate divided by `unit`, and the
+    cells' total size.
+    """
 
     values: NDArray[np.float64]
     estimate: float
@@ -81,7 +88,9 @@ def volume_moments(
     about: NDArray | None = None,
     tolerance: float = VOLUME_RTOL,
 ) -> tuple[Moments, bool]:
-    """Return the volume moments, about the box's middle, of the body in outward patches, and whether they converged."""
+    """Return the volume moments, about the box's middle, of the body in outward patches, and
+    whether they converged.
+    """
     about = patches_center(faces) if about is None else np.asarray(about, np.float64)
     patches, flat = split_faces(faces)
     degree = _degrees(order)
@@ -118,7 +127,9 @@ def volume_moments(
 def flux_sums(
     cells: BezierCells, rule: Rule, order: int, area: bool = False
 ) -> NDArray[np.float64]:
-    """Return (rules, K + 1, c) fluxes of monomials times position; the last row: area or its bound ∫ |S_s| |S_t|."""
+    """Return (rules, K + 1, c) fluxes of monomials times position; the last row: area or its bound
+    ∫ |S_s| |S_t|.
+    """
     (s, along, across), weights = cells.evaluate(rule)
     normal = cross(along, across)
     terms = weighted_monomials(s, dot(s, normal), order, 1)
@@ -133,8 +144,8 @@ def area_moments(
 
     Flat faces have closed forms; patches are integrated by quadrature.
 
-    If a patch turns over between two neighboring points, or a cell's side and the next point, the area between them
-    counts as error, so that such a cell is cut.
+    If a patch turns over between two neighboring points, or a cell's side and the next point, the
+    area between them counts as error, so that such a cell is cut.
     """
     about = patches_center(faces) if about is None else np.asarray(about, np.float64)
     patches, flat = split_faces(faces)
@@ -160,7 +171,9 @@ def area_moments(
 
 
 def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
-    """Return (c,) areas between neighboring points with opposed normals (3, m, c, n): rules may miss such kinks."""
+    """Return (c,) areas between neighboring points with opposed normals (3, m, c, n): rules may
+    miss such kinks.
+    """
     total = np.zeros(normal.shape[2])
     for (points,), other_weights in zip(rule, weights[::-1]):
         nodes, _ = gauss_legendre_with_ends(points)
@@ -177,7 +190,9 @@ def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np
 
 
 def area_slope(faces: Sequence[Face]) -> float:
-    """Estimate, by a fixed rule, the largest change of the area per unit of displacement of all control points."""
+    """Estimate, by a fixed rule, the largest change of the area per unit of displacement of all
+    control points.
+    """
     patches, flat = split_faces(faces)
     total = sum(face.perimeter for face in flat)
     for patch in patches:
@@ -200,7 +215,9 @@ def area_slope(faces: Sequence[Face]) -> float:
 
 @lru_cache(maxsize=64)
 def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, NDArray], ...]:
-    """Return tiles of a few spans: basis values and slopes (m, k), Gauss weights (m,), active control indices (k,)."""
+    """Return tiles of a few spans: basis values and slopes (m, k), Gauss weights (m,), active
+    control indices (k,).
+    """
     nodes, weights = gauss_legendre(SLOPE_POINTS)
     tiles = []
     for start in range(0, len(space.spans), SLOPE_SPANS):
@@ -222,7 +239,9 @@ def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, N
 def _slope_of_tile(
     along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
 ) -> NDArray[np.float64]:
-    """Return the (3, k, k') gradient of the area by control points, which are times their weights if rational."""
+    """Return the (3, k, k') gradient of the area by control points, which are times their weights
+    if rational.
+    """
     (s, s_slope), (t, t_slope) = along, across
     place, by_s, by_t = (
         np.matmul(np.matmul(s_table, net), np.ascontiguousarray(t_table.T))
@@ -255,10 +274,12 @@ def _slope_of_tile(
 def sheet_moments(
     faces: Sequence[Face], inner: float, outer: float, order: int = 3, about: NDArray | None = None
 ) -> tuple[Moments, bool]:
-    """Return the volume moments of {S + h n : inner ≤ h ≤ outer}, n the unit normal, and whether they converged.
+    """Return the volume moments of {S + h n : inner ≤ h ≤ outer}, n the unit normal, and whether
+    they converged.
 
-    Across the sheet the integrand has degree order + 2 in h, so a rule of ceil((order + 3) / 2) points is exact.
-    MeasureError if the sheet is thicker than its surface's radius of curvature, so that it runs through itself.
+    Across the sheet the integrand has degree order + 2 in h, so a rule of ceil((order + 3) / 2)
+    points is exact. MeasureError if the sheet is thicker than its surface's radius of curvature, so
+    that it runs through itself.
     """
     about = patches_center(faces) if about is None else np.asarray(about, np.float64)
     nodes, steps = gauss_legendre(ceil((order + 3) / 2))
@@ -281,7 +302,8 @@ def sheet_moments(
         for k in (0, 1):
             slope = np.stack(cross(second[k], across)) + np.stack(cross(along, second[k + 1]))
             turning.append((slope - dot(slope, unit) * unit) / divisor)
-        # (1 - k h) and (1 - k' h), k and k' the curvatures, must both be positive: their product, and their sum too.
+        # (1 - k h) and (1 - k' h), k and k' the curvatures, must both be positive: their product,
+        # and their sum too.
         bend = dot(np.stack(cross(along, turning[1])) + np.stack(cross(turning[0], across)), unit)
         for height in (inner, outer):
             product = _offset_jacobian(along, across, turning, unit, height)
@@ -302,7 +324,9 @@ def sheet_moments(
 
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """Return the (3,) integral of the unit normals: exact along directions of constant weights, else estimated."""
+    """Return the (3,) integral of the unit normals: exact along directions of constant weights,
+    else estimated.
+    """
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
         s, t = (
@@ -315,12 +339,16 @@ def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
 
 
 def with_swept_error(moments: Moments, swept: float, reach: float) -> Moments:
-    """Return moments with the input error of a change that sweeps the volume `swept` within `reach` of their origin."""
+    """Return moments with the input error of a change that sweeps the volume `swept` within `reach`
+    of their origin.
+    """
     return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
 
 
 def with_area_error(area: Moments, slope: float, stored: float, reach: float) -> Moments:
-    """Return area moments with the input error of moving control points by at most `stored`; slope: of `area_slope`."""
+    """Return area moments with the input error of moving control points by at most `stored`; slope:
+    of `area_slope`.
+    """
     if reach == 0.0:
         return area  # The patches are one point, without any digits in their stored coordinates.
     return with_swept_error(area, stored * (slope + area.total / reach), reach)
@@ -333,7 +361,9 @@ def stored_area_moments(faces: Sequence[Face], order: int, *, stored: float) -> 
 
 
 def exact_points(order: int, degree: int) -> int:
-    """Return the Gauss points per span of a polynomial direction that make moments of this degree exact."""
+    """Return the Gauss points per span of a polynomial direction that make moments of this degree
+    exact.
+    """
     return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
 
 
@@ -347,10 +377,11 @@ def integrate_adaptively(
 ) -> Integral:
     """Integrate over patches, cell by cell, by the first rule that agrees with the one before.
 
-    integrand: returns for each rule (K + 1, c) contributions and sizes of cells, and optionally a row of areas that
-    count as error. unit: (K,) factors from a cell's size to bounds of its moments. degree: of the moments, if fewer
-    points are exact along directions of constant weights; else None. thickness: the factor from areas to sizes. Rules
-    agree if they differ by at most the tolerance, relative to the cell's size or to the mean size of all cells.
+    integrand: returns for each rule (K + 1, c) contributions and sizes of cells, and optionally a
+    row of areas that count as error. unit: (K,) factors from a cell's size to bounds of its
+    moments. degree: of the moments, if fewer points are exact along directions of constant weights;
+    else None. thickness: the factor from areas to sizes. Rules agree if they differ by at most the
+    tolerance, relative to the cell's size or to the mean size of all cells.
     """
     k = len(unit)
     values = np.zeros(k)
@@ -421,7 +452,9 @@ def integrate_adaptively(
 def _rules(
     orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int, int], degree: int | None
 ) -> tuple[Rule, ...]:
-    """Return two rules to compare, of `points` or fewer if exact; joined into one if equal along s or along t."""
+    """Return two rules to compare, of `points` or fewer if exact; joined into one if equal along s
+    or along t.
+    """
     coarse, fine = (
         tuple(
             min(number, exact_points(order, degree)) if same and degree is not None else number
@@ -449,5 +482,7 @@ def _length(a: NDArray) -> NDArray[np.float64]:
 def _offset_jacobian(
     along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float
 ) -> NDArray:
-    """Return the sheet's jacobian |S_s x S_t| (1 - 2 H h + K h²) by the offset surface's derivatives."""
+    """Return the sheet's jacobian |S_s x S_t| (1 - 2 H h + K h²) by the offset surface's
+    derivatives.
+    """
     return dot(cross(along + height * turning[0], across + height * turning[1]), unit)

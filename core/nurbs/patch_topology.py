@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Closedness and orientation of patches and flat faces, and the caps of their holes.
 
-Every patch has four sides, curves that run round it with the patch on their left; the sides of a flat face are the
-curves that bound it. A side is closed if it is a point (a pole) or coincides with another side (`seams`): of the same
-patch (a cyclic direction, a seam) or of another one, run the other way. A vector area of zero proves nothing: an open
-cylinder's is zero too.
+Every patch has four sides, curves that run round it with the patch on their left; the sides of a
+flat face are the curves that bound it. A side is closed if it is a point (a pole) or coincides with
+another side (`seams`): of the same patch (a cyclic direction, a seam) or of another one, run the
+other way. A vector area of zero proves nothing: an open cylinder's is zero too.
 
-Open sides are joined to loops, and a loop is closed by the cone to its centroid. For a flat loop of any shape the cone
-is the exact flat cap, as a signed sum. A cone over a B-spline curve is a B-spline patch with degree one in the other
-direction, so that caps are patches like all others.
+Open sides are joined to loops, and a loop is closed by the cone to its centroid. For a flat loop of
+any shape the cone is the exact flat cap, as a signed sum. A cone over a B-spline curve is a
+B-spline patch with degree one in the other direction, so that caps are patches like all others.
 """
 
 from __future__ import annotations
@@ -36,8 +36,9 @@ MAX_CHORDS = 4096  # Limit for a boundary loop that is tested for crossing itsel
 class BoundaryLoop:
     """Open sides that run round a hole.
 
-    caps: patches that close the hole and face as the sides' patches do. component: index of the sides' component.
-    zero_area: the hole is closed already. area: of the cap, an estimate. self_intersecting: flat, and crosses itself.
+    caps: patches that close the hole and face as the sides' patches do. component: index of the
+    sides' component. zero_area: the hole is closed already. area: of the cap, an estimate.
+    self_intersecting: flat, and crosses itself.
     """
 
     caps: tuple[Patch, ...]
@@ -52,12 +53,14 @@ class BoundaryLoop:
 class PatchTopology:
     """Components, orientations, joined sides and holes of patches.
 
-    component: (n,) component index of each patch; number: of components. flipped: (n,) mask of patches that face
-    against most of their component, or against its first if as many face each way. loops: the holes. open_sides,
-    non_manifold_sides: the numbers of sides that are open, or coincide with several other sides. misoriented_sides: the
-    number of joined pairs that run the same way before any patch is turned. seam_gap: the sum over joined sides of
-    largest distance times length. seams: (k, 2) joined sides that were not cut, counted over all patches in turn.
-    unclosable: (number,) mask of components with open sides that form no loop, or with a one-sided surface.
+    component: (n,) component index of each patch; number: of components. flipped: (n,) mask of
+    patches that face against most of their component, or against its first if as many face each
+    way. loops: the holes. open_sides, non_manifold_sides: the numbers of sides that are open, or
+    coincide with several other sides. misoriented_sides: the number of joined pairs that run the
+    same way before any patch is turned. seam_gap: the sum over joined sides of largest distance
+    times length. seams: (k, 2) joined sides that were not cut, counted over all patches in turn.
+    unclosable: (number,) mask of components with open sides that form no loop, or with a one-sided
+    surface.
     """
 
     component: NDArray[np.intp]
@@ -73,7 +76,9 @@ class PatchTopology:
 
 
 def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
-    """Find the seams, orientation and holes of patches; MeasureError if a patch may be torn at a knot."""
+    """Find the seams, orientation and holes of patches; MeasureError if a patch may be torn at a
+    knot.
+    """
     if any(space.is_discontinuous for patch in patches for space in patch.spaces):
         raise MeasureError(DISCONTINUOUS_PATCH)
     around_patches = [patch.sides for patch in patches]
@@ -143,7 +148,9 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
 def _find_loops(
     points: NDArray, free: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
 ) -> list[tuple[list[int], bool]]:
-    """Join open sides to chains; return the side indices of each chain, and True if it is closed."""
+    """Join open sides to chains; return the side indices of each chain, and True if it is
+    closed.
+    """
     ahead = forward[free]
     begin, end = (
         points[free, np.where(ahead, source, target)] for source, target in ((0, -1), (-1, 0))

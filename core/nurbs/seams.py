@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seams of patches: the sides that coincide, and the angles of creases along them and along knots within a patch.
+"""Seams of patches: the sides that coincide, and the angles of creases along them and along knots
+within a patch.
 
-Sides coincide if they agree parameter by parameter, or else point by point; a side along several other ones is cut
-where these end. A sheet with real thickness (`patch_moments.sheet_moments`) overlaps itself on one side of a crease and
-gapes on the other.
+Sides coincide if they agree parameter by parameter, or else point by point; a side along several
+other ones is cut where these end. A sheet with real thickness (`patch_moments.sheet_moments`)
+overlaps itself on one side of a crease and gapes on the other.
 """
 
 from __future__ import annotations
@@ -43,9 +44,10 @@ POLE_RTOL = 1e-9  # Relative to the largest normal: normals at a pole are shorte
 class Sides:
     """Sides and how they meet.
 
-    points: (n, m, 3) samples at equal steps. left, right: (k,) joined sides; same: (k,) whether their curves run the
-    same way. turned: (patches,) mask of patches to turn, so that joined ones face alike if they can. free: (n,) mask of
-    the open sides, of `open_length` in all. gap, non_manifold: as in PatchTopology.
+    points: (n, m, 3) samples at equal steps. left, right: (k,) joined sides; same: (k,) whether
+    their curves run the same way. turned: (patches,) mask of patches to turn, so that joined ones
+    face alike if they can. free: (n,) mask of the open sides, of `open_length` in all. gap,
+    non_manifold: as in PatchTopology.
     """
 
     points: NDArray[np.float64]
@@ -62,7 +64,9 @@ class Sides:
 def join_sides(
     curves: Sequence[Curve], owner: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
 ) -> Sides:
-    """Find the sides that coincide. owner: (n,) patch of each side; forward: (n,) whether the patch is on its left."""
+    """Find the sides that coincide. owner: (n,) patch of each side; forward: (n,) whether the patch
+    is on its left.
+    """
     count = max([SAMPLES_PER_SIDE] + [2 * len(curve.space.spans) + 1 for curve in curves])
     points = np.array([curve.apply_weights(_uniform_table(curve.space, count)) for curve in curves])
     length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
@@ -83,7 +87,9 @@ def join_sides(
 
 
 def cut_open_sides(curves: Sequence[Curve], sides: Sides, tolerance: float) -> list[list[Curve]]:
-    """Return the pieces of each side, open ones cut where other open ones end; none if there is nothing to cut."""
+    """Return the pieces of each side, open ones cut where other open ones end; none if there is
+    nothing to cut.
+    """
     open_sides = np.flatnonzero(sides.free)
     if not 3 <= len(open_sides) <= MAX_CUT_SIDES:
         return []
@@ -119,7 +125,9 @@ def cut_open_sides(curves: Sequence[Curve], sides: Sides, tolerance: float) -> l
 
 @lru_cache(maxsize=64)
 def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
-    """Return (count, k) weights of k control points at equal steps of the domain; cached: do not modify."""
+    """Return (count, k) weights of k control points at equal steps of the domain; cached: do not
+    modify.
+    """
     low, high = space.domain
     return space.collocation_matrix(low + (high - low) * np.linspace(0.0, 1.0, count))
 
@@ -127,7 +135,9 @@ def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
 def _coincident_sides(
     curves: Sequence[Curve], points: NDArray, wide: NDArray[np.intp], tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
-    """Return pairs of coinciding sides, nearest first: distance, two indices, whether their curves run the same way."""
+    """Return pairs of coinciding sides, nearest first: distance, two indices, whether their curves
+    run the same way.
+    """
     middle = points.shape[1] // 2
     side_points = points[wide]
     first = side_points[:, 0]
@@ -163,11 +173,13 @@ def _pair_sides(
     owner: NDArray[np.intp],
     forward: NDArray[np.bool_],
 ) -> tuple[list[tuple[float, int, int, bool]], NDArray[np.bool_]]:
-    """Return the joined pairs, and a (patches,) mask of the ones to turn. times: number of pairs with each side.
+    """Return the joined pairs, and a (patches,) mask of the ones to turn. times: number of pairs
+    with each side.
 
-    If more than two sides meet, as for touching bodies, pairs of patches already joined by other sides come first, then
-    single patches that fit without turning, then other patches that fit: so no patch is turned needlessly. Among equal
-    pairs the sharpest angle comes first; patches that lie on each other come last.
+    If more than two sides meet, as for touching bodies, pairs of patches already joined by other
+    sides come first, then single patches that fit without turning, then other patches that fit: so
+    no patch is turned needlessly. Among equal pairs the sharpest angle comes first; patches that
+    lie on each other come last.
     """
     count = int(owner.max()) + 1
     part = list(range(count))
@@ -199,7 +211,8 @@ def _pair_sides(
         if a == b:
             rank_found = 0 if flip == turn ^ other else 4
         else:
-            rank_found = 3 if flip else 1 if (size[a] == 1) != (size[b] == 1) else 2
+            joins_single = (size[a] == 1) != (size[b] == 1)
+            rank_found = 3 if flip else 2 - joins_single
         return max(rank_found, 3) if angle(pair) < FOLDED_ANGLE else rank_found
 
     def join(pair: tuple[float, int, int, bool]) -> None:
@@ -234,7 +247,9 @@ def _pair_sides(
 
 
 def close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return pairs i < j of rows of (n, d) keys with no coordinate that differs by more than a limit."""
+    """Return pairs i < j of rows of (n, d) keys with no coordinate that differs by more than a
+    limit.
+    """
     keys = keys - keys[:1]
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
     line = (keys * slope).sum(axis=1)
@@ -254,7 +269,9 @@ def close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[
 def _distance_between(
     points: NDArray, left: NDArray, right: NDArray, tolerance: float
 ) -> Iterator[tuple[float, int, int, bool]]:
-    """Yield pairs of sides that coincide parameter by parameter: distance, indices, True if they run the same way."""
+    """Yield pairs of sides that coincide parameter by parameter: distance, indices, True if they
+    run the same way.
+    """
     for start in range(0, len(left), PAIRS_PER_BLOCK):
         i = left[start : start + PAIRS_PER_BLOCK]
         j = right[start : start + PAIRS_PER_BLOCK]
@@ -278,7 +295,9 @@ def _distance_between(
 def _overlapping_sides(
     curves: Sequence[Curve], points: NDArray, i: int, j: int, tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
-    """Return [(distance, i, j, True if same direction)] if all points of each curve are on the other curve, else []."""
+    """Return [(distance, i, j, True if same direction)] if all points of each curve are on the
+    other curve, else [].
+    """
     gaps, ways = [], []
     for curve, samples, others in (
         (curves[j], points[j], points[i]),
@@ -297,7 +316,9 @@ def _overlapping_sides(
 def nearest_parameters(
     curve: Curve, samples: NDArray, points: NDArray, tolerance: float
 ) -> NDArray[np.float64]:
-    """Return (n,) parameters of the curve points nearest to points; samples: (m, 3) of the curve, at equal steps."""
+    """Return (n,) parameters of the curve points nearest to points; samples: (m, 3) of the curve,
+    at equal steps.
+    """
     low, high = curve.space.domain
     steps = low + (high - low) * np.linspace(0.0, 1.0, len(samples))
     closed = np.linalg.norm(samples[-1] - samples[0]) <= 2.0 * tolerance
@@ -314,7 +335,9 @@ def nearest_parameters(
 
 
 def sharpest_crease(faces: Sequence[Face], topology: PatchTopology) -> float:
-    """Return the largest angle, in radians, between the normals on both sides of a crease, 0 if there is none."""
+    """Return the largest angle, in radians, between the normals on both sides of a crease, 0 if
+    there is none.
+    """
     worst = max(map(_inner_crease_angle, split_faces(faces)[0]), default=0.0)
     sides = [
         (face, k, curve) for face, one in enumerate(faces) for k, (curve, _) in enumerate(one.sides)
@@ -331,7 +354,9 @@ def sharpest_crease(faces: Sequence[Face], topology: PatchTopology) -> float:
 
 
 def _along_side(patch: Face, number: int) -> NDArray[np.float64]:
-    """Return (m, 3) a face's unit normals along a side, at the samples of the side's curve; zero at poles."""
+    """Return (m, 3) a face's unit normals along a side, at the samples of the side's curve; zero at
+    poles.
+    """
     if isinstance(patch, FlatFace):
         return np.tile(
             patch.normal, (len(patch.sides[number][0].space.uniform_parameters(CREASE_SAMPLES)), 1)
@@ -362,7 +387,9 @@ def _inner_crease_angle(patch: Patch) -> float:
 
 
 def _normals(patch: Patch, *parameters: tuple[NDArray, NDArray | None]) -> NDArray[np.float64]:
-    """Return (m, n, 3) unit normals at parameters (values, spans or None) of s and of t; zero if undefined."""
+    """Return (m, n, 3) unit normals at parameters (values, spans or None) of s and of t; zero if
+    undefined.
+    """
     (s, by_s), (t, by_t) = (
         [space.collocation_matrix(at, k, spans) for k in (0, 1)]
         for space, (at, spans) in zip(patch.spaces, parameters)
@@ -382,7 +409,9 @@ def _normals(patch: Patch, *parameters: tuple[NDArray, NDArray | None]) -> NDArr
 
 
 def _largest_angle(first: NDArray, second: NDArray) -> float:
-    """Return the largest angle between corresponding unit vectors, ignoring pairs with a zero vector."""
+    """Return the largest angle between corresponding unit vectors, ignoring pairs with a zero
+    vector.
+    """
     known = first.any(axis=-1) & second.any(axis=-1)
     chord = np.linalg.norm(first[known] - second[known], axis=-1).max(initial=0.0)
     return float(2.0 * np.arcsin(min(chord / 2.0, 1.0)))

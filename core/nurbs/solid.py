@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of a body bounded by B-spline patches: its kind, the decisions taken, and its moments.
+"""Measurement of a body bounded by B-spline patches: its kind, the decisions taken, and its
+moments.
 
-The counterpart of `core.solid` for surfaces that are not made of polygons, with the same procedures: patches that face
-against the rest of their part are turned, holes are capped, parts that are inside out and in no other part's material
-are turned, and unclosable patches are measured as a signed sum and called open. Parts are compared by samples of their
-patches: an overlap that is thinner than a hundredth of a part may be missed.
+The counterpart of `core.solid` for surfaces that are not made of polygons, with the same
+procedures: patches that face against the rest of their part are turned, holes are capped, parts
+that are inside out and in no other part's material are turned, and unclosable patches are measured
+as a signed sum and called open. Parts are compared by samples of their patches: an overlap that is
+thinner than a hundredth of a part may be missed.
 """
 
 from __future__ import annotations
@@ -118,7 +120,8 @@ def measure_patches(
     --------
     >>> from body_moments.core.nurbs import Patch, measure_patches
     >>> from body_moments.core.numerics import clamped_space
-    >>> line, corners = clamped_space(2), np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
+    >>> line = clamped_space(2)
+    >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
     >>> around = np.stack([np.insert(corners, 2, z, axis=1) for z in (0.0, 1.0)], axis=1)
     >>> body = measure_patches([Patch((clamped_space(2, (0.25, 0.5, 0.75)), line), around)])
     >>> str(body.method), round(body.volume.total, 9)
@@ -157,7 +160,9 @@ def assess(
     stored: float,
     findings: Sequence[Finding] = (),
 ) -> PatchIntegrals:
-    """Sum the `measured` moments of the parts, inverted ones turned and uncounted ones left out; add findings."""
+    """Sum the `measured` moments of the parts, inverted ones turned and uncounted ones left out;
+    add findings.
+    """
     size = patches_size(patches)
     caps = np.zeros(topology.number)
     for loop in topology.loops:
@@ -240,7 +245,9 @@ def assess(
 def measure_sheet(
     patches: Sequence[Face], inner: float, outer: float, *, stored: float = 0.0
 ) -> tuple[Moments, Moments, bool]:
-    """Measure the sheet between two heights along patches: volume, area, and whether both converged."""
+    """Measure the sheet between two heights along patches: volume, area, and whether both
+    converged.
+    """
     about = patches_center(patches)
     area, fine = area_moments(patches, 3, about)
     sheet, converged = sheet_moments(patches, inner, outer, 3, about)
@@ -256,7 +263,9 @@ def measure_sheet(
 def _compare_parts(
     parts: Sequence[list[Face]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
 ) -> ComponentComparison | None:
-    """Compare parts with each other and find the ones to turn; None for a single part, or if none is solid."""
+    """Compare parts with each other and find the ones to turn; None for a single part, or if none
+    is solid.
+    """
     if len(parts) == 1 or not solid.any():
         return None
     components, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
@@ -292,7 +301,9 @@ def _compare_parts(
 
 
 def _component_findings(comparison: ComponentComparison | None, size: float) -> list[Finding]:
-    """Return findings about parts in other parts' material, and about parts that go through other parts."""
+    """Return findings about parts in other parts' material, and about parts that go through other
+    parts.
+    """
     if comparison is None:
         return []
     counts = {
@@ -343,7 +354,9 @@ def _classify_parts(
 
 
 def _sampled(face: Face, each: int) -> tuple[NDArray, NDArray[np.intp], float]:
-    """Return points (n, 3) of a face, quads (f, 4) between them, and a bound of the face's distance from the quads."""
+    """Return points (n, 3) of a face, quads (f, 4) between them, and a bound of the face's distance
+    from the quads.
+    """
     if isinstance(face, FlatFace):
         quads = face.quads(each)
         sagitta = max(_sagitta(curve.samples(each)[:, None], each) for curve in face.curves)
@@ -362,7 +375,9 @@ def _sampled(face: Face, each: int) -> tuple[NDArray, NDArray[np.intp], float]:
 
 
 def _sagitta(grid: NDArray, each: int) -> float:
-    """Return the largest distance of a surface from the chords of its samples along the first axis, bends ignored."""
+    """Return the largest distance of a surface from the chords of its samples along the first axis,
+    bends ignored.
+    """
     bend = np.linalg.norm(np.diff(grid, 2, axis=0), axis=2) / 8.0
     bend[each - 1 :: each] = 0.0
     return float(bend.max())
@@ -375,7 +390,9 @@ def _orientation_findings(
     size: float,
     volume: float,
 ) -> list[Finding]:
-    """Return findings about single patches turned to agree with their part, and about whole parts turned."""
+    """Return findings about single patches turned to agree with their part, and about whole parts
+    turned.
+    """
 
     def are_slight(
         groups: list[list[Face]],

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """B-spline curves in space and tensor-product patches, polynomial or rational.
 
-The normal of a patch is ∂S/∂s x ∂S/∂t, s being the direction of the first axis of its control points. Blender's faces
-look the other way: with Blender's v as s and u as t, both normals agree.
+The normal of a patch is ∂S/∂s x ∂S/∂t, s being the direction of the first axis of its control
+points. Blender's faces look the other way: with Blender's v as s and u as t, both normals agree.
 """
 
 from __future__ import annotations
@@ -32,7 +32,9 @@ SIDES = (
 
 
 def _freeze_points(part: Curve | Patch, *shape: int) -> None:
-    """Replace the points (*shape, 3) and weights (*shape) by read-only float64 copies, equal weights by None."""
+    """Replace the points (*shape, 3) and weights (*shape) by read-only float64 copies, equal
+    weights by None.
+    """
     points = _frozen_copy(float_array("points", part.points, *shape, 3))
     if not np.isfinite(points).all():
         raise MeasureError(NON_FINITE_CONTROL_POINTS)
@@ -74,7 +76,8 @@ class Curve:
     --------
     >>> from body_moments.core.nurbs import Curve
     >>> from body_moments.core.numerics import clamped_space
-    >>> curve = Curve(clamped_space(3), np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 0.0], [2.0, 0.0, 0.0]]))
+    >>> points = np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 0.0], [2.0, 0.0, 0.0]])
+    >>> curve = Curve(clamped_space(3), points)
     >>> curve.evaluate([0.5]).tolist()
     [[1.0, 1.0, 0.0]]
     """
@@ -210,7 +213,9 @@ class Patch:
         )
 
     def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
-        """Return the (m, n, 3) points given by tables (m, count_s) and (n, count_t) of basis function values."""
+        """Return the (m, n, 3) points given by tables (m, count_s) and (n, count_t) of basis
+        function values.
+        """
         points = self.points
         bottom = None
         if self.weights is not None:
@@ -222,7 +227,9 @@ class Patch:
         return top if bottom is None else top / bottom[..., None]
 
     def side(self, axis: int, end: int) -> Curve:
-        """Return the boundary curve at the first (end 0) or last (end 1) s (axis 0) or t (axis 1)."""
+        """Return the boundary curve at the first (end 0) or last (end 1) s (axis 0) or t (axis
+        1).
+        """
         weigh: NDArray[np.float64] = self.spaces[axis].end_weights[end]
         points, weights = self.points, self.weights
         if weights is None:
@@ -233,17 +240,23 @@ class Patch:
 
     @property
     def sides(self) -> tuple[tuple[Curve, bool], ...]:
-        """The four boundary curves, in the order of `SIDES`, each with True if the patch is on its left."""
+        """The four boundary curves, in the order of `SIDES`, each with True if the patch is on its
+        left.
+        """
         return tuple((self.side(axis, end), forward) for axis, end, forward in SIDES)
 
     def samples(self, each: int) -> NDArray[np.float64]:
-        """Return a grid of points that divide every span of both directions into `each` equal steps, ends included."""
+        """Return a grid of points that divide every span of both directions into `each` equal
+        steps, ends included.
+        """
         return self.apply_weights(*(_sample_table(space, each) for space in self.spaces))
 
 
 @lru_cache(maxsize=64)
 def _sample_table(space: SplineSpace, each: int) -> NDArray[np.float64]:
-    """Return (n, count) weights of control points at `each` equal steps in every span; cached: do not modify."""
+    """Return (n, count) weights of control points at `each` equal steps in every span; cached: do
+    not modify.
+    """
     return space.collocation_matrix(space.uniform_parameters(each))
 
 

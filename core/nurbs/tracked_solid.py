@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A body of patches that is measured again and again while its control points move.
 
-Orientation and caps are decided anew each time, as in `measure_patches`; only the moments come from tables
-(`IncrementalPatchMoments`). For rational patches the tables' rule is fixed and has no error estimate. Its error depends
-on the weights, so the rule is compared with the measured moments of the body, and of patches with its weights and
-random points, because a flat body says little about later shapes. If the weights change, or the body moves far from the
-reference point of its moments, everything is measured anew.
+Orientation and caps are decided anew each time, as in `measure_patches`; only the moments come from
+tables (`IncrementalPatchMoments`). For rational patches the tables' rule is fixed and has no error
+estimate. Its error depends on the weights, so the rule is compared with the measured moments of the
+body, and of patches with its weights and random points, because a flat body says little about later
+shapes. If the weights change, or the body moves far from the reference point of its moments,
+everything is measured anew.
 """
 
 from __future__ import annotations
@@ -36,10 +37,11 @@ RATIONAL_GAUSS_POINTS = 16  # Gauss points in a span of a rational patch
 
 
 class TrackedSolid:
-    """The body that patches bound, measured again while control points move; stored: as for `measure_patches`.
+    """The body that patches bound, measured again while control points move; stored: as for
+    `measure_patches`.
 
-    `measure`: the current measurement, with volume moments to order 3. After an `update` from tables its error bounds
-    are estimates, and the area is an approximation.
+    `measure`: the current measurement, with volume moments to order 3. After an `update` from
+    tables its error bounds are estimates, and the area is an approximation.
     """
 
     def __init__(self, patches: Sequence[Patch], stored: float = 0.0):
@@ -63,7 +65,8 @@ class TrackedSolid:
         self._area_error = area.rounding_error[:1] / area.total
         if any(patch.weights is not None for patch in patches):
             tables = self._assess(patches, self.measure.topology, stored).volume
-            # The worst of all moments stands for each, because a symmetric body may have a single one right by chance.
+            # The worst of all moments stands for each, because a symmetric body may have a single
+            # one right by chance.
             off = float((np.abs(tables.raw - volume.raw) / largest).max())
             off = max(
                 [off]
@@ -73,7 +76,9 @@ class TrackedSolid:
             self._is_tracking = off <= MAX_RULE_ERROR
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
-        """Measure the patches in their current shape; return True if tables sufficed, False if all is measured anew."""
+        """Measure the patches in their current shape; return True if tables sufficed, False if all
+        is measured anew.
+        """
         size = patches_size(patches)
         about = self.measure.volume.about
         if not (
@@ -98,7 +103,9 @@ class TrackedSolid:
     def _assess(
         self, patches: Sequence[Patch], topology: PatchTopology, stored: float
     ) -> PatchIntegrals:
-        """Return the measurement of the present fluxes of all patches, with the decisions of `measure_patches`."""
+        """Return the measurement of the present fluxes of all patches, with the decisions of
+        `measure_patches`.
+        """
         about = self.measure.volume.about
         total = sum(evaluator.area for evaluator in self._evaluators)
         area = Moments(np.array([total]), about, Measure.AREA, self._area_error * total)
@@ -137,7 +144,9 @@ def _largest_moments(patches: Sequence[Patch], about: NDArray, area: float) -> N
 
 
 def _rule_error_at_random(patch: Patch) -> float:
-    """Return the error of the tables' rule for a patch's weights and random points, relative to the largest moment."""
+    """Return the error of the tables' rule for a patch's weights and random points, relative to the
+    largest moment.
+    """
     points = np.random.default_rng(0).uniform(-1.0, 1.0, patch.points.shape)
     perturbed = replace(patch, points=points)
     about = np.zeros(3)
@@ -147,12 +156,14 @@ def _rule_error_at_random(patch: Patch) -> float:
 
 
 class IncrementalPatchMoments:
-    """Moments of a patch in a fixed function space and with fixed weights, its control points free to move.
+    """Moments of a patch in a fixed function space and with fixed weights, its control points free
+    to move.
 
-    Only the matrices from control points to Bézier ones (`bezier`) are precomputed: the integrals of products of basis
-    functions Φ of Soldea, Elber and Rivlin (section 3) need up to 10,000 times as much memory. Gauss rules are exact
-    for polynomial patches; for rational ones there is no error estimate. `area` is the area of the patch as last
-    evaluated, an approximation by the same points.
+    Only the matrices from control points to Bézier ones (`bezier`) are precomputed: the integrals
+    of products of basis functions Φ of Soldea, Elber and Rivlin (section 3) need up to 10,000 times
+    as much memory. Gauss rules are exact for polynomial patches; for rational ones there is no
+    error estimate. `area` is the area of the patch as last evaluated, an approximation by the same
+    points.
     """
 
     def __init__(self, patch: Patch, order: int, about: NDArray):
@@ -174,7 +185,9 @@ class IncrementalPatchMoments:
         self.area = 0.0
 
     def moments(self, points: NDArray) -> Moments:
-        """Return the patch's flux as moments; only spans on which moved control points act are evaluated anew."""
+        """Return the patch's flux as moments; only spans on which moved control points act are
+        evaluated anew.
+        """
         moved = (points != self._points).any(axis=2)
         self._points = points.copy()
         if moved.all():

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Formulas as the papers print them, one module a paper: the tests compare the fast methods with these."""
+"""Formulas as the papers print them, one module a paper: the tests compare the fast methods with
+these.
+"""
 
 from ..lazy import lazy_names
 

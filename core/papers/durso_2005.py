@@ -1,22 +1,27 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""D'Urso's moments of polyhedra from the edges of their planar faces (Atti della IX Conferenza ASITA, 2005).
+"""D'Urso's moments of polyhedra from the edges of their planar faces (Atti della IX Conferenza
+ASITA, 2005).
 
-With n the unit normal of a face, p⊥ the foot of the perpendicular from the origin on its plane and, for each of its
-edges, c_j = (p_j x p_{j+1})·n, the paper gives M_0 (eq. 6), M_2 and M_3 as sums over edges of c_j (p⊥·n) times tensor
-products of p_j, p_{j+1} and p⊥; M_1 (D'Urso 2004) is of the same form. No face is cut into triangles.
+With n the unit normal of a face, p⊥ the foot of the perpendicular from the origin on its plane and,
+for each of its edges, c_j = (p_j x p_{j+1})·n, the paper gives M_0 (eq. 6), M_2 and M_3 as sums
+over edges of c_j (p⊥·n) times tensor products of p_j, p_{j+1} and p⊥; M_1 (D'Urso 2004) is of the
+same form. No face is cut into triangles.
 
-- The printed M_3 is wrong. In its first bracket of 1/3 the third product reads p_{j+1} ⊗ p_j ⊗ p_{j+1}, which stands
-  in the second bracket already; it must be p_{j+1} ⊗ p_j ⊗ p_j. As printed the result is not even symmetric. `THIRD` is
-  the corrected sum, `THIRD_AS_PRINTED` the printed one.
+- The printed M_3 is wrong. In its first bracket of 1/3 the third product reads p_{j+1} ⊗ p_j ⊗
+  p_{j+1}, which stands in the second bracket already; it must be p_{j+1} ⊗ p_j ⊗ p_j. As printed
+  the result is not even symmetric. `THIRD` is the corrected sum, `THIRD_AS_PRINTED` the printed
+  one.
 - In eq. 6 the inner sum ends at V^i, the face's own number of vertices.
-- c_j (p⊥·n) is det(p⊥, p_j, p_{j+1}): the sum is that of Sheynin and Tuzikov over the fan with its apex in p⊥. Hence
-  `moments`: any order, with any apex in the face's plane, by the same Σ_pqr.
-- A face that is not planar has no one plane. Taken with its mean plane (Newell's normal through the mean of its
-  corners) the volume is that of the fan from that mean, but M_1 and all higher ones belong to no body: they change with
-  the origin. Such faces have to be cut into triangles first, as Blender draws them.
+- c_j (p⊥·n) is det(p⊥, p_j, p_{j+1}): the sum is that of Sheynin and Tuzikov over the fan with its
+  apex in p⊥. Hence `moments`: any order, with any apex in the face's plane, by the same Σ_pqr.
+- A face that is not planar has no one plane. Taken with its mean plane (Newell's normal through the
+  mean of its corners) the volume is that of the fan from that mean, but M_1 and all higher ones
+  belong to no body: they change with the origin. Such faces have to be cut into triangles first, as
+  Blender draws them.
 
-References, generic over the number type: `fractions.Fraction` in, exact rational moments out, as n enters squared only.
+References, generic over the number type: `fractions.Fraction` in, exact rational moments out, as n
+enters squared only.
 """
 
 from __future__ import annotations
@@ -31,14 +36,14 @@ from numpy.typing import NDArray
 from ..numerics.vectors import Number, Vector, cross, dot
 from .sheynin_tuzikov_2001 import _exponents_to, sigma
 
-# (divisor of the sum of c_j (p⊥·n) times these products; the products: a is p_j, b is p_{j+1}, p is p⊥, with an integer
-# multiple each). The paper's fractions are brought to one denominator: 1/5 · 1/12 · {1, 1/2}, 1/6 · 1/20 · {1, 1/3,
-# 1/6}.
+# (divisor of the sum of c_j (p⊥·n) times these products; the products: a is p_j, b is p_{j+1}, p is
+# p⊥, with an integer multiple each). The paper's fractions are brought to one denominator: 1/5 ·
+# 1/12 · {1, 1/2}, 1/6 · 1/20 · {1, 1/3, 1/6}.
 ZEROTH = (6, {"": 1})
 FIRST = (24, {"a": 1, "b": 1, "p": 1})
 SECOND = (120, {"aa": 2, "ab": 1, "ba": 1, "bb": 2, "ap": 1, "pa": 1, "pp": 2, "bp": 1, "pb": 1})
 THIRD = (720, {"".join(word): (6, 2, 1)[len(set(word)) - 1] for word in product("abp", repeat=3)})
-THIRD_AS_PRINTED = (720, {**THIRD[1], "baa": 0, "bab": 4})
+THIRD_AS_PRINTED = (720, (THIRD[1] | {"baa": 0, "bab": 4}))
 FORMULAS = (ZEROTH, FIRST, SECOND, THIRD)
 
 
@@ -109,7 +114,8 @@ def moments(
         As for `tensor`.
     order : int
     apexes : sequence of (x, y, z), optional
-        An apex for each face: any point of its plane, such as p⊥; by default the face's first corner.
+        An apex for each face: any point of its plane, such as p⊥; by default the face's first
+        corner.
 
     Returns
     -------
@@ -119,8 +125,10 @@ def moments(
     Examples
     --------
     >>> from body_moments.core.papers.durso_2005 import moments, perpendicular_feet
-    >>> points, faces = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-    >>> [round(moments(points, faces, 2, apexes)[4] * 60, 12) for apexes in (None, perpendicular_feet(points, faces))]
+    >>> points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> feet = perpendicular_feet(points, faces)
+    >>> [round(moments(points, faces, 2, apexes)[4] * 60, 12) for apexes in (None, feet)]
     [1.0, 1.0]
     """
     apexes = [points[face[0]] for face in faces] if apexes is None else apexes
@@ -157,7 +165,9 @@ def perpendicular_feet(points: Sequence[Vector], faces: Sequence[Sequence[int]])
 
 
 def _plane(corners: Sequence[Vector]) -> tuple[Vector, Vector]:
-    """Return Newell's normal, twice the area long, and the perpendicular's foot from the origin, of the mean plane."""
+    """Return Newell's normal, twice the area long, and the perpendicular's foot from the origin, of
+    the mean plane.
+    """
     normal = (0, 0, 0)
     for a, b in zip(corners, [*corners[1:], corners[0]]):
         normal = tuple(n + c for n, c in zip(normal, cross(a, b)))

@@ -1,14 +1,16 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The explicit formulae of Sheynin and Tuzikov (Pattern Recognition Letters 22, 2001) as they are printed.
+"""The explicit formulae of Sheynin and Tuzikov (Pattern Recognition Letters 22, 2001) as they are
+printed.
 
-The moment of a tetrahedron with one corner in the origin is det·Σ_pqr / (p+q+r+3)!, that of the triangle opposite to it
-2A·Σ_pqr / (p+q+r+2)!, with Σ_pqr the nine-fold sum of `sigma`. Faces are fans from their first corner.
+The moment of a tetrahedron with one corner in the origin is det·Σ_pqr / (p+q+r+3)!, that of the
+triangle opposite to it 2A·Σ_pqr / (p+q+r+2)!, with Σ_pqr the nine-fold sum of `sigma`. Faces are
+fans from their first corner.
 
-A reference, not the way to measure a mesh: its cost grows with the ninth power of the order. It computes with any
-number type: `fractions.Fraction` gives exact rational moments, floats rounded ones, numpy arrays those of many
-triangles at once. The formulae are about the origin; in floats subtract a point of the body first (`about`), else only
-noise is left after cancellation.
+A reference, not the way to measure a mesh: its cost grows with the ninth power of the order. It
+computes with any number type: `fractions.Fraction` gives exact rational moments, floats rounded
+ones, numpy arrays those of many triangles at once. The formulae are about the origin; in floats
+subtract a point of the body first (`about`), else only noise is left after cancellation.
 """
 
 from __future__ import annotations

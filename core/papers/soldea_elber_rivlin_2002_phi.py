@@ -6,9 +6,10 @@ With S = Σ P_i B_i and the z-flux, the volume is (section 2, eqs. 2 to 5)
 
     M_0 = Σ_l Σ_i Σ_j z_l x_i y_j Φ⁰_{ijl},    Φ⁰_{ijl} = ∫∫ B_l (B_i,s B_j,t - B_i,t B_j,s) ds dt,
 
-each index standing for a pair, of s and of t; Φ¹ and Φ² (sections 3.1 and 3.2) hold one and two factors B more. Every
-entry is a difference of products of two integrals over one parameter. There are (n n')^(3 + order) of them: this is
-good for patches of some nine control points; `core/nurbs/tracked_solid.py` is for any patch.
+each index standing for a pair, of s and of t; Φ¹ and Φ² (sections 3.1 and 3.2) hold one and two
+factors B more. Every entry is a difference of products of two integrals over one parameter. There
+are (n n')^(3 + order) of them: this is good for patches of some nine control points;
+`core/nurbs/tracked_solid.py` is for any patch.
 """
 
 from __future__ import annotations

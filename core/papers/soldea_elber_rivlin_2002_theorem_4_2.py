@@ -4,11 +4,12 @@
 
 With δ_{x,y} = (t_{x+y} - t_x) / y and [t_m, t_{m+1}) the interval that holds t,
 
-    ∫_{t_i}^t τ^l B_{i,k}(τ) dτ = δ_{i,k} Σ_{j=0..l} (-1)^j (t^l)^{(j)} Σ_{s0=i..m} B_{s0,k+j+1}(t)
-                                  Σ_{s1=i..s0} δ_{s1,k+j} ... Σ_{sj=i..s(j-1)} δ_{sj,k+1}.          (11)
+    ∫_{t_i}^t τ^l B_{i,k}(τ) dτ =
+        δ_{i,k} Σ_{j=0..l} (-1)^j (t^l)^{(j)} Σ_{s0=i..m} B_{s0,k+j+1}(t)
+        Σ_{s1=i..s0} δ_{s1,k+j} ... Σ_{sj=i..s(j-1)} δ_{sj,k+1}.    (11)
 
-The theorem is right, but costs l nested sums, so only tests use it. The arithmetic is that of its arguments: exact with
-`fractions.Fraction`.
+The theorem is right, but costs l nested sums, so only tests use it. The arithmetic is that of its
+arguments: exact with `fractions.Fraction`.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ from ..numerics.vectors import Number
 def integral_of_basis(knots: Sequence[Number], i: int, k: int, power: int, t: Number) -> Number:
     """Return ∫ from t_i to t of τ^power B_{i,k}(τ) dτ by equation (11).
 
-    The sums reach functions of order k + power + 1, beyond the last knot: the knots there may be anything that ascends.
+    The sums reach functions of order k + power + 1, beyond the last knot: the knots there may be
+    anything that ascends.
 
     Parameters
     ----------

@@ -1,20 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Zhang and Chen's signed elementary shapes (ICIP 2001): area, volume and moments of 2-D and 3-D meshes.
+"""Zhang and Chen's signed elementary shapes (ICIP 2001): area, volume and moments of 2-D and 3-D
+meshes.
 
-Every edge of a polygon makes a triangle with the origin, every triangle of a mesh a tetrahedron. The elementary shape
-counts with the sign of its determinant (eqs 2 and 4; 5 and 6), an integral over the inside is the sum of the elementary
-ones (eq. 9), and if the total comes out negative the order of all vertices was the wrong one and is reversed. The
-moments of an elementary shape are in an appendix that no copy of the paper at hand has; here they are from Dirichlet's
-integral over the shape's barycentric coordinates λ:
+Every edge of a polygon makes a triangle with the origin, every triangle of a mesh a tetrahedron.
+The elementary shape counts with the sign of its determinant (eqs 2 and 4; 5 and 6), an integral
+over the inside is the sum of the elementary ones (eq. 9), and if the total comes out negative the
+order of all vertices was the wrong one and is reversed. The moments of an elementary shape are in
+an appendix that no copy of the paper at hand has; here they are from Dirichlet's integral over the
+shape's barycentric coordinates λ:
 
     ∫ λ_1^{k_1} … λ_d^{k_d} = measure · d! k_1! … k_d! / (k_1 + … + k_d + d)!,
 
-one term for each choice of a corner for every factor of the monomial. The rule that makes principal axes unique
-(eq. 11) is `core/inertia/principal_frames.py:zhang_chen_frame`.
+one term for each choice of a corner for every factor of the monomial. The rule that makes principal
+axes unique (eq. 11) is `core/inertia/principal_frames.py:zhang_chen_frame`.
 
-A reference: d^n terms for order n. Generic over the number type, exact in `fractions.Fraction`. The paper's pose (eq.
-11) is `zhang_chen_frame` in `core/inertia/principal_frames.py`, its Fourier transform `core/fourier/transform.py`.
+A reference: d^n terms for order n. Generic over the number type, exact in `fractions.Fraction`. The
+paper's pose (eq. 11) is `zhang_chen_frame` in `core/inertia/principal_frames.py`, its Fourier
+transform `core/fourier/transform.py`.
 """
 
 from __future__ import annotations
@@ -84,8 +87,8 @@ def mesh_moments(
     ----------
     points : sequence of 2 or 3 numbers each
     shapes : sequence of sequence of int
-        Edges of a polygon, or triangles of a closed mesh, all outward or all inward: the inside counts positive
-        either way.
+        Edges of a polygon, or triangles of a closed mesh, all outward or all inward: the inside
+        counts positive either way.
     exponents : sequence of tuple of int
 
     Returns
@@ -96,8 +99,10 @@ def mesh_moments(
     Examples
     --------
     >>> from body_moments.core.papers.zhang_chen_2001 import mesh_moments
-    >>> points, triangles = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-    >>> [round(float(value) * 120, 9) for value in mesh_moments(points, triangles, [(2, 0, 0), (1, 1, 0)])]
+    >>> points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> triangles = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> values = mesh_moments(points, triangles, [(2, 0, 0), (1, 1, 0)])
+    >>> [round(float(value) * 120, 9) for value in values]
     [2.0, 1.0]
     """
     dimension = len(points[0])
@@ -115,7 +120,9 @@ def mesh_moments(
 
 
 def _elementary_mean(exponents: Sequence[int], corners: Sequence[Vector]) -> Number:
-    """Return the mean of a monomial over the triangle or tetrahedron of the origin and d corners."""
+    """Return the mean of a monomial over the triangle or tetrahedron of the origin and d
+    corners.
+    """
     dimension = len(corners)
     axes = [axis for axis, n in enumerate(exponents) for _ in range(n)]
     total = 0

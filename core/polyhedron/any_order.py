@@ -1,15 +1,19 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volume and surface moments of any order of triangles and quads, in memory or as a stream, with rigorous bounds.
+"""Volume and surface moments of any order of triangles and quads, in memory or as a stream, with
+rigorous bounds.
 
-Sheynin and Tuzikov (*Explicit formulae for polyhedra moments*, Pattern Recognition Letters 22, 2001): with the
-coefficients S_pqr of 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)), the integrals over the cone from the origin on a triangle a, b, c
-with determinant w, and over the triangle itself, with doubled area A, are
+Sheynin and Tuzikov (*Explicit formulae for polyhedra moments*, Pattern Recognition Letters 22,
+2001): with the coefficients S_pqr of 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)), the integrals over the cone from
+the origin on a triangle a, b, c with determinant w, and over the triangle itself, with doubled area
+A, are
 
-    ∫ x^p y^q z^r dV = w p! q! r! / (p+q+r+3)! S_pqr,    ∫ x^p y^q z^r dA = A p! q! r! / (p+q+r+2)! S_pqr.
+    ∫ x^p y^q z^r dV = w p! q! r! / (p+q+r+3)! S_pqr,    ∫ x^p y^q z^r dA = A p! q! r! / (p+q+r+2)!
+                                                         S_pqr.
 
-The recursion of `any_order_kernel` replaces their explicit sum for S. Coordinates are taken about a point of the body,
-and scaled by a power of two to at most about 1 if they are far from it, so that high powers stay in range.
+The recursion of `any_order_kernel` replaces their explicit sum for S. Coordinates are taken about a
+point of the body, and scaled by a power of two to at most about 1 if they are far from it, so that
+high powers stay in range.
 """
 
 from __future__ import annotations
@@ -63,14 +67,18 @@ def area_factors(order: int) -> NDArray[np.float64]:
 
 
 def _exponent(reach: float) -> int:
-    """Return the exponent of the power of two that scales a body with this reach: 0 if its size is usual."""
+    """Return the exponent of the power of two that scales a body with this reach: 0 if its size is
+    usual.
+    """
     exponent = frexp(reach)[1]
     return exponent if abs(exponent) > MAX_UNSCALED_EXPONENT else 0
 
 
 @dataclass(frozen=True, eq=False)
 class _FaceBatch:
-    """Faces, (m, 3) or (m, 4), of a piece of the body. size: faces in a block. half_ulp: (3,) of the points."""
+    """Faces, (m, 3) or (m, 4), of a piece of the body. size: faces in a block. half_ulp: (3,) of
+    the points.
+    """
 
     points: NDArray
     faces: NDArray
@@ -79,7 +87,9 @@ class _FaceBatch:
 
 
 class _CompensatedSum:
-    """A running sum of arrays, with the rounding errors of the additions (Neumaier), and the sums for its bounds."""
+    """A running sum of arrays, with the rounding errors of the additions (Neumaier), and the sums
+    for its bounds.
+    """
 
     def __init__(self, order: int, weights: int):
         self.order, self.weights = order, weights
@@ -112,7 +122,10 @@ class _CompensatedSum:
 
 @dataclass(eq=False)
 class StreamIntegrator:
-    """One body being measured, piece by piece. Without `center` and `reach`, its first piece sets point and scale."""
+    """One body being measured, piece by piece.
+
+    Without `center` and `reach`, its first piece sets point and scale.
+    """
 
     order: int
     area: bool
@@ -143,7 +156,9 @@ class StreamIntegrator:
         ) if self.area else None
 
     def _ordered_results(self, tasks: Iterator[_FaceBatch]) -> Iterator[tuple[int, list[Sums]]]:
-        """Yield the results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
+        """Yield the results of `_run` in the order of the tasks, whichever finishes first; a few
+        run at a time.
+        """
         first = list(islice(tasks, min(self.threads, 2)))
         alone = len(first) < 2
         tasks = chain(first, tasks)
@@ -182,7 +197,9 @@ class StreamIntegrator:
                     yield _FaceBatch(points, faces[start : start + step], size, half_ulp)
 
     def _size(self, faces: NDArray) -> int:
-        """Return the number of faces in a block, even, so that 2 or 4 threads get equally many blocks."""
+        """Return the number of faces in a block, even, so that 2 or 4 threads get equally many
+        blocks.
+        """
         corners = faces.shape[1]
         # The kernel takes two triangles that share an edge as one face.
         ours = 2 if corners == 3 and quad_corners(faces[:2]) is not None else 1
@@ -209,7 +226,10 @@ class StreamIntegrator:
             raise MeasureError(MOMENTS_OVERFLOW, order=int(self.order))
 
     def _run(self, task: _FaceBatch) -> tuple[int, list[Sums]]:
-        """Run one task, in any thread. Return its number of faces and the sums of each of its blocks."""
+        """Run one task, in any thread.
+
+        Return its number of faces and the sums of each of its blocks.
+        """
         if not indices_in_range(task.faces, len(task.points)):
             raise ValueError(NO_VERTEX)
         levels = self.idle.pop() if self.idle else AnyOrderKernel(self.order, self.area)
@@ -224,7 +244,9 @@ class StreamIntegrator:
 
     @staticmethod
     def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray] | NDArray, int]]:
-        """Yield the corners of each block's faces (cut quads, paired or single triangles), and a full block's size."""
+        """Yield the corners of each block's faces (cut quads, paired or single triangles), and a
+        full block's size.
+        """
         for start in range(0, len(task.faces), task.size):
             faces = task.faces[start : start + task.size]
             if faces.shape[1] == 4:
@@ -259,7 +281,9 @@ class StreamIntegrator:
         )
 
     def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
-        """Return bounds of the change if vertices move by half ulps, from the swept volume or the added area."""
+        """Return bounds of the change if vertices move by half ulps, from the swept volume or the
+        added area.
+        """
         swept = total.sizes[2] * (1.0 + 1e-9)
         if of == Measure.VOLUME:
             return swept
@@ -285,7 +309,9 @@ def extend_small_moments(
     counts: NDArray[np.integer],
     reach: NDArray,
 ) -> Moments:
-    """Return moments of n bodies, `volume` (n, 20), to a higher order; reach: (n, 3) from their reference points."""
+    """Return moments of n bodies, `volume` (n, 20), to a higher order; reach: (n, 3) from their
+    reference points.
+    """
     known = volume.raw.shape[1]
     ends = np.cumsum(counts)
     powers = monomials(order)[known:]
@@ -307,7 +333,8 @@ def extend_small_moments(
         sizes.append(np.add.reduceat(np.abs(det), starts))
     raw = np.concatenate(sums) * factors
     largest = monomial_values(reach, order)[:, known:]
-    # A coefficient has an error of (6 n + 8) u, a determinant that of the known total, and sums that of their lengths.
+    # A coefficient has an error of (6 n + 8) u, a determinant that of the known total, and sums
+    # that of their lengths.
     relative = U * (14.0 * degree + 16.0 + 3.0 * counts[:, None])
     size = np.concatenate(sizes)[:, None] / (2.0 * degree + 6.0)
     error = (relative * size + 2.0 * volume.rounding_error[:, :1]) * largest + 8.0 * U * np.abs(raw)

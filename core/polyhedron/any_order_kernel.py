@@ -1,19 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The inner loop of `any_order`: all moments of triangles and pairs of triangles, a block at a time.
+"""The inner loop of `any_order`: all moments of triangles and pairs of triangles, a block at a
+time.
 
-Over the triangle a, b, c the mean of the monomial x^α of degree n is 2 α! / (n+2)! times the coefficient S_α of the
-generating function 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)). Each factor is one level of a recursion,
+Over the triangle a, b, c the mean of the monomial x^α of degree n is 2 α! / (n+2)! times the
+coefficient S_α of the generating function 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)). Each factor is one level of
+a recursion,
 
     C_α = (n! / α!) a^α,    D_α = C_α + Σ_i c_i D_{α-e_i},    S_α = D_α + Σ_i b_i S_{α-e_i},
 
-with only one degree kept at a time. Two triangles that share the edge a-c share C and D. Of the last degree only sums
-over faces are wanted; the sums of S_α = C_α + Σ_i c_i D_{α-e_i} + Σ_i b_i S_{α-e_i} need no D and no S of that degree.
+with only one degree kept at a time. Two triangles that share the edge a-c share C and D. Of the
+last degree only sums over faces are wanted; the sums of S_α = C_α + Σ_i c_i D_{α-e_i} + Σ_i b_i
+S_{α-e_i} need no D and no S of that degree.
 
-Rows are the monomials of one degree in the order of `monomials`, columns are faces. The rows that a level's sum takes
-from the degree below stand in runs, so that nothing is fetched or copied: 14 operations a moment, in few and long calls
-of numpy on views that are made once, as threads wait for Python between calls. All sums are of positive terms if the
-coordinates are positive, so a computed S_α is off by at most (6 n + 8) u S_α(|a|, |b|, |c|).
+Rows are the monomials of one degree in the order of `monomials`, columns are faces. The rows that a
+level's sum takes from the degree below stand in runs, so that nothing is fetched or copied: 14
+operations a moment, in few and long calls of numpy on views that are made once, as threads wait for
+Python between calls. All sums are of positive terms if the coordinates are positive, so a computed
+S_α is off by at most (6 n + 8) u S_α(|a|, |b|, |c|).
 """
 
 from __future__ import annotations
@@ -32,9 +36,11 @@ from .workspace import Workspace, gather
 
 FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates
 SLICES_PER_ROW = 16  # slices of a row that einsum adds up: a divisor of FACES_PER_CHUNK
-# Rounding of a determinant, and of a doubled area, relative to the sizes of their terms: see `third_order`.
+# Rounding of a determinant, and of a doubled area, relative to the sizes of their terms: see
+# `third_order`.
 DETERMINANT_ROUNDING = 9.0 * U
-# Underflow loses less than its root of a length, and less than `DETERMINANT_ROUNDING` times it of a doubled area.
+# Underflow loses less than its root of a length, and less than `DETERMINANT_ROUNDING` times it of a
+# doubled area.
 MIN_SQUARED_LENGTH = 1e-145
 UNDERFLOW_BOUND = (
     1e-220  # more than underflow can lose of one face whose coordinates are at most 256
@@ -57,9 +63,10 @@ def multinomials(degree: int) -> NDArray[np.float64]:
 class Sums:
     """Sums over a block of faces, in the unit in which their coordinates are at most about 256.
 
-    sums: (weights, K) Σ over faces of determinant S_α, and of doubled area S_α. chunks: (3 + 3 + weights + c-1, m), for
-    each chunk of FACES_PER_CHUNK faces the largest and the least coordinates, Σ |weight| and the squares of its longest
-    edges from the first corner. half_ulp: (3,) of the coordinates.
+    sums: (weights, K) Σ over faces of determinant S_α, and of doubled area S_α. chunks: (3 + 3 +
+    weights + c-1, m), for each chunk of FACES_PER_CHUNK faces the largest and the least
+    coordinates, Σ |weight| and the squares of its longest edges from the first corner. half_ulp:
+    (3,) of the coordinates.
     """
 
     sums: NDArray[np.float64]
@@ -69,7 +76,9 @@ class Sums:
 
 @lru_cache
 def scratch_layout(count: int, order: int, weights: int) -> tuple[dict[str, tuple[int, ...]], ...]:
-    """Return the row shapes of the arrays of `_Block`: lasting ones, and two groups that share memory."""
+    """Return the row shapes of the arrays of `_Block`: lasting ones, and two groups that share
+    memory.
+    """
     ends = count - 1
     fans = count - 2
     lower = count_of_degree(order - 1)
@@ -97,12 +106,14 @@ def row_count(count: int, order: int, weights: int) -> int:
 
 
 class _Block:
-    """Rows of a block of faces, k columns, and the calls on them, `steps`, once corners and edges are there.
+    """Rows of a block of faces, k columns, and the calls on them, `steps`, once corners and edges
+    are there.
 
-    corners: (3, c, k). edges: (3, c-1, k). apex_vectors: (w, c-2, k), the weights of the triangles a, b, c and a, c, d;
-    both: (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree.
-    weighted_products: (w, 3, c, k), weights times corners. room: scratch. total: (w, K), the sums. chunks: as in
-    `Sums`; neighbors stand below each other in the (FACES_PER_CHUNK, m) that a row is.
+    corners: (3, c, k). edges: (3, c-1, k). apex_vectors: (w, c-2, k), the weights of the triangles
+    a, b, c and a, c, d; both: (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S,
+    D and S, of one degree. weighted_products: (w, 3, c, k), weights times corners. room: scratch.
+    total: (w, K), the sums. chunks: as in `Sums`; neighbors stand below each other in the
+    (FACES_PER_CHUNK, m) that a row is.
     """
 
     def __init__(self, workspace: Workspace, count: int, k: int, *, order: int, weights: int):
@@ -214,7 +225,9 @@ class _Block:
             self._append_call(np.add, self.levels[1, part], grown, self.levels[1, part])
 
     def _append_raise(self, degree: int, vectors: NDArray) -> None:
-        """Append the calls that replace all levels L, one degree lower, by Σ_i v_i L_{α-e_i}, v (3, c-1, 1, k)."""
+        """Append the calls that replace all levels L, one degree lower, by Σ_i v_i L_{α-e_i}, v (3,
+        c-1, 1, k).
+        """
         levels = self.levels
         below = count_of_degree(degree - 1)
         last = levels[:, below - degree : below]
@@ -248,7 +261,9 @@ class _Block:
             end = first - 1
 
     def _append_last_degree(self) -> None:
-        """Append the calls for sums of the last degree, of rows one degree lower and weighted coordinates."""
+        """Append the calls for sums of the last degree, of rows one degree lower and weighted
+        coordinates.
+        """
         degree = self.order
         weighted_products = self.weighted_products
         powers = self.powers
@@ -288,7 +303,10 @@ class _Block:
 
 
 class AnyOrderKernel:
-    """The loop body to an order, at least 3, perhaps with areas, and its scratch. Not to be shared by threads."""
+    """The loop body to an order, at least 3, perhaps with areas, and its scratch.
+
+    Not to be shared by threads.
+    """
 
     def __init__(self, order: int, area: bool):
         self.order = order
@@ -304,10 +322,11 @@ class AnyOrderKernel:
         faces: Sequence[NDArray] | NDArray,
         size: int,
     ) -> Sums:
-        """Return the sums over a block of faces, all triangles or all pairs. size: number of faces in a full block.
+        """Return the sums over a block of faces, all triangles or all pairs. size: number of faces
+        in a full block.
 
-        Contiguous points, their center, (3,), subtracted, are multiplied by `scale`, a power of two. faces: checked
-        vertices a, b, c (and d), (k,) each: triangles a, b, c and a, c, d.
+        Contiguous points, their center, (3,), subtracted, are multiplied by `scale`, a power of
+        two. faces: checked vertices a, b, c (and d), (k,) each: triangles a, b, c and a, c, d.
         """
         k = len(faces[0])
         shape = len(faces), -(-(size if k > 0.9 * size else k) // FACES_PER_CHUNK) * FACES_PER_CHUNK
@@ -341,10 +360,12 @@ class AnyOrderKernel:
 
 
 def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
-    """Return (sets, K) Σ weight reach^α over the chunks of blocks of one kind, for each set of weights.
+    """Return (sets, K) Σ weight reach^α over the chunks of blocks of one kind, for each set of
+    weights.
 
-    The weights are |determinant| with its rounding, that rounding alone, the volume that moving vertices by half ulps
-    sweeps; and with areas: doubled area with its rounding, that alone, and the area that moving the vertices adds.
+    The weights are |determinant| with its rounding, that rounding alone, the volume that moving
+    vertices by half ulps sweeps; and with areas: doubled area with its rounding, that alone, and
+    the area that moving the vertices adds.
     """
     chunks = np.concatenate([part.chunks for part in parts], axis=1)
     half_ulp = parts[0].half_ulp
@@ -379,7 +400,9 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
 def _raise_powers(
     do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray
 ) -> None:
-    """Compute x^α of one degree from the degree below, perhaps in its place. do: calls, or records, each step."""
+    """Compute x^α of one degree from the degree below, perhaps in its place. do: calls, or records,
+    each step.
+    """
     count = count_of_degree(degree - 1)
     do(np.multiply, old[count - degree : count], vector[1], powers[count : count + degree])
     do(np.multiply, old[count - 1], vector[2], powers[count + degree])

@@ -6,6 +6,8 @@ from ..verdict.finding import error
 
 BOUNDARY_OPEN = error(
     "boundary_open",
-    "The faces do not close, and the moments of what they enclose depend on the reference point. Add the missing ones, "
-    "and turn those that face the other way: measure_solid repairs a surface, “signs” turn simplices.",
+    "The faces do not close, and the moments of what they enclose depend on the reference point. "
+    "Add the missing ones, "
+    "and turn those that face the other way: measure_solid repairs a surface, “signs” turn "
+    "simplices.",
 )

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of bodies that triangles and quads bound: one entry to the kernels; volume and center in one light pass.
+"""Moments of bodies that triangles and quads bound: one entry to the kernels; volume and center in
+one light pass.
 
-To third order a kernel of its own is several times as fast (`third_order`); higher orders are for the recursion
-(`any_order`).
+To third order a kernel of its own is several times as fast (`third_order`); higher orders are for
+the recursion (`any_order`).
 """
 
 from __future__ import annotations
@@ -52,33 +53,37 @@ def polyhedron_moments(
 ) -> tuple[Moments, Moments | Any]:
     """Return the moments of the body that a closed surface bounds, and of the surface itself.
 
-    All moments are about the center of the bounding box, unless `about` is given. The volume is positive for outward
-    faces, and signed otherwise. An open surface's moments would depend on the reference point: it is refused unless
-    `allow_open`. `solid.measure_solid` repairs such a surface, and its body has moments of any order. `rounding_error`
-    bounds the rounding of every moment, `input_error` the change that storing coordinates as float32 may have made (of
-    a closed surface).
+    All moments are about the center of the bounding box, unless `about` is given. The volume is
+    positive for outward faces, and signed otherwise. An open surface's moments would depend on the
+    reference point: it is refused unless `allow_open`. `solid.measure_solid` repairs such a
+    surface, and its body has moments of any order. `rounding_error` bounds the rounding of every
+    moment, `input_error` the change that storing coordinates as float32 may have made (of a closed
+    surface).
 
     Parameters
     ----------
     body : Surface, or an iterable of pieces of one body
-        Pieces, in the same coordinates, are Surfaces or (m, 3, 3) arrays of the corners of triangles, counter-clockwise
-        from outside. Of a stream only a few are held at a time.
+        Pieces, in the same coordinates, are Surfaces or (m, 3, 3) arrays of the corners of
+        triangles, counter-clockwise from outside. Of a stream only a few are held at a time.
     order : int
         The highest order p+q+r of the volume's moments.
     area_order : int, optional
-        The highest order of the area's moments, 0 for the area alone. To third order these cost little and make the
-        volume's `input_error` smaller. By default no areas.
+        The highest order of the area's moments, 0 for the area alone. To third order these cost
+        little and make the volume's `input_error` smaller. By default no areas.
     about : (3,) array_like, optional
-        The reference point; of a stream that can be read only once, by default the center of its first piece's box.
-        Give a point in the body: far from it digits are lost, and `rounding_error` states how many.
+        The reference point; of a stream that can be read only once, by default the center of its
+        first piece's box. Give a point in the body: far from it digits are lost, and
+        `rounding_error` states how many.
     reach : float, optional
-        Rough distance from there to the body's farthest point; of such a stream, by default of its first piece.
+        Rough distance from there to the body's farthest point; of such a stream, by default of its
+        first piece.
     exact : bool
-        True for a third order that is exact to rounding for every size of mesh. Otherwise meshes of more than
-        100,000 triangles leave out terms of the order of an edge cubed, and `rounding_error` bounds it. Other orders
-        are always exact to rounding.
+        True for a third order that is exact to rounding for every size of mesh. Otherwise meshes of
+        more than 100,000 triangles leave out terms of the order of an edge cubed, and
+        `rounding_error` bounds it. Other orders are always exact to rounding.
     allow_open : bool
-        True to take faces as they are: gaps are closed by the cone from the reference point. Saves the check, too.
+        True to take faces as they are: gaps are closed by the cone from the reference point. Saves
+        the check, too.
     threads : int
         Threads that share the faces.
     progress : callable, optional
@@ -94,15 +99,17 @@ def polyhedron_moments(
     Raises
     ------
     ValueError
-        If coordinates are not finite, a face has an index without a point, or a piece of a stream reaches much farther
-        than the first.
+        If coordinates are not finite, a face has an index without a point, or a piece of a stream
+        reaches much farther than the first.
     MeasureError
-        If the faces do not close, are too small (below 1e-60), or a moment is beyond the range of numbers.
+        If the faces do not close, are too small (below 1e-60), or a moment is beyond the range of
+        numbers.
 
     Examples
     --------
     >>> from body_moments.core import Surface, polyhedron_moments
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> volume, area = polyhedron_moments(surface, 8, area_order=0, about=(0, 0, 0))
     >>> round(volume.total * 6, 12), round(area.total, 6)
     (1.0, 2.366025)
@@ -185,7 +192,9 @@ def _sum_to_third_order(
     progress: Callable[[int], None] | None,
     **options: Any,
 ) -> tuple[Moments, Moments]:
-    """Return volume and area of all pieces, about the first one's point if no other is given; perhaps not finite."""
+    """Return volume and area of all pieces, about the first one's point if no other is given;
+    perhaps not finite.
+    """
     total: tuple[Moments, Moments] | None = None
     done = 0
     for surface in stream:
@@ -206,7 +215,9 @@ def _sum_to_third_order(
 
 
 def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
-    """Return the volume that a closed surface encloses, negative if inside out, and its (3,) centroid, if finite."""
+    """Return the volume that a closed surface encloses, negative if inside out, and its (3,)
+    centroid, if finite.
+    """
     points = np.ascontiguousarray(surface.points.T, np.float64)
     middle = points.mean(axis=1)
     points -= middle[:, None]
@@ -230,7 +241,8 @@ def _quads(points: NDArray[np.float64], quads: NDArray[np.integer]) -> NDArray[n
     u = b - a
     v = d - a
     diagonal = c - a
-    # True if the normals of the two triangles along ac face away from each other, by Lagrange's identity.
+    # True if the normals of the two triangles along ac face away from each other, by Lagrange's
+    # identity.
     flipped = dot(u, v) * dot(diagonal, diagonal) > dot(u, diagonal) * dot(v, diagonal)
     if flipped.any():  # cut from b to d
         a, b, c, d = (
@@ -254,7 +266,8 @@ def _sums(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> NDArray[np
 
 
 def area_of_images(surface: Surface, linear: NDArray[np.float64]) -> Moments:
-    """Return the total area, order 0, of a surface's images under (k, 3, 3) maps, which may stretch it unevenly.
+    """Return the total area, order 0, of a surface's images under (k, 3, 3) maps, which may stretch
+    it unevenly.
 
     The image of a triangle with doubled area vector n under A has cof(A) n (Nanson's formula).
     """
@@ -277,7 +290,8 @@ def area_of_images(surface: Surface, linear: NDArray[np.float64]) -> Moments:
         images = cofactors @ normals[:, start : start + step]
         sums.append(np.sqrt(np.einsum("kif,kif->kf", images, images)).sum())
     total = float(sum(sums)) / 2.0
-    # A normal is off by 4 u of its terms, a cofactor by 2 u of its; then three products and their sum.
+    # A normal is off by 4 u of its terms, a cofactor by 2 u of its; then three products and their
+    # sum.
     rounded = (
         (9.0 * np.abs(cofactors) + 2.0 * (np.abs(plus) + np.abs(minus))).sum(axis=(0, 1))
         @ size

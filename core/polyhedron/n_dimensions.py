@@ -1,15 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments in n dimensions, n ≥ 1: of the inside of a boundary of (n-1)-simplices, and of the boundary itself.
+"""Moments in n dimensions, n ≥ 1: of the inside of a boundary of (n-1)-simplices, and of the
+boundary itself.
 
 Sheynin and Tuzikov's formulae hold in any dimension. Over the simplex of the origin and v_1 … v_n
 
-    ∫ x^α = det(v_1 … v_n) · S_α · α! / (|α|+n)!,    S_α the coefficient of ξ^α in Π_i 1 / (1 - v_i·ξ),
+    ∫ x^α = det(v_1 … v_n) · S_α · α! / (|α|+n)!,
 
-and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, in place of det, and |α|+n-1 in place of
-|α|+n. Each factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), over blocks of simplices.
-det = v_1·N; minors give N, the generalized cross product of the facet's edges. As there are only products and sums,
-rounding is relative to the same expression in absolute values, which gives a rigorous bound.
+S_α the coefficient of ξ^α in Π_i 1 / (1 - v_i·ξ), and over the facet v_1 … v_n alone the same with
+|N|, (n-1)! times its measure, in place of det, and |α|+n-1 in place of |α|+n. Each factor is one
+pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), over blocks of simplices. det =
+v_1·N; minors give N, the generalized cross product of the facet's edges. As there are only products
+and sums, rounding is relative to the same expression in absolute values, which gives a rigorous
+bound.
 """
 
 from __future__ import annotations
@@ -39,8 +42,8 @@ UNDERFLOW = 2.0**-1000  # relative to a body of size 1: far above the loss of pr
 class SimplexMoments:
     """Moments in n dimensions to some order; `moments[p, q, …]` is one moment.
 
-    raw: (K,) ∫ x^α about `about`, (n,), in the order of `multi_indices`. rounding_error: (K,) bounds of |raw - exact|
-    for the coordinates and the point as given.
+    raw: (K,) ∫ x^α about `about`, (n,), in the order of `multi_indices`. rounding_error: (K,)
+    bounds of |raw - exact| for the coordinates and the point as given.
     """
 
     raw: NDArray[np.float64]
@@ -56,14 +59,19 @@ class SimplexMoments:
         return float(self.rounding_error[self._position(exponents)])
 
     def _position(self, exponents: tuple[int, ...]) -> int:
-        """Return the index of the moment with these exponents. IndexError if they are negative or beyond the order."""
+        """Return the index of the moment with these exponents.
+
+        IndexError if they are negative or beyond the order.
+        """
         dimension = len(self.about)
         return _positions(dimension, self.order)[check_exponents(exponents, dimension, self.order)]
 
 
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
-    """Return all (K, n) exponents to an order, by degree, then by descending first exponents; read-only."""
+    """Return all (K, n) exponents to an order, by degree, then by descending first exponents;
+    read-only.
+    """
     exponents = [
         row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)
     ]
@@ -83,23 +91,25 @@ def enclosed_moments(
 ) -> SimplexMoments:
     """Return the moments of the inside of a boundary of simplices, in any dimension.
 
-    The moments are about the middle of the bounding box of the used points, unless `about` is given. An open boundary's
-    moments would depend on that point: such a boundary is refused unless `allow_open`.
+    The moments are about the middle of the bounding box of the used points, unless `about` is
+    given. An open boundary's moments would depend on that point: such a boundary is refused unless
+    `allow_open`.
 
     Parameters
     ----------
     points : (m, n) array_like
     simplices : (k, n) array_like of int
-        Outward if det(v_1, …, v_n) > 0 for a body around the origin: edges counter-clockwise in the plane, triangles
-        counter-clockwise from outside in space.
+        Outward if det(v_1, …, v_n) > 0 for a body around the origin: edges counter-clockwise in the
+        plane, triangles counter-clockwise from outside in space.
     order : int
     about : (n,) array_like, optional
         The reference point.
     signs : (k,) array_like, optional
-        1 or -1, the orientation of each simplex beside the order of its corners; on a line, because a corner alone has
-        none, it distinguishes upper ends from lower ones.
+        1 or -1, the orientation of each simplex beside the order of its corners; on a line, because
+        a corner alone has none, it distinguishes upper ends from lower ones.
     allow_open : bool
-        True to take simplices as they are: gaps are closed by the cone from the reference point. Saves the check, too.
+        True to take simplices as they are: gaps are closed by the cone from the reference point.
+        Saves the check, too.
 
     Returns
     -------
@@ -125,9 +135,10 @@ def enclosed_moments(
 def facet_moments(
     points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLike | None = None
 ) -> SimplexMoments:
-    """Return the moments of the boundary itself: length in the plane, area in space, points on a line.
+    """Return the moments of the boundary: length in the plane, area in space, points on a line.
 
-    The moments are about the middle of the bounding box of the used points, unless `about` is given.
+    The moments are about the middle of the bounding box of the used points, unless `about` is
+    given.
 
     Parameters
     ----------
@@ -197,8 +208,9 @@ def _measure(
         raw += np.add.reduce(_recursion(corners, order) * weight, axis=1)
         size += np.add.reduce(_recursion(np.abs(corners), order) * weight_size, axis=1)
 
-    # Count the roundings of one product of coordinates: in each coordinate, product and sum of the recursion, in the
-    # passes that only carry it on, in the minors on the way to the weight, and in the sum over all simplices.
+    # Count the roundings of one product of coordinates: in each coordinate, product and sum of the
+    # recursion, in the passes that only carry it on, in the minors on the way to the weight, and in
+    # the sum over all simplices.
     minors = sum(3 + size for size in range(1, dimension)) + 2 * dimension + 6
     steps = (
         degree * (dimension + 2)
@@ -247,7 +259,9 @@ def _weights(
 
 
 def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
-    """Return n components of the generalized cross products of n-1 edges, (n-1, n, k), and with all terms positive."""
+    """Return n components of the generalized cross products of n-1 edges, (n-1, n, k), and with all
+    terms positive.
+    """
     dimension = len(edges) + 1
     ones = np.ones(edges.shape[2])
     minors: dict[tuple[int, ...], tuple[NDArray, NDArray]] = {(): (ones, ones)}
@@ -285,7 +299,9 @@ def _positions(dimension: int, order: int) -> dict[tuple[int, ...], int]:
 
 @lru_cache
 def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDArray]]]:
-    """Return starts of degrees, and by degree and axis the indices, in the next degree, of products with the axis."""
+    """Return starts of degrees, and by degree and axis the indices, in the next degree, of products
+    with the axis.
+    """
     starts = [0] + [comb(n + dimension, dimension) for n in range(order + 1)]
     positions = _positions(dimension, order)
     table = multi_indices(dimension, order).tolist()
@@ -351,7 +367,10 @@ def simplex_arrays(
 
 
 def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> bool:
-    """Return whether every ridge is used equally often both ways. Points at the same place count as one."""
+    """Return whether every ridge is used equally often both ways.
+
+    Points at the same place count as one.
+    """
     _, corners, parity = _sorted_corners(points, simplices, signs)
     if not len(corners):
         return True
@@ -364,7 +383,9 @@ def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = No
 def outer_facets(
     points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None
 ) -> NDArray[np.intp]:
-    """Return the (j, n) facets that bound simplices on one side only; a pair of opposite facets cancels."""
+    """Return the (j, n) facets that bound simplices on one side only; a pair of opposite facets
+    cancels.
+    """
     facets, corners, parity = _sorted_corners(points, simplices, signs)
     _, first, which = np.unique(corners, axis=0, return_index=True, return_inverse=True)
     uses = np.abs(np.bincount(which.reshape(-1), parity, len(first))).astype(np.intp)
@@ -374,7 +395,9 @@ def outer_facets(
 def _sorted_corners(
     points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """Return the facets with an extent, their sorted corners with equal points merged, and orientations, 1 or -1."""
+    """Return the facets with an extent, their sorted corners with equal points merged, and
+    orientations, 1 or -1.
+    """
     simplices = np.asarray(simplices)
     _, place = np.unique(np.asarray(points, np.float64) + 0.0, axis=0, return_inverse=True)
     corners = place.reshape(-1)[simplices]

@@ -1,21 +1,25 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volume and area moments of triangles and quads, to third order, with rigorous bounds of their errors.
+"""Volume and area moments of triangles and quads, to third order, with rigorous bounds of their
+errors.
 
-The divergence theorem turns a body into cones from a reference point over its faces. Over the cone on a triangle a, b,
-c with determinant w = a·((b-a) x (c-a)) a monomial f of degree n integrates to w / (2n + 6) · E[f], where E[f] is its
-mean over the triangle; over the triangle itself to half its doubled area times E[f] (Sheynin and Tuzikov 2001, put so
-that triangles which share an edge share work). Third moments follow from lower ones about the middle of an edge, except
-for the third moments about that middle: for a triangle with edge e, and f from the middle to the third corner, they are
+The divergence theorem turns a body into cones from a reference point over its faces. Over the cone
+on a triangle a, b, c with determinant w = a·((b-a) x (c-a)) a monomial f of degree n integrates to
+w / (2n + 6) · E[f], where E[f] is its mean over the triangle; over the triangle itself to half its
+doubled area times E[f] (Sheynin and Tuzikov 2001, put so that triangles which share an edge share
+work). Third moments follow from lower ones about the middle of an edge, except for the third
+moments about that middle: for a triangle with edge e, and f from the middle to the third corner,
+they are
 
     E[x x' x''] = f f' f'' / 10 + (f e' e'' + e f' e'' + e e' f'') / 120,
 
-of the order of an edge cubed: unless `exact`, large meshes leave them out and add their bound to `rounding_error`.
+of the order of an edge cubed: unless `exact`, large meshes leave them out and add their bound to
+`rounding_error`.
 
-Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the product of
-its edges. With u = 2^-53, edges e and e' and vertices within `reach` of the reference point, a determinant is off by at
-most 9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y| bounds |normal_x|. Bodies of few triangles are for
-`third_order_small`.
+Edges are taken before the reference point is subtracted, so that a determinant's error is relative
+to the product of its edges. With u = 2^-53, edges e and e' and vertices within `reach` of the
+reference point, a determinant is off by at most 9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y|
+bounds |normal_x|. Bodies of few triangles are for `third_order_small`.
 """
 
 from __future__ import annotations
@@ -67,12 +71,14 @@ MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small_moments` is faster
 MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs more than it saves
 # Triangles that are worth a thread: with fewer, calls are short, and wait for the interpreter.
 MIN_TRIANGLES_PER_THREAD = 250_000
-# Reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow or vanish.
+# Reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow
+# or vanish.
 MAX_UNSCALED_REACH = 2.0**100
 DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # divide the sums of `BlockSums`
 
-# Faces measured together: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles with rows that may be
-# halves of one quad, with the surface's first row of each array; or, without rows, (4, k) corners of turned quads.
+# Faces measured together: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles with rows
+# that may be halves of one quad, with the surface's first row of each array; or, without rows, (4,
+# k) corners of turned quads.
 _Block = tuple[list[int], list[NDArray]]
 
 
@@ -86,7 +92,9 @@ def integrate(
     about: NDArray | None = None,
     planarity: PlanarityAccumulator | None = None,
 ) -> tuple[Moments, Moments]:
-    """Return the moments of the volume to third order; and the area if `area`, its moments if `area_moments`."""
+    """Return the moments of the volume to third order; and the area if `area`, its moments if
+    `area_moments`.
+    """
     count = surface.triangle_count
     if not count:
         return nothing(3, about)
@@ -120,7 +128,8 @@ def integrate(
         if planarity is not None:
             planarity.cones = float(cones[0, 0]), float(cones[0, 1])
         return volume.at(0), areas.at(0)
-    # Two threads have a block each: the sums are the same with one, and with more where there is room for more.
+    # Two threads have a block each: the sums are the same with one, and with more where there is
+    # room for more.
     room = SCRATCH_BYTES[0] * count + SCRATCH_BYTES[1]
     each = 8 * scratch_size(3, area, exact)
     size = max(2, min(MAX_TRIANGLES_PER_BLOCK, room // (2 * each), count) // 2 * 2)
@@ -157,7 +166,9 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
 
 
 def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
-    """Return the center of a box of points, rounded for float32 ones so that subtracting it is exact."""
+    """Return the center of a box of points, rounded for float32 ones so that subtracting it is
+    exact.
+    """
     center = low / 2.0 + high / 2.0
     return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
 
@@ -171,7 +182,9 @@ def _measure_rescaled(
     area_moments: bool,
     exact: bool,
 ) -> tuple[Moments, Moments]:
-    """Return the moments by measuring a copy of about unit size, 2^exponent times smaller: scaling rounds nothing."""
+    """Return the moments by measuring a copy of about unit size, 2^exponent times smaller: scaling
+    rounds nothing.
+    """
     points = np.ldexp(surface.points.astype(np.float64), -exponent)
     small = Surface(
         points,
@@ -203,7 +216,8 @@ def _measure_rescaled(
 class _Integration:
     """The integration over a surface in blocks of faces, by several threads.
 
-    points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count: triangles; size: triangles in a block.
+    points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count: triangles; size:
+    triangles in a block.
     """
 
     points: NDArray
@@ -237,7 +251,9 @@ class _Integration:
         ]
 
     def block_sums(self, blocks: list[_Block]) -> list[BlockResult]:
-        """Return the sums of the blocks, computed by several threads, in the order of the blocks, turned quads last."""
+        """Return the sums of the blocks, computed by several threads, in the order of the blocks,
+        turned quads last.
+        """
         queue = iter(enumerate(blocks))
         threads = min(self.threads, len(blocks))
         if threads == 1:
@@ -264,7 +280,9 @@ class _Integration:
     def _run_queue(
         self, queue: Iterator[tuple[int, _Block]]
     ) -> list[tuple[int, list[BlockResult], list[NDArray]]]:
-        """Return for each block taken from the queue: its number, its sums, and quads that were left out."""
+        """Return for each block taken from the queue: its number, its sums, and quads that were
+        left out.
+        """
         faces = BlockAccumulator(
             self.points,
             self.center,
@@ -327,10 +345,13 @@ class _Integration:
 def _error_bounds(
     job: _Integration, sums: BlockSums
 ) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
-    """Return the sums of |determinants| and doubled areas; (2, 20) errors of Σ w E[f]; (2, 20) `input_error`."""
+    """Return the sums of |determinants| and doubled areas; (2, 20) errors of Σ w E[f]; (2, 20)
+    `input_error`.
+    """
     sizes = np.add.reduce(sums.sizes, axis=1)
     count = np.array([[np.add.reduce(sums.counts)]])
-    # einsum instead of a matrix product, after which the threads of some BLAS keep a core busy for a while.
+    # einsum instead of a matrix product, after which the threads of some BLAS keep a core busy for
+    # a while.
     products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts)
     tau = np.array([[products[i, j] + products[j, i] for i, j in AXIS_PAIRS]])
     lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
@@ -363,12 +384,16 @@ def _error_bounds(
 
 
 def quad_corners(triangles: NDArray) -> list[NDArray] | None:
-    """Return (k/2,) corners of quads, if triangles 2i and 2i+1 are always halves of a quad; else None."""
+    """Return (k/2,) corners of quads, if triangles 2i and 2i+1 are always halves of a quad; else
+    None.
+    """
     return _quad_corners_of(triangles[0::2], triangles[1::2])
 
 
 def _quad_corners_of(first: NDArray, second: NDArray) -> list[NDArray] | None:
-    """Return the four corners of k quads, (k,) each, if the i-th triangles are always halves of a quad; else None."""
+    """Return the four corners of k quads, (k,) each, if the i-th triangles are always halves of a
+    quad; else None.
+    """
     if not len(second) or len(first) != len(second):
         return None
     for i in range(3):

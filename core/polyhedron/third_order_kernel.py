@@ -1,21 +1,26 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The inner loop of `third_order`: triangles and pairs of triangles, a block at a time, in scratch that is made once.
+"""The inner loop of `third_order`: triangles and pairs of triangles, a block at a time, in scratch
+that is made once.
 
-A face is a base a-c with a corner b on one side, and perhaps a corner d on the other: the triangles a, b, c and a, c,
-d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (v b + w d),
+A face is a base a-c with a corner b on one side, and perhaps a corner d on the other: the triangles
+a, b, c and a, c, d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (v b + w
+d),
 
     H = u (a a' + c c') + 2 (v b b' + w d d')
     120 ∫ x x'     = H + (q Z' + Z q') / 2
-    288 ∫ x x' x'' = q H + the same for the other two orders of the indices, but for the third moments about q / 2.
+    288 ∫ x x' x'' = q H + the same for the other two orders of the indices, but for the third
+    moments about q / 2.
 
-With e = c - a and f = 2 b - q these are v / 2880 (f (f f' + e e') + the other two orders) for one triangle. They are of
-the order of an edge cubed, and added on request. No sum cancels, because all weights are positive. If no areas are
-wanted, the determinants share a product: with m = (c-a) x a, v = (b-a)·m and w = (a-d)·m.
+With e = c - a and f = 2 b - q these are v / 2880 (f (f f' + e e') + the other two orders) for one
+triangle. They are of the order of an edge cubed, and added on request. No sum cancels, because all
+weights are positive. If no areas are wanted, the determinants share a product: with m = (c-a) x a,
+v = (b-a)·m and w = (a-d)·m.
 
-Corners are gathered by component, so that numpy runs along contiguous rows. A call costs as much as some thousand
-additions, and threads gain only if calls are long. Hence blocks are long, calls few, and results overwrite rows that
-are no longer needed. einsum sums products over slices of rows, in one pass, into rows that stay in the cache.
+Corners are gathered by component, so that numpy runs along contiguous rows. A call costs as much as
+some thousand additions, and threads gain only if calls are long. Hence blocks are long, calls few,
+and results overwrite rows that are no longer needed. einsum sums products over slices of rows, in
+one pass, into rows that stay in the cache.
 """
 
 from __future__ import annotations
@@ -45,8 +50,8 @@ NO_VERTEX = "no such vertex"
 NO_SUM = np.zeros(())
 TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
 PAIR_INDEX = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
-# Indices, in a table of x, y, z times xx, xy, xz, yy, yz, zz, x, y, z, of the terms of the symmetric products: two of
-# each xx, xy, ... and three of each xxx, xxy, ...
+# Indices, in a table of x, y, z times xx, xy, xz, yy, yz, zz, x, y, z, of the terms of the
+# symmetric products: two of each xx, xy, ... and three of each xxx, xxy, ...
 SQUARE = np.array([[9 * i + 6 + j, 9 * j + 6 + i] for i in range(3) for j in range(i, 3)]).T
 CUBE = np.array(
     [
@@ -60,10 +65,10 @@ CUBE = np.array(
 class BlockSums:
     """Sums over some blocks.
 
-    sums, areas: (20,) Σ weight, 48, 120 and 2880 ∫ of the monomials of first to third order in the order of
-    `monomials`, over the cones, and over their faces as if they were cones of unit height. side, base: (3, n) the
-    largest components of b-a (or d-a) and c-a in each chunk of triangles. sizes: (2, n) Σ |determinant| and Σ doubled
-    area. counts: (n,) triangles. blocks: their number.
+    sums, areas: (20,) Σ weight, 48, 120 and 2880 ∫ of the monomials of first to third order in the
+    order of `monomials`, over the cones, and over their faces as if they were cones of unit height.
+    side, base: (3, n) the largest components of b-a (or d-a) and c-a in each chunk of triangles.
+    sizes: (2, n) Σ |determinant| and Σ doubled area. counts: (n,) triangles. blocks: their number.
     """
 
     sums: NDArray[np.float64]
@@ -76,7 +81,9 @@ class BlockSums:
 
 
 def scratch_size(count: int, each: bool, exact: bool) -> int:
-    """Return the count of numbers in the scratch for a face of `count` corners; each: as for `_BlockCalls`."""
+    """Return the count of numbers in the scratch for a face of `count` corners; each: as for
+    `_BlockCalls`.
+    """
     fans = count - 2
     return (
         6 * count
@@ -87,19 +94,22 @@ def scratch_size(count: int, each: bool, exact: bool) -> int:
 
 
 class _BlockCalls:
-    """Arrays for blocks of one shape, and the numpy calls bound to them, because views made in the loop cost time.
+    """Arrays for blocks of one shape, and the numpy calls bound to them, because views made in the
+    loop cost time.
 
-    For faces with c corners there are chunks times width, k columns:
-    corners: (3, c, k). weights: (2, c-2, k), the determinants and the doubled areas.
-    In one memory, index: (c, k) and single: (3, c, k) in float32; then weighted: (3, c, k); at last heavy: (6, c-2, k).
-    In another, edges: (3, c-1, k), b-a, c-a, a-d, and normals and spare: (3, f, k), f = c-2, or f = 1 if not each
-    triangle's normal is wanted; then table: (13, k), the tensors' six rows, two vectors and a number, and middle:
-    (3, k). On request tips: (3, c-2, k), the vectors f, and local: (6, c-2, k), f f' + e e'.
+    For faces with c corners there are chunks times width, k columns: corners: (3, c, k). weights:
+    (2, c-2, k), the determinants and the doubled areas. In one memory, index: (c, k) and single:
+    (3, c, k) in float32; then weighted: (3, c, k); at last heavy: (6, c-2, k). In another, edges:
+    (3, c-1, k), b-a, c-a, a-d, and normals and spare: (3, f, k), f = c-2, or f = 1 if not each
+    triangle's normal is wanted; then table: (13, k), the tensors' six rows, two vectors and a
+    number, and middle: (3, k). On request tips: (3, c-2, k), the vectors f, and local: (6, c-2, k),
+    f f' + e e'.
 
-    start: the calls from the corners to the normals, weigh: the calls to the weights. largest, least: (3, c-1, chunks)
-    of the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. volume: 6 times the tetrahedron of each
-    quad's corners, room: two rows that are free meanwhile. prepare: the calls that the moments with all weights share,
-    moments: the calls for each weight, and the calls that return sums.
+    start: the calls from the corners to the normals, weigh: the calls to the weights. largest,
+    least: (3, c-1, chunks) of the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute
+    values. volume: 6 times the tetrahedron of each quad's corners, room: two rows that are free
+    meanwhile. prepare: the calls that the moments with all weights share, moments: the calls for
+    each weight, and the calls that return sums.
     """
 
     def __init__(
@@ -196,9 +206,11 @@ BlockResult = tuple[int, NDArray, NDArray, list, list]
 
 
 class BlockAccumulator:
-    """The loop body for blocks of faces over contiguous points. results: the sums of each block so far.
+    """The loop body for blocks of faces over contiguous points. results: the sums of each block so
+    far.
 
-    area: True for doubled areas, area_moments: also for their moments. exact: True for the exact third order.
+    area: True for doubled areas, area_moments: also for their moments. exact: True for the exact
+    third order.
     """
 
     def __init__(
@@ -219,11 +231,14 @@ class BlockAccumulator:
         quads: bool = False,
         observe: Callable | None = None,
     ) -> None:
-        """Add faces, the vertices a, b, c and perhaps d, (k,) each. ValueError if an index names no point.
+        """Add faces, the vertices a, b, c and perhaps d, (k,) each.
 
-        quads: if Blender cuts a quad along the other diagonal, it is left out and appended to `flipped`, turned by one
-        corner. observe: called with the doubled areas, (c - 2, k), and for quads also with 6 times the corners'
-        tetrahedra, (k,), the columns with triangles that may face away from each other, and scratch, (2, k).
+        ValueError if an index names no point.
+
+        quads: if Blender cuts a quad along the other diagonal, it is left out and appended to
+        `flipped`, turned by one corner. observe: called with the doubled areas, (c - 2, k), and for
+        quads also with 6 times the corners' tetrahedra, (k,), the columns with triangles that may
+        face away from each other, and scratch, (2, k).
         """
         k = len(faces[0])
         shape = (len(faces), *chunk_shape(k), self.area or quads)
@@ -272,10 +287,12 @@ class BlockAccumulator:
     def _find_flipped(
         self, workspace: _BlockCalls, largest: NDArray, k: int
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return the columns below k of quads that Blender may cut along the other diagonal, and of quads that it does.
+        """Return the columns below k of quads that Blender may cut along the other diagonal, and of
+        quads that it does.
 
-        The two normals of such a quad face away from each other in float32. The result in float64 can differ only if
-        the product is within float32's rounding of zero. The cut quads are appended to `flipped`.
+        The two normals of such a quad face away from each other in float32. The result in float64
+        can differ only if the product is within float32's rounding of zero. The cut quads are
+        appended to `flipped`.
         """
         cosine = np.einsum(
             "dk,dk->k", workspace.normals[:, 0], workspace.normals[:, 1], out=workspace.cosine
@@ -333,7 +350,9 @@ def combine_blocks(results: Sequence[BlockResult]) -> BlockSums:
 def to_monomial_sums(
     table_sums: NDArray, products: NDArray, local: NDArray | None = None
 ) -> NDArray[np.float64]:
-    """Return (20,) `BlockSums.sums` from the sums of the table's rows, (13,), and from summed products of its rows."""
+    """Return (20,) `BlockSums.sums` from the sums of the table's rows, (13,), and from summed
+    products of its rows.
+    """
     mixed = 0.5 * np.add.reduce(products.take(SQUARE))
     third = 10.0 * np.add.reduce(products.take(CUBE))
     total = 2.0 * np.concatenate(
@@ -351,7 +370,9 @@ def chunk_shape(k: int) -> tuple[int, int]:
 
 
 def _cross_calls(first: NDArray, second: NDArray, out: NDArray, spare: NDArray) -> list[partial]:
-    """Return the calls for (3, f, k) cross products of (3, f, k) with (3, 1, k) rows of x, y and z."""
+    """Return the calls for (3, f, k) cross products of (3, f, k) with (3, 1, k) rows of x, y
+    and z.
+    """
     return [
         partial(np.multiply, first[1:], second[::-2], out[:2]),  # y z', z x'
         partial(np.multiply, first[0], second[1], out[2]),
@@ -381,7 +402,9 @@ def _local_calls(
 def _weighted_calls(
     corners: NDArray, weights: NDArray, weighted: NDArray, table: NDArray
 ) -> list[partial]:
-    """Return the calls for the weighted corners, and for the table: half of H, of Z, of u q and of u."""
+    """Return the calls for the weighted corners, and for the table: half of H, of Z, of u q and of
+    u.
+    """
     both = table[9:12]
     every = table[6:9]
     half = table[12]

@@ -1,15 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volume and area moments to third order of bodies of few triangles, one or a stack of them, exact to rounding.
+"""Volume and area moments to third order of bodies of few triangles, one or a stack of them, exact
+to rounding.
 
-Here numpy's calls cost more than its arithmetic, so all triangles of all bodies are taken at once, by the complete
-homogeneous polynomials of their corners (Sheynin and Tuzikov's formula to third order): with s = a + b + c, P = aa' +
-bb' + cc' and a triangle's weight w,
+Here numpy's calls cost more than its arithmetic, so all triangles of all bodies are taken at once,
+by the complete homogeneous polynomials of their corners (Sheynin and Tuzikov's formula to third
+order): with s = a + b + c, P = aa' + bb' + cc' and a triangle's weight w,
 
     24 ∫ x = Σ w s,   120 ∫ x x' = Σ w (s s' + P),
-    720 ∫ x x' x'' = Σ w (s s' s'' + s P' + the same for the other two orders of the indices + 2 Σ_corners c c' c'').
+    720 ∫ x x' x'' = Σ w (s s' s'' + s P' + the same for the other two orders of the indices + 2
+    Σ_corners c c' c'').
 
-Each body's sums run over its own segment of the rows, so that they are the same to the bit for any neighbors.
+Each body's sums run over its own segment of the rows, so that they are the same to the bit for any
+neighbors.
 """
 
 from __future__ import annotations
@@ -40,7 +43,8 @@ AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2,
 TRIANGLES_PER_BLOCK = 2048  # triangles whose products stay in the cache
 ROWS, COLUMNS = np.triu_indices(3)
 AXIS_PAIRS = (1, 2), (2, 0), (0, 1)
-# Indices of the three terms of each symmetric product in a table of x, y, z times xx, xy, xz, yy, yz, zz.
+# Indices of the three terms of each symmetric product in a table of x, y, z times xx, xy, xz, yy,
+# yz, zz.
 CUBE = np.array(
     [
         [6 * i + PAIR_INDEX[j, k], 6 * j + PAIR_INDEX[i, k], 6 * k + PAIR_INDEX[i, j]]
@@ -60,10 +64,12 @@ def small_moments(
     area: bool,
     area_moments: bool,
 ) -> tuple[Moments, Moments, NDArray[np.float64]]:
-    """Return stacked volumes and areas of n bodies, and (n, 2) sums of the cones over faces, positive and signed.
+    """Return stacked volumes and areas of n bodies, and (n, 2) sums of the cones over faces,
+    positive and signed.
 
-    Triangles are sorted by body, at least one each. reach: (n, 3) largest distances of points from `center`. half_ulp:
-    (n, 3) their shifts by storage. Without `area` the areas are zero, and the `input_error` is larger.
+    Triangles are sorted by body, at least one each. reach: (n, 3) largest distances of points from
+    `center`. half_ulp: (n, 3) their shifts by storage. Without `area` the areas are zero, and the
+    `input_error` is larger.
     """
     coordinates = np.ascontiguousarray(points.T)
     ends = np.cumsum(counts)
@@ -98,10 +104,11 @@ def small_moments(
 def _segment_sums(
     corners: NDArray, counts: NDArray[np.integer], center: NDArray, area: bool, area_moments: bool
 ) -> tuple[NDArray, ...]:
-    """Return five arrays of sums for n bodies. corners: (3, 3, t) x, y, z of the corners a, b, c of their triangles.
+    """Return five arrays of sums for n bodies. corners: (3, 3, t) x, y, z of the corners a, b, c of
+    their triangles.
 
-    These are (n, 20) Σ w f, which `DIVISORS` turn into moments; the same with doubled areas, or (n, 0); the largest
-    components of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
+    These are (n, 20) Σ w f, which `DIVISORS` turn into moments; the same with doubled areas, or (n,
+    0); the largest components of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
     """
     starts = np.cumsum(counts) - counts
     edges = corners[:, 1:] - corners[:, :1]
@@ -150,10 +157,11 @@ def error_bounds(
     sum_roundings: NDArray | float,
     area: bool,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the errors of Σ w E[f] and `input_error`, (2, n, 20), for determinants and doubled areas as weights w.
+    """Return the errors of Σ w E[f] and `input_error`, (2, n, 20), for determinants and doubled
+    areas as weights w.
 
-    tau: (n, 3) the sums of τ (see `third_order`). edges: (n, 1) the sum of two edges of each triangle. sizes: (n, 2)
-    Σ |w|. counts: (n, 1) triangles. sum_roundings: of the sums, in units u.
+    tau: (n, 3) the sums of τ (see `third_order`). edges: (n, 1) the sum of two edges of each
+    triangle. sizes: (n, 2) Σ |w|. counts: (n, 1) triangles. sum_roundings: of the sums, in units u.
     """
     moved_reach = reach + half_ulp
     powers = monomial_bounds(reach)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The scratch of a kernel: one buffer, and the arrays of the last block's shape carved out of it.
 
-Allocating arrays, and making views of them, costs as much as the arithmetic of a short block: both are done once for
-all blocks of one shape. A workspace is not to be shared by threads.
+Allocating arrays, and making views of them, costs as much as the arithmetic of a short block: both
+are done once for all blocks of one shape. A workspace is not to be shared by threads.
 """
 
 from __future__ import annotations
@@ -24,7 +24,9 @@ Block = TypeVar("Block")
 
 
 class Workspace(Generic[Block]):
-    """Memory for blocks of one shape, `make(workspace, *shape)`, with arrays from `take` and `overlay`."""
+    """Memory for blocks of one shape, `make(workspace, *shape)`, with arrays from `take` and
+    `overlay`.
+    """
 
     def __init__(self, make: Callable[..., Block]):
         self._make = make
@@ -34,7 +36,9 @@ class Workspace(Generic[Block]):
         self._block: Block | None = None
 
     def block(self, shape: tuple[Hashable, ...], numbers: int) -> Block:
-        """Return the block of this shape. numbers: size of its arrays together; arrays that share memory count once."""
+        """Return the block of this shape. numbers: size of its arrays together; arrays that share
+        memory count once.
+        """
         block = self._block
         if block is None or shape != self._shape:
             self._shape = self._block = block = None
@@ -55,7 +59,9 @@ class Workspace(Generic[Block]):
         return self._buffer[start:end].reshape(shape)
 
     def overlay(self, *groups: Sequence[tuple[int, ...]]) -> list[list[NDArray[np.float64]]]:
-        """Return arrays of the given shapes, by group; the groups share memory: only one is in use at a time."""
+        """Return arrays of the given shapes, by group; the groups share memory: only one is in use
+        at a time.
+        """
         start = self._position
         end = self._position
         arrays = []
@@ -73,7 +79,9 @@ def gather(
     single: NDArray[np.float32],
     corners: NDArray[np.float64],
 ) -> None:
-    """Gather coordinates into `corners`, (3, ...), float32 ones by way of `single`. index: checked; gets tripled."""
+    """Gather coordinates into `corners`, (3, ...), float32 ones by way of `single`. index: checked;
+    gets tripled.
+    """
     flat = points.reshape(-1)
     target = single if points.dtype == np.float32 else corners
     np.multiply(index, 3, index)

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A closed surface cut into closed pieces, one for each bone.
 
-A face goes with the bone of the most weight at its corners. If weights tie, the nearer bone counts, so that the two
-sides of a symmetric character are cut alike; faces without any weight go with the nearest bone.
+A face goes with the bone of the most weight at its corners. If weights tie, the nearer bone counts,
+so that the two sides of a symmetric character are cut alike; faces without any weight go with the
+nearest bone.
 
-The faces of a bone are bounded by the edges that they share with other bones' faces. Cut edges that meet, whatever
-their bones, belong to one cut, which is closed to one apex, its centroid. Each bone gets the cone on its side of every
-edge, so that pieces are closed, the cones of neighbors cancel, and the pieces add up to the whole, exactly.
+The faces of a bone are bounded by the edges that they share with other bones' faces. Cut edges that
+meet, whatever their bones, belong to one cut, which is closed to one apex, its centroid. Each bone
+gets the cone on its side of every edge, so that pieces are closed, the cones of neighbors cancel,
+and the pieces add up to the whole, exactly.
 """
 
 from __future__ import annotations
@@ -32,7 +34,8 @@ PAIRS_PER_BLOCK = 1 << 20  # faces times bones whose distances are in memory at 
 
 @dataclass(frozen=True, eq=False)
 class BonePiece:
-    """The closed surface, in float64, that goes with one bone: its faces, and the cones that close it.
+    """The closed surface, in float64, that goes with one bone: its faces, and the cones that close
+    it.
 
     face_count: the number of triangles that are faces; they come first, then the cones.
     """
@@ -42,7 +45,9 @@ class BonePiece:
     face_count: int
 
     def moments(self, order: int = 3) -> Moments:
-        """Return the moments of its volume, about the middle of its bounding box in the surface's coordinates."""
+        """Return the moments of its volume, about the middle of its bounding box in the surface's
+        coordinates.
+        """
         return polyhedron_moments(self.surface, order, exact=True)[0]
 
 
@@ -52,7 +57,9 @@ def bone_pieces(
     bone: NDArray[np.integer],
     displacement: NDArray | None = None,
 ) -> list[BonePiece]:
-    """Cut (t, 3) outward triangles with (t,) bones into closed pieces; displacement: (3,) by storing."""
+    """Cut (t, 3) outward triangles with (t,) bones into closed pieces; displacement: (3,) by
+    storing.
+    """
     points = points.astype(np.float64)
     owner, start, stop = uncancelled_sides(triangles, bone)
     cut, apexes = _apexes(points, start, stop)
@@ -73,7 +80,9 @@ def bone_pieces(
 def bones_of_caps(
     triangles: NDArray[np.integer], is_cap: NDArray[np.bool_], bone: NDArray[np.integer]
 ) -> NDArray[np.intp]:
-    """Return (t,) bones of triangles: caps, which close holes, get the bones of the faces beside them."""
+    """Return (t,) bones of triangles: caps, which close holes, get the bones of the faces beside
+    them.
+    """
     result = np.where(is_cap, NO_BONE, bone)
     edge = find_edges(triangles).of_side.reshape(-1, 3)
     while (result == NO_BONE).any():
@@ -111,7 +120,9 @@ def _apexes(
 
 @dataclass(frozen=True, eq=False)
 class VertexWeights:
-    """Weights (w,) of bones on vertices, sorted by vertex, not negative; a vertex and a bone appear together once."""
+    """Weights (w,) of bones on vertices, sorted by vertex, not negative; a vertex and a bone appear
+    together once.
+    """
 
     vertex: NDArray[np.integer]
     bone: NDArray[np.integer]
@@ -121,7 +132,9 @@ class VertexWeights:
         object.__setattr__(self, "weight", np.asarray(self.weight, np.float64))
 
     def normalized(self) -> NDArray[np.float64]:
-        """Return the (w,) weights divided by their sum at each vertex, as an armature modifier does."""
+        """Return the (w,) weights divided by their sum at each vertex, as an armature modifier
+        does.
+        """
         total = np.bincount(self.vertex, self.weight)[self.vertex]
         return np.divide(self.weight, total, out=np.zeros_like(self.weight), where=total > 0.0)
 
@@ -137,10 +150,11 @@ def dominant_bones(
     weights: VertexWeights,
     bones: NDArray[np.floating],
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the (f,) bones of faces, -1 without corners, and the (k,) unweighted faces, which get the nearest bone.
+    """Return the (f,) bones of faces, -1 without corners, and the (k,) unweighted faces, which get
+    the nearest bone.
 
-    faces, corners: (c,) the face, 0 to f - 1, and the vertex of each corner of the surface. points: (n, 3) in the
-    bones' coordinates. bones: (b, 2, 3) the two ends of each bone.
+    faces, corners: (c,) the face, 0 to f - 1, and the vertex of each corner of the surface. points:
+    (n, 3) in the bones' coordinates. bones: (b, 2, 3) the two ends of each bone.
     """
     points = points.astype(np.float64)
     bones = bones.astype(np.float64)
@@ -170,7 +184,9 @@ def dominant_bones(
 def _scores(
     faces: NDArray[np.integer], corners: NDArray[np.integer], weights: VertexWeights, number: int
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """Return (k,) faces and (k,) bones with weight on their corners, by face, then bone, and (k,) summed weights."""
+    """Return (k,) faces and (k,) bones with weight on their corners, by face, then bone, and (k,)
+    summed weights.
+    """
     per_vertex = np.bincount(weights.vertex, minlength=int(corners.max(initial=-1)) + 1)
     first = np.cumsum(per_vertex) - per_vertex
     repeats = per_vertex[corners]
@@ -191,7 +207,10 @@ def _scores(
 def _nearest(
     face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray[np.float64]
 ) -> NDArray[np.integer]:
-    """Return for each of k rows the nearest bone of its face, the first of equally near ones. Rows are by face."""
+    """Return for each of k rows the nearest bone of its face, the first of equally near ones.
+
+    Rows are by face.
+    """
     starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
     least = np.repeat(np.minimum.reduceat(away, starts), sizes)
     near = away <= least * (1.0 + NEAR_RTOL)

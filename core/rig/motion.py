@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Momentum of a body of moving parts from frame to frame, and the motion that a body without contacts must have.
+"""Momentum of a body of moving parts from frame to frame, and the motion that a body without
+contacts must have.
 
-Velocities refer to the middle between two frames. On a parabola the center's velocity is exact. Parts are followed in
-the axes of the heaviest part, whose rotation is interpolated as a quaternion: there a turning rigid body is at rest. No
-interpolation crosses a take-off or a landing, where velocities jump.
+Velocities refer to the middle between two frames. On a parabola the center's velocity is exact.
+Parts are followed in the axes of the heaviest part, whose rotation is interpolated as a quaternion:
+there a turning rigid body is at rest. No interpolation crosses a take-off or a landing, where
+velocities jump.
 """
 
 from __future__ import annotations
@@ -39,8 +41,9 @@ SMOOTHED = 0.1  # seconds over which noise of captured motion averages out
 class Course:
     """The p parts of a body at f frames.
 
-    step: seconds from frame to frame. masses: (p,). centers: (f, p, 3). spreads: (f, p, 3, 3) integrals of r rᵀ dm
-    about each part's center. linear: (f, p, 3, 3) matrices from each part's own axes to the world.
+    step: seconds from frame to frame. masses: (p,). centers: (f, p, 3). spreads: (f, p, 3, 3)
+    integrals of r rᵀ dm about each part's center. linear: (f, p, 3, 3) matrices from each part's
+    own axes to the world.
     """
 
     step: float
@@ -57,7 +60,9 @@ class Course:
 
 
 def find_flights(touching: ArrayLike) -> list[Flight]:
-    """Return the flights, with the contact frames at their ends. touching: (f,) mask of the frames on the ground."""
+    """Return the flights, with the contact frames at their ends. touching: (f,) mask of the frames
+    on the ground.
+    """
     last = len(np.asarray(touching)) - 1
     return [
         (max(start - 1, 0), min(end, last)) for start, end in _runs(~np.asarray(touching, bool))
@@ -73,9 +78,11 @@ def _runs(true: NDArray[np.bool_]) -> list[tuple[int, int]]:
 def momenta_between(
     course: Course, first: int, last: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the motion in the middle between neighboring frames of a section without jumps, and (n, 3, 3) inertia.
+    """Return the motion in the middle between neighboring frames of a section without jumps, and
+    (n, 3, 3) inertia.
 
-    The motion is (n, 7): the center's velocity, the angular momentum about the center, and the kinetic energy.
+    The motion is (n, 7): the center's velocity, the angular momentum about the center, and the
+    kinetic energy.
     """
     rows = slice(first, last + 1)
     count = last - first
@@ -126,7 +133,9 @@ def momenta_between(
 def momenta(
     course: Course, flights: Sequence[Flight]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the (f, 7) motion at the frames and its rate; the ends of a flight have the motion of the flight."""
+    """Return the (f, 7) motion at the frames and its rate; the ends of a flight have the motion of
+    the flight.
+    """
     now, change = np.zeros((2, len(course.centers), 7))
     ends = sorted({0, len(course.centers) - 1, *(end for flight in flights for end in flight)})
     for first, last in sorted(zip(ends, ends[1:]), key=lambda section: section in flights):
@@ -140,9 +149,11 @@ def momenta(
 
 
 def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray) -> list[Span]:
-    """Return spans of frames in flights with a change of momenta that gravity does not explain, and its amount.
+    """Return spans of frames in flights with a change of momenta that gravity does not explain, and
+    its amount.
 
-    A force above a fifth of the weight is unexplained, and a torque above this force times the radius of gyration.
+    A force above a fifth of the weight is unexplained, and a torque above this force times the
+    radius of gyration.
     """
     spans = []
     mass = float(course.masses.sum())
@@ -168,9 +179,11 @@ def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray
 def zero_moment_points(
     center: NDArray, height: NDArray, force: NDArray, torque: NDArray, weight: NDArray
 ) -> NDArray[np.float64]:
-    """Return (f, 3) ground points about which contact forces have no moment along the ground; NaN without such forces.
+    """Return (f, 3) ground points about which contact forces have no moment along the ground; NaN
+    without such forces.
 
-    center: (f, 3). height: (f,) above the ground. force, torque: (f, 3) rates of the momenta. weight: (3,), a force.
+    center: (f, 3). height: (f,) above the ground. force, torque: (f, 3) rates of the momenta.
+    weight: (3,), a force.
     """
     up = -weight / np.linalg.norm(weight)
     carried = force - weight
@@ -190,7 +203,9 @@ def ballistic_arc(
 
 
 def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
-    """Return the frames, not whole, of a free fall between the ends of an (f, 3) path that rises as high as it."""
+    """Return the frames, not whole, of a free fall between the ends of an (f, 3) path that rises as
+    high as it.
+    """
     strength = float(np.linalg.norm(gravity))
     heights = -(center - center[0]) @ np.asarray(gravity, np.float64) / strength
     top = float(heights.max())
@@ -212,7 +227,8 @@ def _axes(linear: NDArray) -> NDArray[np.float64]:
 
 
 class _stencils:
-    """Interpolation, or its derivative, of (count, ...) values at (k,) places between them, by their nearest nodes.
+    """Interpolation, or its derivative, of (count, ...) values at (k,) places between them, by
+    their nearest nodes.
 
     degree: of a polynomial fitted to the nodes; by default the polynomial goes through all of them.
     """

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Robot descriptions judged by their own geometry: stated inertials beside measured meshes; and repaired copies."""
+"""Robot descriptions judged by their own geometry: stated inertials beside measured meshes; and
+repaired copies.
+"""
 
 from __future__ import annotations
 
@@ -49,11 +51,12 @@ RELIABLE = (Procedure.EXACT, Procedure.REORIENTED, Procedure.CAPPED)
 class Entry:
     """One fault of a link, or a note about it.
 
-    finding: the fault; the change that corrects it, if there is one that explains it. reasons: why the stated inertial
-    is impossible, as far as the finding explains that. change: the change that corrects the fault, None if unknown.
-    certainty: "certain" if geometry and inertial then agree to the digits of files, "likely" if they do so after
-    several different changes, "guess" if the change merely makes the inertial possible.
-    place: of the element in the file. compares: True if the fault is one of the stated inertial.
+    finding: the fault; the change that corrects it, if there is one that explains it. reasons: why
+    the stated inertial is impossible, as far as the finding explains that. change: the change that
+    corrects the fault, None if unknown. certainty: "certain" if geometry and inertial then agree to
+    the digits of files, "likely" if they do so after several different changes, "guess" if the
+    change merely makes the inertial possible. place: of the element in the file. compares: True if
+    the fault is one of the stated inertial.
     """
 
     finding: Finding
@@ -76,11 +79,12 @@ class Entry:
 
 @dataclass(frozen=True, eq=False)
 class LinkAudit:
-    """Entries about one link. repaired: its corrected inertial, None if it stays. density: kg/m³, None if unknown.
+    """Entries about one link. repaired: its corrected inertial, None if it stays. density: kg/m³,
+    None if unknown.
 
-    geometry: the inertial of the evenly filled geometry with the stated mass, None if unknown; apart: the relative
-    difference from it. is_impossible: True if no body within the geometry has the stated inertial. colliders: what the
-    collision geometry beside the inertial does.
+    geometry: the inertial of the evenly filled geometry with the stated mass, None if unknown;
+    apart: the relative difference from it. is_impossible: True if no body within the geometry has
+    the stated inertial. colliders: what the collision geometry beside the inertial does.
     """
 
     link: StatedLink
@@ -113,7 +117,9 @@ class Audit:
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A measured shape in its own coordinates: hull points, moments if certain, and the rotation to z up, if any."""
+    """A measured shape in its own coordinates: hull points, moments if certain, and the rotation to
+    z up, if any.
+    """
 
     points: NDArray[np.float64]
     moments: Moments | None
@@ -146,7 +152,9 @@ class Auditor:
         return Audit(description, tuple(map(self._link_alone, description.links)))
 
     def _link_alone(self, link: StatedLink) -> LinkAudit:
-        """Return the findings about one link; an unforeseen error is one of them, and ends nothing else."""
+        """Return the findings about one link; an unforeseen error is one of them, and ends nothing
+        else.
+        """
         try:
             return self._link(link)
         except Exception as error:
@@ -211,7 +219,9 @@ class Auditor:
         return pieces, unread
 
     def _piece(self, stated: StatedShape) -> _Piece:
-        """Return a measured shape in its own coordinates; raise MeasureError if its mesh cannot be read."""
+        """Return a measured shape in its own coordinates; raise MeasureError if its mesh cannot be
+        read.
+        """
         shape = stated.shape
         if shape.kind != "mesh":
             return _primitive(shape)
@@ -241,7 +251,9 @@ def _read_entries(link: StatedLink) -> list[Entry]:
 
 
 def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete: bool) -> LinkAudit:
-    """Judge an inertial by its geometry. incomplete: True if some shapes could not be read; then none are compared."""
+    """Judge an inertial by its geometry. incomplete: True if some shapes could not be read; then
+    none are compared.
+    """
     place = link.inertial_place
     points = [
         one.shape.pose.apply(piece.points) for several in pieces.values() for one, piece in several
@@ -292,7 +304,9 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
 def _entries(
     place: Place, diagnoses: Sequence[Diagnosis], explained: Sequence[Finding]
 ) -> list[Entry]:
-    """Return one entry for each diagnosis, with the reasons that it explains: the center's, or all other ones."""
+    """Return one entry for each diagnosis, with the reasons that it explains: the center's, or all
+    other ones.
+    """
     entries = []
     is_single = sum(one.is_change for one in diagnoses) == 1
     for index, one in enumerate(diagnoses):
@@ -310,7 +324,9 @@ def _entries(
 
 
 def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
-    """Return a surface's points, with the moments of the body that it bounds if they are certain."""
+    """Return a surface's points, with the moments of the body that it bounds if they are
+    certain.
+    """
     points = np.asarray(surface.points, np.float64)
     try:
         solid = measure_solid(surface)
@@ -321,7 +337,9 @@ def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
 
 
 def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None:
-    """Return all shapes of one role as evenly filled geometry; None if there is none, or one bounds no certain body."""
+    """Return all shapes of one role as evenly filled geometry; None if there is none, or one bounds
+    no certain body.
+    """
     if not pieces:
         return None
     placed = []
@@ -338,7 +356,9 @@ def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None
 
 
 def _turned(pieces: Pieces) -> list[tuple[Finding, Reference]]:
-    """Return, for each role with angles, the finding and the geometry if those angles were meant in degrees."""
+    """Return, for each role with angles, the finding and the geometry if those angles were meant in
+    degrees.
+    """
     result = []
     for found in pieces.values():
         turned = []
@@ -385,7 +405,9 @@ def _primitive(shape: Shape) -> _Piece:
 def repaired_copy(
     description: Description, repairs: Sequence[tuple[StatedLink, StatedInertial]]
 ) -> bytes:
-    """Return the bytes of a description's file with replaced inertials, every other byte as it was."""
+    """Return the bytes of a description's file with replaced inertials, every other byte as it
+    was.
+    """
     data = description.source
     writer = FORMATS[description.format].writer_module
     places = [(link.span, link, inertial) for link, inertial in repairs if link.span is not None]

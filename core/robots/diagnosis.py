@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The one change that makes a stated inertial agree with its geometry.
 
-A link's geometry, filled evenly, has a center and an inertia for each kilogram. If the stated values differ, each of a
-list of common mistakes is undone; agreement to the digits of files is no coincidence. If none agrees, the mass may be
-distributed unevenly: that is no error, and only noted with the factor of the inertia.
+A link's geometry, filled evenly, has a center and an inertia for each kilogram. If the stated
+values differ, each of a list of common mistakes is undone; agreement to the digits of files is no
+coincidence. If none agrees, the mass may be distributed unevenly: that is no error, and only noted
+with the factor of the inertia.
 """
 
 from __future__ import annotations
@@ -71,7 +72,8 @@ WHOLE_IMPERIAL = "mass by 0.453592, the center by 0.0254 and the inertia, in lb�
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """A link's geometry, filled evenly: volume, m³; (3,) center in the link's frame, m; inertia about it of 1 kg, m².
+    """A link's geometry, filled evenly: volume, m³; (3,) center in the link's frame, m; inertia
+    about it of 1 kg, m².
 
     origins: (3,) the origins of its shapes.
     """
@@ -82,7 +84,9 @@ class Reference:
     origins: tuple[NDArray[np.float64], ...] = ()
 
     def compare(self, stated: StatedInertial) -> float:
-        """Return the larger relative difference: of the centers, per radius of gyration, or of the inertia."""
+        """Return the larger relative difference: of the centers, per radius of gyration, or of the
+        inertia.
+        """
         turned = np.linalg.norm(stated.inertia / stated.mass - self.inertia) / np.linalg.norm(
             self.inertia
         )
@@ -94,7 +98,9 @@ class Reference:
         return float(np.linalg.norm(stated.center - self.center) / radius)
 
     def effect(self, stated: StatedInertial, drawn_volume: float | None) -> Effect:
-        """Return the mass properties of this geometry, filled evenly with the stated mass, beside the stated ones."""
+        """Return the mass properties of this geometry, filled evenly with the stated mass, beside
+        the stated ones.
+        """
         second = stated.mass * (np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia)
         volume_ratio = None if drawn_volume is None else self.volume / drawn_volume
         return compare(
@@ -123,9 +129,11 @@ class Reference:
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """Diagnosis of an inertial: a finding that names the change, and the corrected inertial, None if it stays.
+    """Diagnosis of an inertial: a finding that names the change, and the corrected inertial, None
+    if it stays.
 
-    is_of_geometry: True if the geometry has to change. is_certain: False if another change would agree as well.
+    is_of_geometry: True if the geometry has to change. is_certain: False if another change would
+    agree as well.
     """
 
     finding: Finding
@@ -145,11 +153,13 @@ def diagnose(
     otherwise: Sequence[tuple[Finding, Reference]] = (),
     center_is_wrong: bool = False,
 ) -> list[Diagnosis]:
-    """Return the changes that correct an inertial, or a note about the place of the mass; empty if it agrees.
+    """Return the changes that correct an inertial, or a note about the place of the mass; empty if
+    it agrees.
 
-    That is one change, or one of the center with one of the rest or the note; each has the inertial corrected so far.
-    references: candidates for the geometry, such as visual and collision shapes. otherwise: geometries with a corrected
-    fault of the description, each with its finding. center_is_wrong: True if a change of the center alone is certain.
+    That is one change, or one of the center with one of the rest or the note; each has the inertial
+    corrected so far. references: candidates for the geometry, such as visual and collision shapes.
+    otherwise: geometries with a corrected fault of the description, each with its finding.
+    center_is_wrong: True if a change of the center alone is certain.
     """
     if not references:
         return []
@@ -182,7 +192,9 @@ def diagnose(
 
 
 def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Diagnosis | None:
-    """Return the one change after which an inertial agrees with a reference, None if there is none."""
+    """Return the one change after which an inertial agrees with a reference, None if there is
+    none.
+    """
     apart = min(reference.compare(stated) for reference in references)
     best: tuple[float, Diagnosis] | None = None
     fits: list[StatedInertial] = []
@@ -216,7 +228,9 @@ def _center_changes(stated: StatedInertial, references: Sequence[Reference]) -> 
 
 
 def diagnose_density(stated: StatedInertial, reference: Reference) -> list[Diagnosis]:
-    """Diagnose an unusual density of an inertial, such as a wrong unit of the mass; empty if it is usual."""
+    """Diagnose an unusual density of an inertial, such as a wrong unit of the mass; empty if it is
+    usual.
+    """
     density = stated.mass / reference.volume
     if DENSITIES[0] <= density <= DENSITIES[1]:
         return []
@@ -231,7 +245,9 @@ def diagnose_density(stated: StatedInertial, reference: Reference) -> list[Diagn
 
 
 def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference) -> Diagnosis:
-    """Return a diagnosis, or one of the mesh's lengths if the density shows that these are wrong instead."""
+    """Return a diagnosis, or one of the mesh's lengths if the density shows that these are wrong
+    instead.
+    """
     if found.finding.values.get("part") != LENGTHS:
         return found
     factor = found.finding.values["factor"]
@@ -252,7 +268,9 @@ def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference
 
 
 def _times(values: ArrayLike, factor: float) -> NDArray[np.float64]:
-    """Return values times a factor; divide by its inverse if that is whole, to keep the decimals of the file."""
+    """Return values times a factor; divide by its inverse if that is whole, to keep the decimals of
+    the file.
+    """
     inverse = round(1.0 / factor)
     values = np.asarray(values, np.float64)
     return values / inverse if inverse and 1.0 / inverse == factor else values * factor
@@ -262,7 +280,9 @@ Change = tuple[str, dict, StatedInertial]
 
 
 def _changes(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
-    """Yield each change that may correct an inertial, with the corrected inertial; likelier changes come first."""
+    """Yield each change that may correct an inertial, with the corrected inertial; likelier changes
+    come first.
+    """
     yield from _units(stated, reference)
     yield from _points(stated, reference)
     yield from _frames(stated)
@@ -330,7 +350,9 @@ def _pounds(stated: StatedInertial) -> Iterator[Change]:
 
 
 def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
-    """Yield changes for an inertia about another point than the center, or a parallel-axis term of the wrong sign."""
+    """Yield changes for an inertia about another point than the center, or a parallel-axis term of
+    the wrong sign.
+    """
     term = stated.mass * _square(stated.center)
     yield AUDIT_INERTIA_ELSEWHERE, {"part": "link"}, stated.along_link(stated.inertia - term)
     yield AUDIT_INERTIA_SHIFTED_TWICE, {}, stated.along_link(stated.inertia + term)
@@ -345,7 +367,9 @@ def _square(arm: NDArray) -> NDArray[np.float64]:
 
 
 def _frames(stated: StatedInertial) -> Iterator[Change]:
-    """Yield changes of the inertial frame's rotation: other units or order, transposed, or left out."""
+    """Yield changes of the inertial frame's rotation: other units or order, transposed, or left
+    out.
+    """
     if stated.angles is not None:
         for unit, wanted, convert in (
             ("degrees", "radians", radians),
@@ -392,7 +416,9 @@ def _signs(stated: StatedInertial) -> Iterator[Change]:
 def _mapped(
     stated: StatedInertial, linear: NDArray
 ) -> tuple[StatedInertial, StatedInertial, StatedInertial]:
-    """Return an inertial with the inertia, the center, and both mapped by a (3, 3) orthogonal matrix."""
+    """Return an inertial with the inertia, the center, and both mapped by a (3, 3) orthogonal
+    matrix.
+    """
     inertia = linear @ stated.inertia @ linear.T
     center = linear @ stated.center
     return (
@@ -403,7 +429,9 @@ def _mapped(
 
 
 def _orders(stated: StatedInertial) -> Iterator[Change]:
-    """Yield changes that reorder the axes of the tensor, the center or both, or turn them by 90 degrees."""
+    """Yield changes that reorder the axes of the tensor, the center or both, or turn them by 90
+    degrees.
+    """
     diagonal = np.diag(np.diag(stated.inertia))
     for order in AXES:
         swapped = stated.inertia[np.ix_(order, order)]
@@ -430,7 +458,9 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
 
 
 def _transposed(stated: StatedInertial) -> Iterator[Change]:
-    """Yield changes for a tensor that was made with its principal axes as rows instead of columns."""
+    """Yield changes for a tensor that was made with its principal axes as rows instead of
+    columns.
+    """
     moments, axes = np.linalg.eigh(stated.inertia)
     for order in permutations(range(3)):
         for signs in ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)):

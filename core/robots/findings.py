@@ -15,7 +15,8 @@ ROBOT_WITHOUT_LINKS = error(
 )
 ROBOT_BASE_ADDED = note(
     "robot_base_added",
-    "{count} objects have no parent. They are fixed to an added link without mass, {name}. Parent them to one of "
+    "{count} objects have no parent. They are fixed to an added link without mass, {name}. Parent "
+    "them to one of "
     "them to avoid it.",
 )
 ROBOT_ELLIPSOID_AS_BOX = note(
@@ -25,23 +26,29 @@ ROBOT_ELLIPSOID_AS_BOX = note(
 URDF_EFFORT_UNKNOWN = note(
     "urdf_effort_unknown",
     "Set effort and velocity of the joint to its motor's. They are placeholders: {joints}.",
-    "Set effort and velocity of {count} joints to those of their motors. They are placeholders: {joints}.",
+    "Set effort and velocity of {count} joints to those of their motors. They are placeholders: "
+    "{joints}.",
 )
 JOINTS_CLOSE_LOOP = warning(
     "joints_close_loop",
-    "A robot is a tree. {joints} would close a loop and is left out. Add it to the file as a constraint.",
-    "A robot is a tree. {count} joints would close loops and are left out: {joints}. Add them to the file as "
+    "A robot is a tree. {joints} would close a loop and is left out. Add it to the file as a "
+    "constraint.",
+    "A robot is a tree. {count} joints would close loops and are left out: {joints}. Add them to "
+    "the file as "
     "constraints.",
 )
 JOINTS_WITHOUT_LINKS = warning(
     "joints_without_links",
-    "{joints} holds an object that is no link, and is left out. Set both objects of the constraint, and export them.",
-    "{count} joints hold an object that is no link, and are left out: {joints}. Set both objects of the constraints, "
+    "{joints} holds an object that is no link, and is left out. Set both objects of the "
+    "constraint, and export them.",
+    "{count} joints hold an object that is no link, and are left out: {joints}. Set both objects "
+    "of the constraints, "
     "and export them.",
 )
 JOINTS_ALL_FIXED = note(
     "joints_all_fixed",
-    "All joints are fixed: nothing moves. Add a rigid-body constraint between two objects, such as a hinge, or "
+    "All joints are fixed: nothing moves. Add a rigid-body constraint between two objects, such as "
+    "a hinge, or "
     "export bones as links.",
 )
 JOINT_VALUES_LOST = warning(
@@ -50,12 +57,14 @@ JOINT_VALUES_LOST = warning(
 )
 JOINT_VALUE_UNUSABLE = warning(
     "joint_value_unusable",
-    "{joint}: {key} is {value}, and is ignored. Set a positive number; joint_mimic takes the name of another joint "
+    "{joint}: {key} is {value}, and is ignored. Set a positive number; joint_mimic takes the name "
+    "of another joint "
     "about one axis, for a joint about one axis.",
 )
 ROBOT_SCALED = warning(
     "robot_scaled",
-    "Readers differ about bodies that are scaled or sheared. Apply the scale of {links} and of their parents (Object > "
+    "Readers differ about bodies that are scaled or sheared. Apply the scale of {links} and of "
+    "their parents (Object > "
     "Apply > Scale).",
 )
 GLTF_NODE_MISSING = warning(
@@ -65,7 +74,8 @@ GLTF_NODE_MISSING = warning(
 )
 GLTF_UNIT_SCALE = note(
     "gltf_unit_scale",
-    "Blender writes its units to glTF as meters: a node above all others scales them by {scale:g}. Readers differ "
+    "Blender writes its units to glTF as meters: a node above all others scales them by {scale:g}. "
+    "Readers differ "
     "about bodies that are scaled.",
 )
 ROBOT_LINKS_BARE = note(
@@ -75,19 +85,24 @@ ROBOT_LINKS_BARE = note(
 )
 SDF_FRAMES_ADDED = note(
     "sdf_frames_added",
-    "SDF has no joint along such axes: {joints}. Added links, with {part:.3g} of the mass, stand between its axes.",
-    "SDF has no joints along such axes: {joints}. Added links, with {part:.3g} of the mass, stand between their axes.",
+    "SDF has no joint along such axes: {joints}. Added links, with {part:.3g} of the mass, stand "
+    "between its axes.",
+    "SDF has no joints along such axes: {joints}. Added links, with {part:.3g} of the mass, stand "
+    "between their axes.",
 )
 MJCF_INERTIA_TOO_SMALL = warning(
     "mjcf_inertia_too_small",
-    "MuJoCo takes no mass or principal moment below {limit:g} kg or kg·m², and raises that of {links}, {least:.3g}. "
+    "MuJoCo takes no mass or principal moment below {limit:g} kg or kg·m², and raises that of "
+    "{links}, {least:.3g}. "
     "Fix it to its parent, or model in larger units.",
-    "MuJoCo takes no mass or principal moment below {limit:g} kg or kg·m², and raises those of {count} links: {links}, "
+    "MuJoCo takes no mass or principal moment below {limit:g} kg or kg·m², and raises those of "
+    "{count} links: {links}, "
     "down to {least:.3g}. Fix them to their parents, or model in larger units.",
 )
 USD_INERTIA_TOO_SMALL = warning(
     "usd_inertia_too_small",
-    "The inertia of {links} is too small for the single precision of PhysicsMassAPI. Read newton:inertia, or use "
+    "The inertia of {links} is too small for the single precision of PhysicsMassAPI. Read "
+    "newton:inertia, or use "
     "a stage in smaller units.",
 )
 XML_ENTITIES = error(
@@ -99,12 +114,14 @@ DESCRIPTION_INVALID = error(
 )
 USD_NOT_TEXT = error(
     "usd_not_text",
-    "{name} is binary USD or refers to other files, which only the Python module usd-core reads. Install it (pip "
+    "{name} is binary USD or refers to other files, which only the Python module usd-core reads. "
+    "Install it (pip "
     "install usd-core), or convert the file: usdcat --flatten {name} -o robot.usda.",
 )
 XACRO_NOT_EXPANDED = error(
     "xacro_not_expanded",
-    "xacro cannot expand the file ({error}). Correct it, or expand it where all packages are: xacro {name} > "
+    "xacro cannot expand the file ({error}). Correct it, or expand it where all packages are: "
+    "xacro {name} > "
     "robot.urdf.",
 )
 DESCRIPTION_UNKNOWN = error(
@@ -116,18 +133,21 @@ INCLUDE_UNREADABLE = error(
 INCLUDE_TWICE = error("include_twice", "It includes a file twice: {name}.")
 DESCRIPTION_NUMBER = warning(
     "description_number",
-    "Line {line}: <{element}> has “{text}”, which the audit cannot use. Correct it; nothing is compared.",
+    "Line {line}: <{element}> has “{text}”, which the audit cannot use. Correct it; nothing is "
+    "compared.",
 )
 MESH_ON_NETWORK = warning(
     "mesh_on_network", "A file is on a network, and was not loaded: {name}. Download it."
 )
 MESH_MISSING = warning(
     "mesh_missing",
-    "A file is missing: {name}. If it is in another package, name the folder of the package with --package-path.",
+    "A file is missing: {name}. If it is in another package, name the folder of the package with "
+    "--package-path.",
 )
 MESH_OUTSIDE = warning(
     "mesh_outside",
-    "A file is outside of the folders that may be read: {name}. Name its folder with --package-path, or allow all "
+    "A file is outside of the folders that may be read: {name}. Name its folder with "
+    "--package-path, or allow all "
     "with --allow-outside.",
 )
 MESH_UNREADABLE = warning("mesh_unreadable", "A mesh cannot be read: {name}. {cause}")
@@ -150,7 +170,8 @@ INERTIAL_TRIANGLE = error(
 )
 INERTIAL_TRIANGLE_SLIGHTLY = warning(
     "inertial_triangle_slightly",
-    "The largest principal moment exceeds the sum of the others by {excess:percent}, as rounding does. Some "
+    "The largest principal moment exceeds the sum of the others by {excess:percent}, as rounding "
+    "does. Some "
     "readers refuse it; state more digits.",
 )
 INERTIAL_CENTER_OUTSIDE = error(
@@ -159,7 +180,8 @@ INERTIAL_CENTER_OUTSIDE = error(
 )
 INERTIAL_SPREAD_OUTSIDE = error(
     "inertial_spread_outside",
-    "Impossible: with this inertia, mass lies outside of the geometry (variance {factor:.3g} times too large).",
+    "Impossible: with this inertia, mass lies outside of the geometry (variance {factor:.3g} times "
+    "too large).",
 )
 AUDIT_UNIFORM_INSTEAD = warning(
     "audit_uniform_instead",
@@ -167,13 +189,16 @@ AUDIT_UNIFORM_INSTEAD = warning(
 )
 AUDIT_NOT_UNIFORM = note(
     "audit_not_uniform",
-    "Not an even filling of the {part:word}. Filled evenly, that has {volume:percent} of the drawn volume, and "
-    "{first:.4g}, {second:.4g} and {third:.4g} times the principal moments; its center is {distance:length} and its "
+    "Not an even filling of the {part:word}. Filled evenly, that has {volume:percent} of the drawn "
+    "volume, and "
+    "{first:.4g}, {second:.4g} and {third:.4g} times the principal moments; its center is "
+    "{distance:length} and its "
     "axes are {turn:.3g}° off.",
 )
 AUDIT_UP_AXIS = warning(
     "audit_up_axis",
-    "The mesh's file says that z is not up. Readers obey that or not; the inertial is right where they do. "
+    "The mesh's file says that z is not up. Readers obey that or not; the inertial is right where "
+    "they do. "
     "Export the mesh with z up.",
 )
 AUDIT_DENSITY = warning("audit_density", "The density is {density:.3g} kg/m³. Check mass and mesh.")
@@ -190,19 +215,22 @@ AUDIT_INERTIA_ELSEWHERE = warning(
 )
 AUDIT_INERTIA_SHIFTED_TWICE = warning(
     "audit_inertia_shifted_twice",
-    "The inertia was shifted away from the center of mass with the wrong sign. Add the parallel-axis term.",
+    "The inertia was shifted away from the center of mass with the wrong sign. Add the "
+    "parallel-axis term.",
 )
 AUDIT_ANGLES = warning(
     "audit_angles", "The angles of the {part:word} are in {unit:word}. State them in {wanted:word}."
 )
 AUDIT_FRAME_NOT_MEANT = warning(
     "audit_frame_not_meant",
-    "The inertia is along the axes of the link, though the inertial is rotated. Remove the rotation.",
+    "The inertia is along the axes of the link, though the inertial is rotated. Remove the "
+    "rotation.",
 )
 AUDIT_TRANSPOSED = warning("audit_transposed", "Rows taken for columns: {part:word}. Transpose it.")
 AUDIT_SIGN = warning(
     "audit_sign",
-    "Wrong sign: {part:word}, {axes}. Change it; products of inertia in a tensor are negative integrals, -∫xy dm.",
+    "Wrong sign: {part:word}, {axes}. Change it; products of inertia in a tensor are negative "
+    "integrals, -∫xy dm.",
 )
 AUDIT_MIRRORED = warning(
     "audit_mirrored", "The inertial is that of the mirror image along {axis}. Mirror it."

@@ -15,12 +15,13 @@ from typing import NamedTuple
 class RobotFormat(NamedTuple):
     """A format. Names and endings are contracts; labels and tooltips are texts of the interface.
 
-    short, copy_tip: name and tooltip in the menu Copy. export_label, export_tip: name and tooltip of the exporter.
-    writer: module of `write/` with `check(robot)` and `write(robot, remarks, inertial_only=...)`; for formats that the
-    audit repairs also `inertial_text`. holds_meshes: False if meshes are files of their own.
-    binary_suffixes: endings of the format's binary files, which must not hold text.
-    reader: module of `read/` with `read`, "" if the audit does not read the format. root: the first element of a file.
-    read_suffixes: more endings of files that the audit reads, besides `suffix`.
+    short, copy_tip: name and tooltip in the menu Copy. export_label, export_tip: name and tooltip
+    of the exporter. writer: module of `write/` with `check(robot)` and `write(robot, remarks,
+    inertial_only=...)`; for formats that the audit repairs also `inertial_text`. holds_meshes:
+    False if meshes are files of their own. binary_suffixes: endings of the format's binary files,
+    which must not hold text. reader: module of `read/` with `read`, "" if the audit does not read
+    the format. root: the first element of a file. read_suffixes: more endings of files that the
+    audit reads, besides `suffix`.
     """
 
     name: str
@@ -70,7 +71,8 @@ _TABLE = (
     ),
     RobotFormat(
         *("usd", "USD", "USD with Mass Properties", "Export USD Physics", ".usda"),
-        "Export the geometry as Blender does, and a layer of text that gives it the exact mass, center and inertia",
+        "Export the geometry as Blender does, and a layer of text that gives it the exact mass, "
+        "center and inertia",
         "PhysicsMassAPI and NewtonMassAPI",
         *("usd", "usda", "#usda"),
         read_suffixes=(".usd",),
@@ -79,7 +81,8 @@ _TABLE = (
     ),
     RobotFormat(
         *("gltf", "glTF", "glTF with Rigid Bodies", "Export glTF with Rigid Bodies", ".glb"),
-        "Export glTF as Blender does, with rigid bodies of the exact mass, center and inertia in it",
+        "Export glTF as Blender does, with rigid bodies of the exact mass, center and inertia in "
+        "it",
         "KHR_physics_rigid_bodies and OMI_physics_body, with y up",
         "gltf_robot",
         holds_meshes=True,
@@ -87,7 +90,8 @@ _TABLE = (
     ),
     RobotFormat(
         *("osim", "OpenSim", "OpenSim", "Export OpenSim", ".osim"),
-        "Export objects as bodies of a model for OpenSim, with their exact mass, center and inertia",
+        "Export objects as bodies of a model for OpenSim, with their exact mass, center and "
+        "inertia",
         "Tensor along the axes of the object",
         "osim",
     ),

@@ -25,7 +25,9 @@ from .model import FreeAxis, Inertial, Joint, Link, Mimic, Pose, Robot, Shape
 
 
 class Candidate(NamedTuple):
-    """A measured body. link: None if the body has no mass. parents: names of other candidates, the nearest first."""
+    """A measured body. link: None if the body has no mass. parents: names of other candidates, the
+    nearest first.
+    """
 
     name: str
     link: Link | None
@@ -35,8 +37,8 @@ class Candidate(NamedTuple):
 class Connection(NamedTuple):
     """A joint between two candidates; "" stands for any object that is no candidate.
 
-    pose: the frame of the joint in the world, m; by default the second's. free: freedom of `second` relative to
-    `first`, the axis next to `first` first.
+    pose: the frame of the joint in the world, m; by default the second's. free: freedom of `second`
+    relative to `first`, the axis next to `first` first.
     """
 
     name: str
@@ -59,7 +61,9 @@ def make_candidate(
     scale: Sequence[float] = (1.0, 1.0, 1.0),
     is_fixed: bool = False,
 ) -> Candidate:
-    """Return a candidate with the measured body as a link in its own frame. scale: (3,) of the object's geometry."""
+    """Return a candidate with the measured body as a link in its own frame. scale: (3,) of the
+    object's geometry.
+    """
     body = measurement.in_object_frame()
     if not body.mass:
         return Candidate(name, None)
@@ -82,8 +86,11 @@ def assemble_robot(
     A connection takes the place of the fixed joint to a parent, or holds links that have no parent.
     """
     links = {one.name: one.link for one in candidates if one.link is not None}
-    nearest = {one.name: next((name for name in one.parents if name in links and name != one.name), None)
-               for one in candidates if one.link is not None}  # fmt: skip
+    nearest = {
+        one.name: next((name for name in one.parents if name in links and name != one.name), None)
+        for one in candidates
+        if one.link is not None
+    }
     parents = {child: parent for child, parent in nearest.items() if parent is not None}
     loose = [one.name for one in connections if (one.first in links) != (one.second in links)]
     edges, loops = _spanning_edges(
@@ -105,7 +112,8 @@ def assemble_robot(
 def _spanning_edges(
     links: Mapping[str, Link], parents: Mapping[str, str], connections: Sequence[Connection]
 ) -> tuple[list[Connection], list[str]]:
-    """Return edges that make trees of the links, parents first, and the names of connections that would close a loop.
+    """Return edges that make trees of the links, parents first, and the names of connections that
+    would close a loop.
 
     All fixed links count as one, the world, which has no name.
     """
@@ -189,7 +197,9 @@ def _directed_joints(links: Mapping[str, Link], edges: Sequence[Connection]) -> 
 
 
 def _check_mimics(joints: Iterable[Joint]) -> tuple[list[Joint], list[Finding]]:
-    """Return the joints, with mimics that name other joints of one axis, and findings about mimics that do not."""
+    """Return the joints, with mimics that name other joints of one axis, and findings about mimics
+    that do not.
+    """
     checked = [*joints]
     findings = []
     single = {joint.child: joint.name for joint in checked if len(joint.free) == 1}

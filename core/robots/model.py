@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Links, joints and their contents in SI units: the data that robot formats are written from.
 
-A body is compared with another one that stands for it: its colliders, or a link's collision geometry.
+A body is compared with another one that stands for it: its colliders, or a link's collision
+geometry.
 """
 
 from __future__ import annotations
@@ -28,7 +29,9 @@ AGREEING_RTOL = 8.0 * float(np.finfo(np.float64).eps)  # Relative to the largest
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """The place of a frame in another one: x_other = rotation @ x + position, with (3, 3) and (3,) arrays, m."""
+    """The place of a frame in another one: x_other = rotation @ x + position, with (3, 3) and (3,)
+    arrays, m.
+    """
 
     position: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     rotation: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
@@ -58,9 +61,9 @@ class Pose:
 class Inertial:
     """Mass, center and inertia of one link, along the link's axes.
 
-    mass: kg. center: (3,) in the link's frame, m. inertia: (3, 3) about the center, kg·m²; I_xy = -∫xy dm.
-    moments: (3,) principal moments, kg·m², ascending, none greater than the sum of the others.
-    axes: (3, 3) principal axes as columns, determinant 1.
+    mass: kg. center: (3,) in the link's frame, m. inertia: (3, 3) about the center, kg·m²; I_xy =
+    -∫xy dm. moments: (3,) principal moments, kg·m², ascending, none greater than the sum of the
+    others. axes: (3, 3) principal axes as columns, determinant 1.
     """
 
     mass: float
@@ -75,8 +78,9 @@ class Inertial:
     ) -> Inertial:
         """Return an inertial whose principal moments and axes reproduce its tensor to rounding.
 
-        For almost equal moments a measurement takes axes near to the object's own, so the pair may differ from the
-        tensor by a millionth. Readers of the pair alone would miss that, so the axes are turned to the tensor's.
+        For almost equal moments a measurement takes axes near to the object's own, so the pair may
+        differ from the tensor by a millionth. Readers of the pair alone would miss that, so the
+        axes are turned to the tensor's.
         """
         largest = np.abs(inertia).max()
         along = axes.T @ inertia @ axes
@@ -113,11 +117,12 @@ class Shape:
     """A visual or collision shape of a link.
 
     kind: "mesh", "box", "ellipsoid", "capsule", "cylinder" or "sphere". pose: in the link's frame.
-    size: m; sides of a box, semi-axes of an ellipsoid, radius and length along z of a capsule (without its caps) or a
-    cylinder, the radius of a sphere, the factors along the axes of a mesh.
-    file: a mesh's file, with slashes, relative to the file that names it. sheet: True if the mesh bounds no volume.
-    surface: the geometry of a mesh that is to be written, in meters along the axes of the shape.
-    collides: False for a shape that is only seen. seen: False for a shape that only collides, with its mass in kg.
+    size: m; sides of a box, semi-axes of an ellipsoid, radius and length along z of a capsule
+    (without its caps) or a cylinder, the radius of a sphere, the factors along the axes of a mesh.
+    file: a mesh's file, with slashes, relative to the file that names it. sheet: True if the mesh
+    bounds no volume. surface: the geometry of a mesh that is to be written, in meters along the
+    axes of the shape. collides: False for a shape that is only seen. seen: False for a shape that
+    only collides, with its mass in kg.
     """
 
     kind: str
@@ -133,9 +138,11 @@ class Shape:
 
 @dataclass(frozen=True, eq=False)
 class FreeAxis:
-    """One degree of freedom of a joint: "rotate" or "translate", along a (3,) unit axis in the joint's frame.
+    """One degree of freedom of a joint: "rotate" or "translate", along a (3,) unit axis in the
+    joint's frame.
 
-    lower, upper: limits in radians or meters, infinite if unlimited. values: those of VALUES that are known, by name.
+    lower, upper: limits in radians or meters, infinite if unlimited. values: those of VALUES that
+    are known, by name.
     """
 
     kind: str
@@ -155,7 +162,9 @@ class FreeAxis:
 
 
 class Mimic(NamedTuple):
-    """The position of a joint follows another joint's: multiplier · position + offset, in radians or meters."""
+    """The position of a joint follows another joint's: multiplier · position + offset, in radians
+    or meters.
+    """
 
     joint: str
     multiplier: float = 1.0
@@ -202,7 +211,10 @@ class Link:
 
 @dataclass(frozen=True, eq=False)
 class Robot:
-    """Links, and joints that make trees of them. ValueError if names repeat, a link is missing, or joints loop."""
+    """Links, and joints that make trees of them.
+
+    ValueError if names repeat, a link is missing, or joints loop.
+    """
 
     name: str
     links: tuple[Link, ...]
@@ -279,7 +291,9 @@ class Robot:
         )
 
     def at_joints(self) -> Robot:
-        """Return the robot with each link's origin at its joint, its axes unturned, for formats that demand it."""
+        """Return the robot with each link's origin at its joint, its axes unturned, for formats
+        that demand it.
+        """
         places = {
             joint.child: joint.pose.position for joint in self.joints if joint.pose.position.any()
         }
@@ -298,7 +312,9 @@ class Robot:
         return replace(self, links=tuple(links), joints=joints)
 
     def rigid_parts(self, link: Link) -> list[Link]:
-        """Return a link and all links below it that are connected by fixed joints only, parents first."""
+        """Return a link and all links below it that are connected by fixed joints only, parents
+        first.
+        """
         parts = []
         waiting = [link]
         while waiting:
@@ -309,7 +325,9 @@ class Robot:
         return parts
 
     def rigid_inertial(self, link: Link) -> Inertial | None:
-        """Return the inertial of a link with all links fixed to it, in the link's frame; None if all lack mass."""
+        """Return the inertial of a link with all links fixed to it, in the link's frame; None if
+        all lack mass.
+        """
         to_link = link.pose.inverse()
         parts = [
             (part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None
@@ -339,9 +357,10 @@ def combine_inertials(inertials: list[Inertial]) -> Inertial:
 class Effect:
     """Mass properties of colliders beside those of the body, in the body's frame, SI.
 
-    The ratios are those of colliders to body, None if the body's number is zero. center_shift: (3,) m, from the body's
-    center. moment_ratios: (3,) of the ascending principal moments. axes_turn: the angle between the principal axes that
-    both have, rad. inertia_change: the norm of the change of the tensor, in parts of the norm of the body's.
+    The ratios are those of colliders to body, None if the body's number is zero. center_shift: (3,)
+    m, from the body's center. moment_ratios: (3,) of the ascending principal moments. axes_turn:
+    the angle between the principal axes that both have, rad. inertia_change: the norm of the change
+    of the tensor, in parts of the norm of the body's.
     """
 
     volume_ratio: float | None
@@ -387,9 +406,11 @@ def ratio(value: float, of: float) -> float | None:
 
 
 def _axes_turn(own: NDArray, own_axes: NDArray, moments: NDArray, axes: NDArray) -> float:
-    """Return the least angle that turns a body's principal axes to others; moments ascend, (3, 3) columns are axes.
+    """Return the least angle that turns a body's principal axes to others; moments ascend, (3, 3)
+    columns are axes.
 
-    Equal moments leave their axes free: then the angle between the third axes counts, or none if all are equal.
+    Equal moments leave their axes free: then the angle between the third axes counts, or none if
+    all are equal.
     """
     equal = [(np.diff(one) <= EQUAL_MOMENTS_RTOL * one[2]).tolist() for one in (own, moments)]
     low = equal[0][0] or equal[1][0]

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Inertials that no non-negative density within a hull can have.
 
-A mass is positive. The second moments S = tr(I)/2 - I are no less than zero in any direction, which is the triangle
-inequality of the principal moments. The center lies in the convex hull. Along any direction n, in which the hull
-reaches from a to b, the variance of the mass is at most (b - mean)(mean - a) (Bhatia and Davis, Amer. Math. Monthly
-107, 2000). All of these are necessary; an inertial that breaks one is impossible for any density.
+A mass is positive. The second moments S = tr(I)/2 - I are no less than zero in any direction, which
+is the triangle inequality of the principal moments. The center lies in the convex hull. Along any
+direction n, in which the hull reaches from a to b, the variance of the mass is at most (b -
+mean)(mean - a) (Bhatia and Davis, Amer. Math. Monthly 107, 2000). All of these are necessary; an
+inertial that breaks one is impossible for any density.
 """
 
 from __future__ import annotations
@@ -50,10 +51,12 @@ class Hull:
         return float(np.linalg.norm(np.ptp(self.points, axis=0)))
 
     def distance(self, point: NDArray) -> float:
-        """Return a lower bound, proven by a separating plane, of a point's distance from the hull in m, zero within.
+        """Return a lower bound, proven by a separating plane, of a point's distance from the hull
+        in m, zero within.
 
-        Wolfe's algorithm (Math. Programming 11, 1976): find the nearest point of the hull of at most four points, and
-        exchange them until the plane through that nearest point has all points of the hull behind it.
+        Wolfe's algorithm (Math. Programming 11, 1976): find the nearest point of the hull of at
+        most four points, and exchange them until the plane through that nearest point has all
+        points of the hull behind it.
         """
         shifted = self.points - point
         chosen = [int(np.argmin((shifted**2).sum(axis=1)))]
@@ -73,13 +76,17 @@ class Hull:
         return bound
 
     def spread_limit(self, center: NDArray, directions: NDArray) -> NDArray[np.float64]:
-        """Return the (k,) largest possible variances of mass with a center along (k, 3) unit directions, in m²."""
+        """Return the (k,) largest possible variances of mass with a center along (k, 3) unit
+        directions, in m².
+        """
         heights = (self.points - center) @ directions.T
         return np.maximum(heights.max(axis=0), 0.0) * np.maximum(-heights.min(axis=0), 0.0)
 
 
 def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
-    """Return all reasons why no body, or no body within a known hull, has an inertial; empty if it is possible."""
+    """Return all reasons why no body, or no body within a known hull, has an inertial; empty if it
+    is possible.
+    """
     numbers = np.concatenate([[stated.mass], stated.center, stated.inertia.ravel()])
     if not (np.abs(numbers) <= LARGEST).all():
         return [finding(INERTIAL_NOT_FINITE)]
@@ -120,7 +127,9 @@ def _impossible_tensor(inertia: NDArray) -> list[Finding]:
 def _nearest_shares(
     points: NDArray, chosen: list[int], shares: NDArray
 ) -> tuple[list[int], NDArray[np.float64]]:
-    """Drop chosen points until the foot from zero on their plane is in their hull; return their indices and shares."""
+    """Drop chosen points until the foot from zero on their plane is in their hull; return their
+    indices and shares.
+    """
     while True:
         corners = points[chosen]
         # Foot on the plane through them: shares that add up to one and leave nothing along it.
@@ -140,7 +149,9 @@ def _nearest_shares(
 
 
 def _excess_spread(stated: StatedInertial, hull: Hull, is_outside: bool) -> list[Finding]:
-    """Return the reason why no body within the hull has a possible tensor. is_outside: of a center within the hull."""
+    """Return the reason why no body within the hull has a possible tensor. is_outside: of a center
+    within the hull.
+    """
     second = (np.trace(stated.inertia) / 2.0 * np.eye(3) - stated.inertia) / stated.mass
     directions = np.concatenate([np.linalg.eigh(second)[1].T, spread_directions(DIRECTIONS)])
     variance = np.einsum("ki,ij,kj->k", directions, second, directions)

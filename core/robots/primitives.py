@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of primitives, in closed form; and primitives with the mass, center and inertia of a body.
+"""Moments of primitives, in closed form; and primitives with the mass, center and inertia of a
+body.
 
-Twice the second moments of a body along its principal axes are q_i = I_j + I_k - I_i = 2 ∫x_i² dm. A box has
-∫x_i² dm = m s_i²/12 and an ellipsoid m a_i²/5, so each body has one of each. A capsule has two parameters for three
-moments: it takes the mean of the two across its axis.
+Twice the second moments of a body along its principal axes are q_i = I_j + I_k - I_i = 2 ∫x_i² dm.
+A box has ∫x_i² dm = m s_i²/12 and an ellipsoid m a_i²/5, so each body has one of each. A capsule
+has two parameters for three moments: it takes the mean of the two across its axis.
 """
 
 from __future__ import annotations
@@ -24,21 +25,27 @@ BISECTIONS = 200  # more than the digits of a float64 need
 
 
 def box_sides(mass: float, moments: NDArray) -> NDArray[np.float64]:
-    """Return the (3,) sides s_i = sqrt(6 (I_j + I_k - I_i) / m) of the box of this mass and these principal moments."""
+    """Return the (3,) sides s_i = sqrt(6 (I_j + I_k - I_i) / m) of the box of this mass and these
+    principal moments.
+    """
     return np.sqrt(6.0 * _spreads(moments) / mass)
 
 
 def ellipsoid_axes(mass: float, moments: NDArray) -> NDArray[np.float64]:
-    """Return the (3,) semi-axes a_i = sqrt(5 (I_j + I_k - I_i) / (2 m)) of the ellipsoid of these principal moments."""
+    """Return the (3,) semi-axes a_i = sqrt(5 (I_j + I_k - I_i) / (2 m)) of the ellipsoid of these
+    principal moments.
+    """
     return np.sqrt(2.5 * _spreads(moments) / mass)
 
 
 def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
-    """Return radius and length, without its caps, of the capsule along the first principal axis; moments ascend.
+    """Return radius and length, without its caps, of the capsule along the first principal axis;
+    moments ascend.
 
-    It has the least moment along its axis and the mean of the others across it, if possible; else it is a ball. With t
-    = L/r, r = 1: V = π(t + 4/3); ∫x² dV is π(t/4 + 4/15) across and π(t³/12 + t²/3 + t/2 + 4/15) along the axis. Their
-    ratio grows with t from 1, the ratio of a ball.
+    It has the least moment along its axis and the mean of the others across it, if possible; else
+    it is a ball. With the ratio t of L to r and r = 1, V is π(t + 4/3), and ∫x² dV is
+    π(t/4 + 4/15) across and π(t³/12 + t²/3 + t/2 + 4/15) along the axis. Their ratio grows with t
+    from 1, the ratio of a ball.
     """
     along = (moments[1] + moments[2] - moments[0]) / 2.0  # ∫x² dm
     across = max(moments[0] / 2.0, LEAST_SPREAD * along)
@@ -58,7 +65,9 @@ def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
 
 
 def equal_inertia_shape(inertial: Inertial, kind: str) -> Shape:
-    """Return the "box", "ellipsoid" or "capsule" with a link's mass, center and inertia, in the link's frame."""
+    """Return the "box", "ellipsoid" or "capsule" with a link's mass, center and inertia, in the
+    link's frame.
+    """
     mass = inertial.mass
     moments = inertial.moments
     axes = inertial.axes
@@ -70,19 +79,25 @@ def equal_inertia_shape(inertial: Inertial, kind: str) -> Shape:
 
 
 def _capsule(t: float) -> tuple[float, float]:
-    """Return ∫x² dV across and along the axis of a capsule of unit radius whose cylinder has length t."""
+    """Return ∫x² dV across and along the axis of a capsule of unit radius whose cylinder has length
+    t.
+    """
     return pi * (t / 4.0 + 4.0 / 15.0), pi * (t**3 / 12.0 + t * t / 3.0 + t / 2.0 + 4.0 / 15.0)
 
 
 def _spreads(moments: NDArray) -> NDArray[np.float64]:
-    """Return (3,) I_j + I_k - I_i, raised to a least value that changes no moment, so that no side is zero."""
+    """Return (3,) I_j + I_k - I_i, raised to a least value that changes no moment, so that no side
+    is zero.
+    """
     first, second, third = moments
     spreads = np.array([second + third - first, third + first - second, first + second - third])
     return np.maximum(spreads, LEAST_SPREAD * spreads.max())
 
 
 def moments_of(shape: Shape) -> Moments:
-    """Return the moments of a shape at density 1, in the link's frame; a mesh must have its surface."""
+    """Return the moments of a shape at density 1, in the link's frame; a mesh must have its
+    surface.
+    """
     if shape.surface is not None:
         surface = shape.surface.transform(np.diag(shape.size))
         own = integrate(surface, 1, area=False, area_moments=False, exact=True)[0]
@@ -92,7 +107,9 @@ def moments_of(shape: Shape) -> Moments:
 
 
 def primitive_moments(shape: Shape) -> Moments:
-    """Return the moments of a box, ellipsoid, sphere, capsule or cylinder about its middle, in its own axes."""
+    """Return the moments of a box, ellipsoid, sphere, capsule or cylinder about its middle, in its
+    own axes.
+    """
     if shape.kind == "box":
         sides = np.array(shape.size)
         volume = float(sides.prod())

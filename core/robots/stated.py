@@ -24,7 +24,9 @@ MOST = 1e30
 
 
 class Place(NamedTuple):
-    """A place in a file, from 1. file: a file that the description includes, "" for the description itself."""
+    """A place in a file, from 1. file: a file that the description includes, "" for the description
+    itself.
+    """
 
     line: int = 1
     column: int = 1
@@ -56,14 +58,18 @@ class StatedInertial:
             return self.rotation @ self.tensor @ self.rotation.T
 
     def along_link(self, inertia: NDArray | None = None, **changes) -> StatedInertial:
-        """Return a copy in a frame along the link's axes, with its own or a given inertia, and other changes."""
+        """Return a copy in a frame along the link's axes, with its own or a given inertia, and
+        other changes.
+        """
         tensor = self.inertia if inertia is None else inertia
         return replace(
             self, tensor=tensor, rotation=np.eye(3), angles=None, quaternion=None, **changes
         )
 
     def principal(self) -> Inertial:
-        """Return an inertial with principal moments and axes, no moment above the sum of the others."""
+        """Return an inertial with principal moments and axes, no moment above the sum of the
+        others.
+        """
         tensor = (self.inertia + self.inertia.T) / 2.0
         moments, axes = np.linalg.eigh(tensor)
         axes = axes * (1.0, 1.0, np.sign(np.linalg.det(axes)))
@@ -75,11 +81,11 @@ class StatedInertial:
 class StatedShape:
     """A shape of a link; `role` is "visual" or "collision".
 
-    `shape`: for a mesh, its `file` is the name in the description.
-    `angles`: roll, pitch and yaw, if the pose was stated so.
-    `beside`: the file that the names of its meshes are relative to, "" for the description itself.
-    ValueError, with the numbers as text, if a size is not positive, a factor of a mesh is zero, or a size or the place
-    is not finite, or too large or small to compute with.
+    `shape`: for a mesh, its `file` is the name in the description. `angles`: roll, pitch and yaw,
+    if the pose was stated so. `beside`: the file that the names of its meshes are relative to, ""
+    for the description itself. ValueError, with the numbers as text, if a size is not positive, a
+    factor of a mesh is zero, or a size or the place is not finite, or too large or small to compute
+    with.
     """
 
     shape: Shape
@@ -102,10 +108,10 @@ class StatedShape:
 class StatedLink:
     """One link as its file states it.
 
-    `place`, `inertial_place`: of the link and of its inertial, which is the link's if there is none.
-    `span`: range of the inertial in the file, in bytes. `moves`: True if a missing inertial matters.
-    `findings`: about content that the reader could not use.
-    `local`: (4, 4) from the file's coordinates to the link's axes, in the file's unit; None if they are the same.
+    `place`, `inertial_place`: of the link and of its inertial, which is the link's if there is
+    none. `span`: range of the inertial in the file, in bytes. `moves`: True if a missing inertial
+    matters. `findings`: about content that the reader could not use. `local`: (4, 4) from the
+    file's coordinates to the link's axes, in the file's unit; None if they are the same.
     """
 
     name: str
@@ -121,7 +127,9 @@ class StatedLink:
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """A robot description, with the whole file as `source`. scales: units of its "length" in m and "mass" in kg."""
+    """A robot description, with the whole file as `source`. scales: units of its "length" in m and
+    "mass" in kg.
+    """
 
     name: str
     format: str
@@ -138,7 +146,9 @@ def rotation_about(axis: NDArray, angle: float) -> NDArray[np.float64]:
 
 
 def rotation_of_angles(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
-    """Return the (3, 3) rotation Rz(yaw) Ry(pitch) Rx(roll), as in URDF and SDF, of angles in radians."""
+    """Return the (3, 3) rotation Rz(yaw) Ry(pitch) Rx(roll), as in URDF and SDF, of angles in
+    radians.
+    """
     (cr, cp, cy) = np.cos([roll, pitch, yaw])
     (sr, sp, sy) = np.sin([roll, pitch, yaw])
     return np.array(

@@ -4,46 +4,16 @@
 
 from ..verdict.finding import error, note, warning
 
-FILE_MISSING = error("file_missing", "No such file.")
-FILE_NOT_REGULAR = error("file_not_regular", "Not a regular file.")
-FILE_TYPE = error("file_type", "Unsupported file type. Supported: {suffixes}.")
-FILE_UNRECOGNIZED = error(
-    "file_unrecognized", "This is no {format} file, or its header is damaged. Export it again."
-)
-FILE_DAMAGED = error(
-    "file_damaged", "The file “{file}” is damaged: {cause}. Obtain it again, or export it again."
-)
-DAMAGE_CUT_SHORT = error("damage_cut_short", "it ends within its {part:word}")
-DAMAGE_SIZE = error("damage_size", "it has {bytes} bytes of data, and its sizes require {total}")
-DAMAGE_INCOMPLETE = error("damage_incomplete", "it is not a complete {kind:word} ({error})")
-FILE_EXCEEDS_LIMIT = error(
-    "file_exceeds_limit",
-    "“{file}” exceeds a limit: {count} {name} of at most {limit}. If you trust the file, set the environment "
-    "variable BODY_MOMENTS_LIMITS to {name}={next}.",
-)
-LIMITS_UNRECOGNIZED = error(
-    "limits_unrecognized",
-    "The environment variable BODY_MOMENTS_LIMITS has “{text}”, which is no limit. Use NAME=NUMBER, with a NAME "
-    "of {names}.",
-)
-HEADER_FIELD = error(
-    "header_field",
-    "The {format} field “{field}” must be {wanted:word}, not “{text:.60s}”. Correct the header.",
-)
-NAMED_FILE_MISSING = error(
-    "named_file_missing", "The file “{file:.80s}” is missing, which has the {content:word}."
-)
 NRRD_DATA_FILE_OUTSIDE = error(
     "nrrd_data_file_outside",
-    "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you trust the header, "
+    "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you "
+    "trust the header, "
     "turn on Allow Outside, or use --allow-outside.",
-)
-OTHERS_LEFT_OUT = warning(
-    "others_left_out", "The {kind:word} “{name}” was measured; left out: {others}."
 )
 RAW_WITHOUT_LAYOUT = error(
     "raw_without_layout",
-    "A raw file does not describe its samples. Name it NAME_XxYxZ_TYPE.raw, such as head_128x128x54_uint16.raw, or add "
+    "A raw file does not describe its samples. Name it NAME_XxYxZ_TYPE.raw, such as "
+    "head_128x128x54_uint16.raw, or add "
     "an NRRD header.",
 )
 SCAN_IN_SEVERAL_FILES = error(
@@ -71,11 +41,13 @@ SCAN_UNSTATED = warning(
 )
 POSITIONS_COUNT = error(
     "positions_count",
-    "The positions along {axis} in “{file}” must be one row of numbers, {samples} as the scan has samples there, and "
+    "The positions along {axis} in “{file}” must be one row of numbers, {samples} as the scan has "
+    "samples there, and "
     "at least 2; the file has {array}. Save one for each sample, or leave it out.",
 )
 POSITIONS_NOT_ASCENDING = error(
     "positions_not_ascending",
-    "Position {place} along {axis} in “{file}” is not a finite number greater than the one before; the first is "
+    "Position {place} along {axis} in “{file}” is not a finite number greater than the one before; "
+    "the first is "
     "position 0. Correct it, or sort the positions, and the samples with them.",
 )

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scans and arrays of samples in files, by their suffix; places of samples: a matrix, or files of uneven positions."""
+"""Scans and arrays of samples in files, by their suffix; places of samples: a matrix, or files of
+uneven positions.
+"""
 
 from __future__ import annotations
 
@@ -10,13 +12,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arguments import check_type, float_array
-from ..verdict.finding import FileError, Finding, finding
-from .findings import (
+from ..files.damage import wrong_field
+from ..files.findings import (
     FILE_MISSING,
     FILE_NOT_REGULAR,
     FILE_TYPE,
     NAMED_FILE_MISSING,
+)
+from ..files.limits import DEFAULT_LIMITS, Limits
+from ..numerics.arguments import check_type, float_array
+from ..verdict.finding import FileError, Finding, finding
+from .findings import (
     POSITIONS_COUNT,
     POSITIONS_NOT_ASCENDING,
     SCAN_OUT_OF_MEMORY,
@@ -27,8 +33,8 @@ from .findings import (
 from .nifti import read_nifti
 from .nrrd import read_nrrd
 from .numpy_files import map_array, read_named_raw, read_npy, read_npz
-from .scan import Scan, wrong_field
-from .scan_files import DEFAULT_LIMITS, SUFFIXES, Limits, scan_suffix
+from .scan import Scan
+from .scan_files import SUFFIXES, scan_suffix
 
 READERS: dict[str, Callable[[Path, Limits], Scan]] = dict(
     zip(
@@ -46,7 +52,7 @@ EVEN: Positions = (None, None, None)
 
 
 def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
-    """Read the scan in a file, by its suffix: NRRD, NIfTI-1, .npy, .npz, or .raw called NAME_XxYxZ_TYPE.raw.
+    """Read the scan in a file: NRRD, NIfTI-1, .npy, .npz, or .raw called NAME_XxYxZ_TYPE.raw.
 
     Parameters
     ----------
@@ -130,7 +136,8 @@ def sample_matrix(
     Examples
     --------
     >>> from body_moments.core.scans import Scan, sample_matrix
-    >>> matrix, findings = sample_matrix(Scan(np.zeros((2, 2, 2)), np.eye(4)), (2.0, 2.0, 3.0), None, 0.001)
+    >>> scan = Scan(np.zeros((2, 2, 2)), np.eye(4))
+    >>> matrix, findings = sample_matrix(scan, (2.0, 2.0, 3.0), None, 0.001)
     >>> matrix.diagonal().tolist(), findings
     ([0.002, 0.002, 0.003, 1.0], ())
     """
@@ -159,7 +166,10 @@ def sample_matrix(
 
 
 def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float64]:
-    """Return the (count,) ascending positions of samples along an axis from a .npy file. Raises FileError, OSError."""
+    """Return the (count,) ascending positions of samples along an axis from a .npy file.
+
+    Raises FileError, OSError.
+    """
     path = Path(path)
     whose = {"file": path.name, "axis": axis}
     if not path.is_file():
@@ -178,7 +188,10 @@ def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float6
 
 
 def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) -> Positions:
-    """Return the positions along each axis that has a file. Raises the errors of `read_positions`."""
+    """Return the positions along each axis that has a file.
+
+    Raises the errors of `read_positions`.
+    """
     x, y, z = (
         read_positions(files[axis], axis, count) if axis in files else None
         for axis, count in zip(AXES, shape)
@@ -189,11 +202,13 @@ def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) ->
 def place_samples(
     matrix: NDArray, positions: Positions, unit: float
 ) -> tuple[NDArray[np.float64], Positions]:
-    """Put samples at positions along their axes' own directions; return the new (4, 4) matrix and the positions.
+    """Put samples at positions along their axes' own directions; return the new (4, 4) matrix and
+    the positions.
 
-    `matrix` puts the regular sample (i, j, k) at matrix @ (i, j, k, 1). `positions` are (n,) coordinates along each of
-    the three axes, in place of its spacing and origin, or None; their `unit` is in units of the matrix. The returned
-    positions are relative to the first, so that they keep all digits: sample k stands at matrix @ (…, positions[k], 1).
+    `matrix` puts the regular sample (i, j, k) at matrix @ (i, j, k, 1). `positions` are (n,)
+    coordinates along each of the three axes, in place of its spacing and origin, or None; their
+    `unit` is in units of the matrix. The returned positions are relative to the first, so that they
+    keep all digits: sample k stands at matrix @ (…, positions[k], 1).
     """
     matrix = matrix.copy()
     if not any(row is not None for row in positions):

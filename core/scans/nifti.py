@@ -12,11 +12,19 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.damage import damaged, wrong_field
+from ..files.findings import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED
+from ..files.limits import Limits
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import FileError
-from .findings import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
-from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samples, wrong_field
-from .scan_files import Limits
+from .findings import SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
+from .scan import (
+    Scan,
+    gzip_blocks,
+    map_samples,
+    shape_of,
+    unpack_samples,
+)
 
 HEADER = 348  # bytes
 TYPES = {
@@ -85,7 +93,9 @@ def _head(path: Path, packed: bool) -> bytes:
 
 
 def _sample_matrix(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
-    """Return the matrix of the samples (affine, else quaternion, else spacing), and whether the header states it."""
+    """Return the matrix of the samples (affine, else quaternion, else spacing), and whether the
+    header states it.
+    """
     matrix = np.eye(4)
     pixdim = struct.unpack_from(order + "8f", head, 76)
     qform, sform = struct.unpack_from(order + "2h", head, 252)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""NRRD files, http://teem.sourceforge.net/nrrd/format.html: samples raw or packed by gzip, attached or detached."""
+"""NRRD files, http://teem.sourceforge.net/nrrd/format.html: samples raw or packed by gzip, attached
+or detached.
+"""
 
 from __future__ import annotations
 
@@ -13,19 +15,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..verdict.finding import FileError
-from ..verdict.number_text import parse_number, parse_whole
-from .findings import (
+from ..files.damage import damaged
+from ..files.findings import (
     DAMAGE_CUT_SHORT,
     FILE_UNRECOGNIZED,
     HEADER_FIELD,
     NAMED_FILE_MISSING,
-    NRRD_DATA_FILE_OUTSIDE,
-    SCAN_IN_SEVERAL_FILES,
-    SCAN_SAMPLE_TYPE,
 )
-from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
-from .scan_files import Limits
+from ..files.limits import Limits
+from ..files.number_text import parse_number, parse_whole
+from ..verdict.finding import FileError
+from .findings import NRRD_DATA_FILE_OUTSIDE, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
+from .scan import (
+    Scan,
+    map_samples,
+    shape_of,
+    unpack_samples,
+)
 
 HEADER_BLOCK = 1 << 16  # bytes of a header that are read at a time
 MAX_AXES = 16
@@ -44,7 +50,12 @@ UNITS = {
         for prefix, unit in _METERS.items()
         for name in ("meter", "meters", "metre", "metres")
     },
-    **{"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "nm": 1e-9, "km": 1e3},
+    "m": 1.0,
+    "dm": 0.1,
+    "cm": 1e-2,
+    "mm": 1e-3,
+    "nm": 1e-9,
+    "km": 1e3,
     **dict.fromkeys(("um", "\u00b5m", "\u03bcm", "micron", "microns"), 1e-6),
     **dict.fromkeys(("in", "inch", "inches"), 0.0254),
     **dict.fromkeys(("ft", "foot", "feet"), 0.3048),
@@ -81,7 +92,8 @@ TYPES = {
         "u2": "ushort,unsigned short,unsigned short int,uint16,uint16_t",
         "i4": "int,signed int,int32,int32_t",
         "u4": "uint,unsigned int,uint32,uint32_t",
-        "i8": "longlong,long long,long long int,signed long long,signed long long int,int64,int64_t",
+        "i8": "longlong,long long,long long int,signed long long,signed long long "
+        "int,int64,int64_t",
         "u8": "ulonglong,unsigned long long,unsigned long long int,uint64,uint64_t",
         "f4": "float",
         "f8": "double",
@@ -93,7 +105,10 @@ _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
 
 
 def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
-    """Return the fields by lower-case names, and the samples' offset, None if the file ends before. FileError."""
+    """Return the fields by lower-case names, and the samples' offset, None if the file ends before.
+
+    FileError.
+    """
     head = bytearray()
     end = None
     with open(path, "rb") as file:
@@ -149,7 +164,8 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
     if encoding not in ("raw", "gzip", "gz"):
         raise _field(fields, "encoding", "raw or gzip")
     line_skip = _skip(fields, "line skip", 0)
-    # The samples are the last bytes of a file if the skip is -1; compressed ones are counted from their start.
+    # The samples are the last bytes of a file if the skip is -1; compressed ones are counted from
+    # their start.
     byte_skip = _skip(fields, "byte skip", -1 if encoding == "raw" else 0)
     source, start = _samples_start(path, data_file(fields), start, limits)
     if line_skip:
@@ -166,7 +182,9 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
 def _samples_start(
     path: Path, name: str | None, start: int | None, limits: Limits
 ) -> tuple[Path, int]:
-    """Return the file that has the samples, and their offset in it. name: of a separate file, None for this one."""
+    """Return the file that has the samples, and their offset in it. name: of a separate file, None
+    for this one.
+    """
     if name is None:
         if start is None:
             raise damaged(path, DAMAGE_CUT_SHORT, part="header")
@@ -205,7 +223,9 @@ def _skip(fields: dict[str, str], name: str, least: int) -> int:
 
 
 def _alias(fields: dict[str, str], name: str) -> str:
-    """Return the name of a field as the header has it: NRRD fields may be written without their space."""
+    """Return the name of a field as the header has it: NRRD fields may be written without their
+    space.
+    """
     return name if name in fields else name.replace(" ", "")
 
 
@@ -221,7 +241,9 @@ def _skip_lines(path: Path, start: int, count: int, limits: Limits) -> int:
 def _sample_matrix(
     fields: dict[str, str], shape: tuple[int, int, int]
 ) -> tuple[NDArray[np.float64], bool, float | None]:
-    """Return the matrix of the sample positions, whether the header states the spacing, and the matrix's unit."""
+    """Return the matrix of the sample positions, whether the header states the spacing, and the
+    matrix's unit.
+    """
     matrix = np.eye(4)
     field = _alias(fields, "space units") if _alias(fields, "space units") in fields else "units"
     units, unit = _units(fields, field)
@@ -256,7 +278,9 @@ def _sample_matrix(
 
 
 def _units(fields: dict[str, str], field: str) -> tuple[NDArray[np.float64] | None, float | None]:
-    """Return the (3,) units of three axes in meters, None if one is unknown; and the one unit if they are equal."""
+    """Return the (3,) units of three axes in meters, None if one is unknown; and the one unit if
+    they are equal.
+    """
     words = [
         (quoted or word).strip() for quoted, word in _WORD.findall(fields.get(field, "").lower())
     ]
@@ -271,12 +295,13 @@ def _units(fields: dict[str, str], field: str) -> tuple[NDArray[np.float64] | No
 def _even_axes(
     fields: dict[str, str], shape: tuple[int, int, int]
 ) -> tuple[list[float] | None, list[float]]:
-    """Return the spacing along each axis, None if the header states none, and the position of the first sample.
+    """Return the spacing along each axis, None if the header states none, and the position of the
+    first sample.
 
-    A spacing that is not stated follows from the axis' minimum and maximum: they are the outer faces of the first and
-    last sample on axes of cells, and their centers on axes of nodes. If neither is stated, the distance of the minimum
-    and maximum tells them apart; without spacing, cells are assumed, as by the format's own library. The last resort is
-    the thickness.
+    A spacing that is not stated follows from the axis' minimum and maximum: they are the outer
+    faces of the first and last sample on axes of cells, and their centers on axes of nodes. If
+    neither is stated, the distance of the minimum and maximum tells them apart; without spacing,
+    cells are assumed, as by the format's own library. The last resort is the thickness.
     """
     names = "spacings", "axis mins", "axis maxs", "thicknesses"
     stated, lows, highs, thicknesses = (_per_axis(fields, name) for name in names)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, described by the file's name."""
+"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, described by the file's
+name.
+"""
 
 from __future__ import annotations
 
@@ -15,16 +17,18 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.damage import check_length, damaged
+from ..files.findings import DAMAGE_INCOMPLETE, OTHERS_LEFT_OUT
+from ..files.limits import DEFAULT_LIMITS, Limits
 from ..verdict.finding import FileError, finding
-from .findings import (
-    DAMAGE_INCOMPLETE,
-    OTHERS_LEFT_OUT,
-    RAW_WITHOUT_LAYOUT,
-    SCAN_SAMPLE_TYPE,
-    SCAN_SIZE,
+from .findings import RAW_WITHOUT_LAYOUT, SCAN_SAMPLE_TYPE, SCAN_SIZE
+from .scan import (
+    Scan,
+    map_samples,
+    real_samples,
+    shape_of,
 )
-from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
-from .scan_files import DEFAULT_LIMITS, SAMPLE_TYPES, Limits
+from .scan_files import SAMPLE_TYPES
 
 ENTRY = b"PK\1\2"  # first bytes of an entry in a zip archive's directory
 MAX_ARRAY_HEADER = 10_000  # bytes, like numpy.load
@@ -36,7 +40,10 @@ def read_npy(path: Path, _limits: Limits) -> Scan:
 
 
 def map_array(path: Path) -> NDArray:
-    """Return the memory map of an array of any type but objects. Raises OSError, and FileError for other contents."""
+    """Return the memory map of an array of any type but objects.
+
+    Raises OSError, and FileError for other contents.
+    """
     with open(path, "rb") as file:
         start = file.read(12)
     with _damage(path, "NumPy array"):
@@ -47,7 +54,9 @@ def map_array(path: Path) -> NDArray:
 
 
 def read_npz(path: Path, limits: Limits) -> Scan:
-    """Read the array called “density”, else the first of three dimensions; only the headers of the others are read."""
+    """Read the array called “density”, else the first of three dimensions; only the headers of the
+    others are read.
+    """
     with _archive(path, limits) as (archive, shapes):
         volumes = [name for name, shape in shapes.items() if len(shape) == 3]
         if not volumes:
@@ -63,7 +72,10 @@ def read_npz(path: Path, limits: Limits) -> Scan:
 
 
 def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, NDArray]:
-    """Return the arrays of an .npz file with these names, of any type but objects. Raises FileError and OSError."""
+    """Return the arrays of an .npz file with these names, of any type but objects.
+
+    Raises FileError and OSError.
+    """
     with _archive(path, limits) as (archive, shapes):
         return {name: _unpack(archive, path, name, limits) for name in names if name in shapes}
 
@@ -72,7 +84,10 @@ def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, N
 def _archive(
     path: Path, limits: Limits
 ) -> Iterator[tuple[zipfile.ZipFile, dict[str, tuple[int, ...]]]]:
-    """Yield an open archive, and the shapes of its arrays by name. Exceptions in the block become FileErrors."""
+    """Yield an open archive, and the shapes of its arrays by name.
+
+    Exceptions in the block become FileErrors.
+    """
     with (
         open(path, "rb") as file,
         _damage(path, "archive of NumPy arrays"),
@@ -110,14 +125,19 @@ def _unpack(archive: zipfile.ZipFile, path: Path, name: str, limits: Limits) -> 
 
 
 def _check_array_header(start: bytes) -> None:
-    """Raise ValueError if an array's header is too long, because NumPy would read gigabytes of it before it refuses."""
+    """Raise ValueError if an array's header is too long, because NumPy would read gigabytes of it
+    before it refuses.
+    """
     length = start[8 : 10 if start[6:7] == b"\1" else 12]
     if int.from_bytes(length, "little") > MAX_ARRAY_HEADER:
         raise ValueError("length of header")
 
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
-    """Return an array's shape. ValueError if its entry is longer, because reading would not reach the checksum."""
+    """Return an array's shape.
+
+    ValueError if its entry is longer, because reading would not reach the checksum.
+    """
     with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # has `peek`
         _check_array_header(file.peek(12))
         version = np.lib.format.read_magic(file)
@@ -142,7 +162,9 @@ def read_raw(
     big_endian: bool = False,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Scan:
-    """Read samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of SAMPLE_TYPES."""
+    """Read samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of
+    SAMPLE_TYPES.
+    """
     if dtype not in SAMPLE_TYPES:
         raise FileError(SCAN_SAMPLE_TYPE, type=dtype)
     kind = np.dtype(dtype).newbyteorder(">" if big_endian else "<")

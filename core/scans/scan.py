@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The samples of a scan in a file: a memory map if they are not packed, so that they may be larger than memory.
+"""The samples of a scan in a file: a memory map if they are not packed, so that they may be larger
+than memory.
 
-A header is compared with the size of the file, and packed samples with their checksum, before they are used.
-Every fault of a file is a FileError that names the fault.
+A header is compared with the size of the file, and packed samples with their checksum, before they
+are used. Every fault of a file is a FileError that names the fault.
 """
 
 from __future__ import annotations
@@ -13,22 +14,19 @@ import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..verdict.finding import FileError, Finding, finding
-from .findings import (
+from ..files.damage import check_length, damaged
+from ..files.findings import (
     DAMAGE_CUT_SHORT,
     DAMAGE_INCOMPLETE,
     DAMAGE_SIZE,
-    FILE_DAMAGED,
-    HEADER_FIELD,
-    SCAN_SAMPLE_TYPE,
-    SCAN_SIZE,
 )
-from .scan_files import Limits
+from ..files.limits import Limits
+from ..verdict.finding import FileError, Finding
+from .findings import SCAN_SAMPLE_TYPE, SCAN_SIZE
 
 MAX_GZIP_RATIO = 1032  # Most bytes that one byte of a gzip file can unpack to.
 PACKED = 1 << 16  # Packed bytes read at a time; the rest after each small member is copied.
@@ -92,32 +90,12 @@ def real_samples(array: NDArray) -> NDArray:
     return array
 
 
-def damaged(path: Path, code: str, **values: Any) -> FileError:
-    """Return the error for a damaged file, with the code of the fault."""
-    return FileError(FILE_DAMAGED, file=path.name, cause=finding(code, **values).as_record())
-
-
-def wrong_field(format: str, name: str, wanted: str, *values: float) -> FileError:
-    """Return the error for numbers of a header's field."""
-    return FileError(
-        HEADER_FIELD,
-        format=format,
-        field=name,
-        wanted=wanted,
-        text=" ".join(map("{:g}".format, values)),
-    )
-
-
-def check_length(path: Path, held: int, wanted: int) -> None:
-    """Raise FileError unless a file holds exactly the bytes of its samples; more bytes mean wrong sizes."""
-    if held != wanted:
-        raise damaged(path, DAMAGE_SIZE, bytes=held, total=wanted)
-
-
 def map_samples(
     path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False
 ) -> NDArray:
-    """Return a memory map of samples, x fastest, from byte `offset` on, or at the end of the file if `from_end`."""
+    """Return a memory map of samples, x fastest, from byte `offset` on, or at the end of the file
+    if `from_end`.
+    """
     size = path.stat().st_size
     byte_count = dtype.itemsize * math.prod(shape)
     if from_end:
@@ -129,7 +107,9 @@ def map_samples(
 def unpack_samples(
     path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int, limits: Limits
 ) -> NDArray:
-    """Return samples, x fastest, gzipped from byte `start` on, without the first `skip` bytes; check all checksums."""
+    """Return samples, x fastest, gzipped from byte `start` on, without the first `skip` bytes;
+    check all checksums.
+    """
     byte_count = dtype.itemsize * math.prod(shape)
     total = skip + byte_count
     room = MAX_GZIP_RATIO * path.stat().st_size
@@ -151,8 +131,9 @@ def unpack_samples(
 def gzip_blocks(path: Path, start: int) -> Iterator[bytes]:
     """Yield the unpacked data from byte `start` of a file on, in blocks of at most BLOCK bytes.
 
-    zlib compares the checksum and the length of each member. Zero bytes behind a member are padding; anything else
-    there, which the gzip tool ignores with a warning, is damage: it may have been a member of samples.
+    zlib compares the checksum and the length of each member. Zero bytes behind a member are
+    padding; anything else there, which the gzip tool ignores with a warning, is damage: it may have
+    been a member of samples.
     """
     with open(path, "rb") as file:
         file.seek(start)

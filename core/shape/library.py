@@ -18,7 +18,8 @@ from ..verdict.finding import FileError, Finding, finding
 from .findings import LIBRARY_LINE, RECORD_WITHOUT_SHAPE, RECORD_WITHOUT_SIGNATURE
 from .signatures import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
 
-# signatures nearer than this are one shape's: some float32 steps, and no more than a careless export
+# signatures nearer than this are one shape's: some float32 steps, and no more than a careless
+# export
 SAME_SHAPE_DISTANCE = 1e-4
 SAME_SIZE_RTOL = 1e-4
 MAX_LINE_BYTES = 1 << 28
@@ -61,7 +62,7 @@ def _label(file: str, name: str) -> str:
 
 
 def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
-    """Read a library of signatures: JSON lines, as ``measure --signature --format jsonl`` writes them.
+    """Read a library of signatures, JSON lines of ``measure --signature --format jsonl``.
 
     Parameters
     ----------
@@ -149,7 +150,8 @@ def rank(
     >>> from body_moments.core.polyhedron import polyhedron_moments
     >>> from body_moments.core.shape import rank, signature
     >>> from body_moments.core.shape.library import Entry
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> bodies = []
     >>> for name, map in (("wide", np.diag([3.0, 1.0, 1.0])), ("same", np.eye(3))):
     ...     moments = polyhedron_moments(surface.transform(map), 20)[0].about_center()

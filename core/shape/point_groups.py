@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The finite groups that a surface of triangles may have, by its corners.
 
-A corner farthest from the center is a corner in every triangulation, and a symmetry takes it to another such corner.
-The same holds for a corner farthest from the line through the first. Two pairs of such corners fix a rotation, and a
-rotation with a mirror. So every symmetry is a candidate, whatever moments show.
+A corner farthest from the center is a corner in every triangulation, and a symmetry takes it to
+another such corner. The same holds for a corner farthest from the line through the first. Two pairs
+of such corners fix a rotation, and a rotation with a mirror. So every symmetry is a candidate,
+whatever moments show.
 
-A candidate holds if images of all corners are near the surface, and each crease lies on a crease between such corners,
-or points of it and of the triangles lie on the surface. It is refuted by a point whose image is far from the surface.
-Candidates that neither hold nor are refuted leave a choice of groups.
+A candidate holds if images of all corners are near the surface, and each crease lies on a crease
+between such corners, or points of it and of the triangles lie on the surface. It is refuted by a
+point whose image is far from the surface. Candidates that neither hold nor are refuted leave a
+choice of groups.
 """
 
 from __future__ import annotations
@@ -40,9 +42,11 @@ CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation near
 
 
 class PlacedTriangles:
-    """Triangles about the center of a body, and the distances by which maps take them from themselves.
+    """Triangles about the center of a body, and the distances by which maps take them from
+    themselves.
 
-    Maps that take no point farther than `near` from the surface hold; maps that take one farther than `far` do not.
+    Maps that take no point farther than `near` from the surface hold; maps that take one farther
+    than `far` do not.
     """
 
     def __init__(self, points: NDArray, triangles: NDArray, near: float, far: float):
@@ -87,7 +91,8 @@ class PlacedTriangles:
         )
 
     def groups(self) -> list[NDArray[np.float64]] | None:
-        """Return the (k, 3, 3) operations of the group, then of larger possible ones; None if there are too many.
+        """Return the (k, 3, 3) operations of the group, then of larger possible ones; None if there
+        are too many.
 
         These are the groups at tolerances that grow from near to far.
         """
@@ -121,7 +126,9 @@ class PlacedTriangles:
         return [operations[mask] for mask, _ in found]
 
     def turn_order(self, axis: NDArray) -> int:
-        """Return the number of corners on the outermost ring about an axis if turns by one corner hold, or 1."""
+        """Return the number of corners on the outermost ring about an axis if turns by one corner
+        hold, or 1.
+        """
         height = self.points @ axis
         radius = lengths(self.points - np.outer(height, axis))[:, 0]
         outer = radius.argmax()
@@ -141,7 +148,9 @@ class PlacedTriangles:
         return all(self.holds(turn, tolerance) for turn in turns)
 
     def _candidates(self) -> NDArray[np.float64] | None:
-        """Return (k, 3, 3) maps of corners to corners, the identity first, then by their angles; None if too many."""
+        """Return (k, 3, 3) maps of corners to corners, the identity first, then by their angles;
+        None if too many.
+        """
         radius = lengths(self.points)[:, 0]
         outer = self._distinct(np.flatnonzero(radius >= radius.max() - 2.0 * self.far))
         if len(outer) > MAX_CORNERS:
@@ -197,7 +206,9 @@ class PlacedTriangles:
         return self.points[np.unique(self._first[rows])]
 
     def _misfit(self, operation: NDArray) -> float:
-        """Return the largest distance of images from the surface; infinity if one is far from it."""
+        """Return the largest distance of images from the surface; infinity if one is far from
+        it.
+        """
         for rows in (self._witnesses, None):
             images = (self.points if rows is None else self.points[rows]) @ operation.T
             match = self._match(images)
@@ -239,7 +250,9 @@ class PlacedTriangles:
 
     @cached_property
     def _creases(self) -> tuple[NDArray[np.intp], NDArray[np.int64]]:
-        """(k, 3) corners of triangles with a crease at the first two corners, and the creases' sorted codes."""
+        """(k, 3) corners of triangles with a crease at the first two corners, and the creases'
+        sorted codes.
+        """
         place = self._first[self.triangles]
         count = len(self.triangles)
         code = np.concatenate([self._edge_codes(place[:, [i, i - 1]]) for i in range(3)])
@@ -263,21 +276,27 @@ class PlacedTriangles:
         return corners, np.sort(code[is_crease])
 
     def _edge_codes(self, corners: NDArray[np.intp]) -> NDArray[np.int64]:
-        """Return (k,) numbers of edges by (k, 2) numbers of corners, negative for edges with a corner -1."""
+        """Return (k,) numbers of edges by (k, 2) numbers of corners, negative for edges with a
+        corner -1.
+        """
         low = np.minimum(*corners.T)
         high = np.maximum(*corners.T)
         return np.where(low < 0, -1, low * len(self.points) + high)
 
 
 def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
-    """Return (k, 3, 3) rotations with `first` as column 0, and `second` in the plane of columns 0 and 1."""
+    """Return (k, 3, 3) rotations with `first` as column 0, and `second` in the plane of columns 0
+    and 1.
+    """
     second = second - (second * first).sum(axis=1)[:, None] * first
     second = second / lengths(second)
     return np.stack([first, second, cross_rows(first, second)], axis=2)
 
 
 def _nearest(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
-    """Return (k,) indices of the first operation that each product equals up to noise, -1 if there is none."""
+    """Return (k,) indices of the first operation that each product equals up to noise, -1 if there
+    is none.
+    """
     found = np.empty(len(products), np.intp)
     flat = operations.reshape(-1, 9).T
     step = max(1, PAIRS_PER_BLOCK // max(1, len(operations)))
@@ -291,7 +310,8 @@ def _nearest(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
 def _closed(
     operations: NDArray, mask: NDArray[np.bool_], generators: list[int], refuted: NDArray[np.bool_]
 ) -> NDArray[np.bool_] | None:
-    """Return the mask of the group of all generators, which includes the masked group; None if one is refuted.
+    """Return the mask of the group of all generators, which includes the masked group; None if one
+    is refuted.
 
     Coset by coset: a generator takes a coset of the masked group to a coset.
     """

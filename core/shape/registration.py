@@ -2,16 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Registration of one body onto another by their poses, and the residual between them.
 
-The pose leaves as many choices as the body has rotations, and all of them are tried. So are half turns about the
-axes, as noise may decide a sign. The residual is measured on the surfaces, in both directions, so that neither may be
-a part of the other; if a few points are farther apart than all points under a better rotation, the
-other points are skipped. A mirror image is recognized as such: a reflection fits, and no rotation does.
+The pose leaves as many choices as the body has rotations, and all of them are tried. So are half
+turns about the axes, as noise may decide a sign. The residual is measured on the surfaces, in both
+directions, so that neither may be a part of the other; if a few points are farther apart than all
+points under a better rotation, the other points are skipped. A mirror image is recognized as such:
+a reflection fits, and no rotation does.
 
-Flat shapes are turned in their planes, with front on front; the rotations and mirror lines of one flat shape follow in
-the same way. Turned by θ about the centroid, a shape's Zernike moments A_nm get the factor exp(-imθ). So the overlap of
-two shapes is, as far as these moments see, a trigonometric polynomial of θ, Re Σ conj(B_nm) A_nm exp(-imθ). Its maxima
-are the rotations that may lay one onto the other; the outlines decide. With conj(A_nm) the mirror image is turned
-instead.
+Flat shapes are turned in their planes, with front on front; the rotations and mirror lines of one
+flat shape follow in the same way. Turned by θ about the centroid, a shape's Zernike moments A_nm
+get the factor exp(-imθ). So the overlap of two shapes is, as far as these moments see, a
+trigonometric polynomial of θ, Re Σ conj(B_nm) A_nm exp(-imθ). Its maxima are the rotations that may
+lay one onto the other; the outlines decide. With conj(A_nm) the mirror image is turned instead.
 """
 
 from __future__ import annotations
@@ -32,10 +33,12 @@ from ..numerics.arrays import distinct_arrays
 from .symmetries import Symmetry
 from .zernike import degrees
 
-EQUAL_RESIDUAL_RTOL = 1e-4  # relative to the size: residuals nearer than this are equal, and the smallest turn is taken
+# relative to the size: residuals nearer than this are equal, and the smallest turn is taken
+EQUAL_RESIDUAL_RTOL = 1e-4
 MAX_FIT_RTOL = 1e-3  # relative to the size: below, a body lies on the other one
 FIRST_COMPARED = 32  # points of each surface that are compared first
-MIRROR_SHARE = 0.2  # a reflection that leaves less than this share of what rotations leave means a mirror image
+# a reflection that leaves less than this share of what rotations leave means a mirror image
+MIRROR_SHARE = 0.2
 Residual = Callable[[NDArray, int | None], NDArray]
 ANGLES = 720  # at which overlaps are sampled
 MAX_CANDIDATES = 24  # rotations, the largest overlaps first, that are compared by outlines
@@ -69,9 +72,9 @@ class RigidMatch:
 def match(source: Moments, target: Moments, residual: Residual, size: float) -> RigidMatch:
     """Find the rotation that lays one body onto another, both about their centers.
 
-    source, target: central moments, to the order of a pose. residual: (map, count) to (n,) distances that an orthogonal
-    (3, 3) map of the source leaves: of all points if count is None, otherwise of about `count` points. size: the
-    target's.
+    source, target: central moments, to the order of a pose. residual: (map, count) to (n,)
+    distances that an orthogonal (3, 3) map of the source leaves: of all points if count is None,
+    otherwise of about `count` points. size: the target's.
     """
     first = equivalent_frames(source).frames[0]
 
@@ -83,7 +86,9 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
 
 
 def _best_match(maps: Callable[[bool], NDArray], residual: Residual, size: float) -> RigidMatch:
-    """Return the best of the rotations that `maps` returns, and compare it with the reflections, for True."""
+    """Return the best of the rotations that `maps` returns, and compare it with the reflections,
+    for True.
+    """
     rotation, distances = _best_map(maps(False), residual, size)
     largest = float(distances.max())
     mirrored = largest > MAX_FIT_RTOL * size and bool(
@@ -93,7 +98,9 @@ def _best_match(maps: Callable[[bool], NDArray], residual: Residual, size: float
 
 
 def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np.float64]:
-    """Return the (k, 3, 3) rotations from a frame of the source to the frames of the target and their half turns."""
+    """Return the (k, 3, 3) rotations from a frame of the source to the frames of the target and
+    their half turns.
+    """
     frames = (target.frames[:, None] * HALF_TURN_SIGNS[:, None, :]).reshape(-1, 3, 3)
     frames = np.array(
         [
@@ -105,7 +112,9 @@ def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np
 
 
 def _best_map(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
-    """Return that of (k, 3, 3) maps with the least residual, else the smallest turn, and its distances."""
+    """Return that of (k, 3, 3) maps with the least residual, else the smallest turn, and its
+    distances.
+    """
     least = np.array([residual(way, FIRST_COMPARED).max() for way in candidates])
     worst = np.full(len(candidates), np.inf)
     distances = {}
@@ -122,10 +131,12 @@ def _best_map(candidates: NDArray, residual: Residual, size: float) -> tuple[NDA
 def match_flat(
     source: NDArray, target: NDArray, axes: tuple[NDArray, NDArray], residual: Residual, size: float
 ) -> RigidMatch:
-    """Find the rotation that lays one flat shape onto another, about their centroids and front on front.
+    """Find the rotation that lays one flat shape onto another, about their centroids and front on
+    front.
 
-    `source` and `target` are the `disc_zernike` of both to one order, in discs of one radius, `axes` those of their
-    planes: x, y and the normal as columns. `residual` is as for `match`; `size` is the target's.
+    `source` and `target` are the `disc_zernike` of both to one order, in discs of one radius,
+    `axes` those of their planes: x, y and the normal as columns. `residual` is as for `match`;
+    `size` is the target's.
     """
     start, end = axes
 
@@ -139,16 +150,18 @@ def match_flat(
 def flat_symmetry(
     zernike: NDArray, order: int, points: NDArray, axes: NDArray, holds: Holds
 ) -> Symmetry:
-    """Find the rotations about its centroid and the mirror lines of a flat shape: Cn or Cnv, C∞v if it is round.
+    """Find the rotations about its centroid and the mirror lines of a flat shape: Cn or Cnv, C∞v if
+    it is round.
 
-    Rotations are about the normal, mirror planes across the plane. `zernike` is the `disc_zernike` to `order`, `points`
-    are the (n, 2) outlines, both about the centroid. `axes` are the plane's x, y and normal as columns.
-    `holds` returns True if a map of these axes takes the shape to itself.
+    Rotations are about the normal, mirror planes across the plane. `zernike` is the `disc_zernike`
+    to `order`, `points` are the (n, 2) outlines, both about the centroid. `axes` are the plane's x,
+    y and normal as columns. `holds` returns True if a map of these axes takes the shape to itself.
     """
     everything = np.array([np.eye(3), MIRROR])
     if all(holds(turn) for turn in turns_about_normal(np.array(ROUND_ANGLES))):
         return Symmetry(axes @ everything @ axes.T, axes[:, 2][None], order)
-    # The tolerance may let a turn by about the right angle pass, but not turns by several times that.
+    # The tolerance may let a turn by about the right angle pass, but not turns by several times
+    # that.
     fold = next(
         n
         for n in range(MAX_AXIS_ORDER, 0, -1)
@@ -164,7 +177,9 @@ def flat_symmetry(
 
 
 def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> Holds:
-    """Return a test that images of (n, 3) points, about the centroid, are within the tolerance of the outline."""
+    """Return a test that images of (n, 3) points, about the centroid, are within the tolerance of
+    the outline.
+    """
     some = points[:: 1 + len(points) // FIRST_SAMPLES]
 
     def holds(operation: NDArray) -> bool:
@@ -174,7 +189,9 @@ def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> H
 
 
 def holds_by_moments(zernike: NDArray, order: int, tolerance: float) -> Holds:
-    """Return a test that the image's moments differ from the shape's by at most `tolerance` of their norm."""
+    """Return a test that the image's moments differ from the shape's by at most `tolerance` of
+    their norm.
+    """
     m = np.array([m for _, m in degrees(order)])
     size = np.linalg.norm(zernike)
 
@@ -197,7 +214,9 @@ def turns_about_normal(angles: NDArray) -> NDArray[np.float64]:
 
 
 def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
-    """Return (k, 3, 3) reflections that may take a shape to itself: by moments, and by its outermost corners."""
+    """Return (k, 3, 3) reflections that may take a shape to itself: by moments, and by its
+    outermost corners.
+    """
     radius = np.hypot(*points.T)
     outer = points[radius > (1.0 - 1e-4) * radius.max()]
     corners = np.arctan2(*outer.T[::-1])
@@ -207,7 +226,9 @@ def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
 
 
 def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
-    """Return the (k,) angles of the largest overlap of the turned source with the target, the largest first."""
+    """Return the (k,) angles of the largest overlap of the turned source with the target, the
+    largest first.
+    """
     order = next(n for n in count() if len(degrees(n)) == len(source))
     m = np.array([m for _, m in degrees(order)])
     terms = target.conj() * source

@@ -2,21 +2,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers that find a shape again, however it is moved, turned, scaled, mirrored or cut into faces.
 
-    invariants   of central moments to sixth order, over V s^n with the radius of gyration s: the products
-                 Σ a_m conj(b_m) of harmonic moments of one degree l, and their couplings to a scalar in threes (Lo and
-                 Don, 3-D moment forms, PAMI 1989).
-    zernike      the norms ‖Ω_nl‖ in the ball about the center that just holds the body (see `zernike`).
-    fourier      the mean of |F(q)|² over all directions by V², at q = 1, 2, … over the ball's radius.
-    chirality    couplings in threes with degrees that add up to an odd number: a mirror image has the same with the
+    invariants   of central moments to sixth order, over V s^n with the radius of gyration s: the
+                 products
+                 Σ a_m conj(b_m) of harmonic moments of one degree l, and their couplings to a
+                 scalar in threes (Lo and Don, 3-D moment forms, PAMI 1989).
+    zernike      the norms ‖Ω_nl‖ in the ball about the center that just holds the body (see
+                 `zernike`).
+    fourier      the mean of |F(q)|² over all directions by V², at q = 1, 2, … over the ball's
+                 radius.
+    chirality    couplings in threes with degrees that add up to an odd number: a mirror image has
+                 the same with the
                  opposite sign, and a body that is its own mirror image has none.
 
-Size is kept apart, as the radius of gyration. The compared numbers are smooth in the shape: noise of the points changes
-it little, and nothing switches.
+Size is kept apart, as the radius of gyration. The compared numbers are smooth in the shape: noise
+of the points changes it little, and nothing switches.
 
-A flat shape has a front, and is seen from there: turned over it is its mirror image; a sheet has no front. Its
-`invariants` are c_pp, and the real parts of products of complex moments with p - q that add up to zero, c_a conj(c_b)
-and c_a c_b conj(c_c), of central moments over A s^n; `chirality` are the imaginary parts; `zernike` the |A_nm| in the
-disc about the centroid that just holds the shape.
+A flat shape has a front, and is seen from there: turned over it is its mirror image; a sheet has no
+front. Its `invariants` are c_pp, and the real parts of products of complex moments with p - q that
+add up to zero, c_a conj(c_b) and c_a c_b conj(c_c), of central moments over A s^n; `chirality` are
+the imaginary parts; `zernike` the |A_nm| in the disc about the centroid that just holds the shape.
 """
 
 from __future__ import annotations
@@ -51,7 +55,8 @@ from .zernike import (
 Key = tuple[int, int]  # (n, l) of a multiplet, or (p, q) of a complex moment of a flat shape, p ≥ q
 ARRAYS = "invariants", "zernike", "fourier", "chirality"
 INVARIANT_ORDER = 6
-COUPLED_ORDER = 4  # largest order of the moments that are coupled in threes; of a flat shape, of two of the three
+# largest order of the moments that are coupled in threes; of a flat shape, of two of the three
+COUPLED_ORDER = 4
 CHIRAL_ORDER = 6
 FREQUENCIES = np.arange(1.0, 13.0)  # frequencies that orders to 20 resolve to a millionth
 MAX_SIMILAR_DIFFERENCE = 0.1  # beyond this nobody would call two shapes similar
@@ -67,10 +72,10 @@ CLEAR_CHIRALITY_SHARE = 0.2
 class Signature:
     """Numbers that recognize a shape, however it is moved, rotated, scaled or cut into faces.
 
-    `size`: the radius of gyration, in the body's unit.
-    `invariants`, `zernike`, `fourier`, `chirality`: see the module; `fourier` is empty for moments of a surface.
-    `error`: an estimate of the rounding of the descriptors.
-    `dimension`: 3, or 2 for a flat shape (`flat_signature`), which is unlike every body.
+    `size`: the radius of gyration, in the body's unit. `invariants`, `zernike`, `fourier`,
+    `chirality`: see the module; `fourier` is empty for moments of a surface. `error`: an estimate
+    of the rounding of the descriptors. `dimension`: 3, or 2 for a flat shape (`flat_signature`),
+    which is unlike every body.
     """
 
     size: float
@@ -115,10 +120,9 @@ class Likeness:
     """The likeness of two bodies.
 
     `shape`: the difference of the shapes irrespective of size and hand, 0 for equal shapes.
-    `scale`: the second body's size divided by the first one's.
-    `chirality_difference`: the norm of the difference of their chiralities.
-    `is_mirror_image`: False also if neither has a hand, None if noise as large as the shapes' difference could make up
-    their hands.
+    `scale`: the second body's size divided by the first one's. `chirality_difference`: the norm of
+    the difference of their chiralities. `is_mirror_image`: False also if neither has a hand, None
+    if noise as large as the shapes' difference could make up their hands.
     """
 
     shape: float
@@ -129,8 +133,8 @@ class Likeness:
     def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
         """Return the norm of the differences of shape, size and hand, 0 for a copy.
 
-        The differences of size and of hand count as at most MAX_SIMILAR_DIFFERENCE, and not at all with `any_size` or
-        `any_hand`.
+        The differences of size and of hand count as at most MAX_SIMILAR_DIFFERENCE, and not at all
+        with `any_size` or `any_hand`.
         """
         size, hand = (
             MAX_SIMILAR_DIFFERENCE * tanh(abs(value) / MAX_SIMILAR_DIFFERENCE)
@@ -140,7 +144,10 @@ class Likeness:
 
 
 def _lengths(dimension: int) -> tuple[int, int]:
-    """Return the numbers of invariants and of chiralities of a signature. KeyError for an unknown dimension."""
+    """Return the numbers of invariants and of chiralities of a signature.
+
+    KeyError for an unknown dimension.
+    """
     bodies = 2 + len(_pairs()) + len(_even_triples()), len(_chiral_triples())
     couplings = len(_flat_pairs()) + len(_flat_triples())
     flat = INVARIANT_ORDER // 2 - 1 + couplings, int(_is_chiral().sum())
@@ -157,7 +164,8 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
     radius : float
         Radius of the ball about the center that just holds the body.
     zernike : dict, optional
-        The Zernike moments Ω_nlm in that ball if they are known otherwise; by default from the moments.
+        The Zernike moments Ω_nlm in that ball if they are known otherwise; by default from the
+        moments.
 
     Returns
     -------
@@ -165,13 +173,14 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
 
     Notes
     -----
-    Moment invariants (Lo and Don, PAMI 1989), 3-D Zernike descriptors (Novotni and Klein 2003), and the power of the
-    Fourier transform; see the module.
+    Moment invariants (Lo and Don, PAMI 1989), 3-D Zernike descriptors (Novotni and Klein 2003), and
+    the power of the Fourier transform; see the module.
 
     Examples
     --------
     >>> from body_moments.core import Surface, polyhedron_moments, signature
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> volume = polyhedron_moments(surface, 20)[0].about_center()
     >>> radius = float(np.linalg.norm(surface.points - volume.about, axis=1).max())
     >>> round(signature(volume, radius).size, 6)
@@ -183,7 +192,9 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
 
 
 def signatures(moments: Moments, radius: NDArray[np.float64]) -> list[Signature]:
-    """Return the signatures of a stack of shapes with balls of (n,) radii: as `signature` of each, to rounding."""
+    """Return the signatures of a stack of shapes with balls of (n,) radii: as `signature` of each,
+    to rounding.
+    """
     raw = np.ascontiguousarray(moments.raw.T)
     size = np.sqrt(np.trace(moments.second(), axis1=-2, axis2=-1) / raw[0])
     *arrays, error = _numbers(raw, moments, size, radius)
@@ -200,7 +211,9 @@ def _numbers(
 ) -> tuple[
     NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], PerBody
 ]:
-    """Return invariants, descriptors, power, chirality and error from moments (K, …), with the last axes of `raw`."""
+    """Return invariants, descriptors, power, chirality and error from moments (K, …), with the last
+    axes of `raw`.
+    """
     total = raw[0]
     order = min(moments.order, MAX_ORDER_BY_MOMENTS)
     degree = along_first(monomials(moments.order).sum(axis=1), raw)
@@ -240,9 +253,12 @@ def similarity(a: Signature, b: Signature) -> Likeness:
     >>> from body_moments.core.mesh import Surface
     >>> from body_moments.core.polyhedron import polyhedron_moments
     >>> from body_moments.core.shape import signature, similarity
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> small, large = (
-    ...     signature(polyhedron_moments(surface.transform(size * np.eye(3)), 20)[0].about_center(), size)
+    ...     signature(
+    ...         polyhedron_moments(surface.transform(size * np.eye(3)), 20)[0].about_center(), size
+    ...     )
     ...     for size in (1.0, 3.0)
     ... )
     >>> likeness = similarity(small, large)
@@ -290,7 +306,9 @@ def _couplings(
 
 
 def _multiplets(order: int) -> list[Key]:
-    """Return (n, l) of the harmonic moments of order 2 to `order` that a rotation changes: those with l > 0."""
+    """Return (n, l) of the harmonic moments of order 2 to `order` that a rotation changes: those
+    with l > 0.
+    """
     return [(n, l) for n, l in degrees(order) if l and n > 1]
 
 
@@ -327,7 +345,9 @@ def _can_couple(triple: tuple[Key, Key, Key]) -> bool:
 
 @lru_cache
 def _turning(order: int) -> list[Key]:
-    """Return (p, q) of the complex moments of order 2 to `order` that a rotation changes; first moments are zero."""
+    """Return (p, q) of the complex moments of order 2 to `order` that a rotation changes; first
+    moments are zero.
+    """
     return [(n - q, q) for n in range(2, order + 1) for q in range((n + 1) // 2)]
 
 
@@ -350,22 +370,27 @@ def _flat_triples() -> list[tuple[Key, Key, Key]]:
 
 
 def _sum(keys: tuple[Key, ...], plus: int) -> int:
-    """Return the sum of p - q over the first `plus` moments, minus the sum over all later moments."""
+    """Return the sum of p - q over the first `plus` moments, minus the sum over all later
+    moments.
+    """
     return sum((p - q) * (1 if i < plus else -1) for i, (p, q) in enumerate(keys))
 
 
 @lru_cache
 def _is_chiral() -> NDArray[np.bool_]:
-    """Return the mask of couplings that have an imaginary part: all but the squares of one moment."""
+    """Return the mask of couplings that have an imaginary part: all but the squares of one
+    moment.
+    """
     return np.array([a != b for a, b in _flat_pairs()] + [True] * len(_flat_triples()))
 
 
 def flat_signature(moments: Moments, radius: float) -> Signature:
     """Return the signature of a flat shape, of dimension 2.
 
-    moments: of area, about the centroid, with z = 0, to order 6 at least; orders above 20 are not used. radius: of the
-    disc about the centroid that just holds the shape. The invariants are Flusser's (Pattern Recognition 33, 2000), the
-    Zernike descriptors those of Khotanzad and Hong (PAMI 12, 1990).
+    moments: of area, about the centroid, with z = 0, to order 6 at least; orders above 20 are not
+    used. radius: of the disc about the centroid that just holds the shape. The invariants are
+    Flusser's (Pattern Recognition 33, 2000), the Zernike descriptors those of Khotanzad and Hong
+    (PAMI 12, 1990).
     """
     order = min(moments.order, MAX_ORDER_BY_MOMENTS)
     moments = moments.truncate(order)

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rotations and reflections about its center that take a body to itself.
 
-Moments give the candidates: a rotation takes one frame to another in which all moments, to some order, are the same
-(see `canonical_frame`), and a reflection takes a frame of the body to one of its mirror image. So every symmetry that
-the body has is a candidate; moments of higher order, or details smaller than noise, may rule some out again; the body's
-geometry decides (`point_groups`). The group is named by its Schoenflies symbol: C1 has no symmetry, D2h is a box, Oh a
-cube, C∞v a body of revolution, K a ball.
+Moments give the candidates: a rotation takes one frame to another in which all moments, to some
+order, are the same (see `canonical_frame`), and a reflection takes a frame of the body to one of
+its mirror image. So every symmetry that the body has is a candidate; moments of higher order, or
+details smaller than noise, may rule some out again; the body's geometry decides (`point_groups`).
+The group is named by its Schoenflies symbol: C1 has no symmetry, D2h is a box, Oh a cube, C∞v a
+body of revolution, K a ball.
 """
 
 from __future__ import annotations
@@ -27,7 +28,8 @@ from ..numerics.arrays import distinct_arrays
 
 EQUAL_OPERATION_ATOL = 1e-4  # matrices of one operation, known to noise, are equal to this
 
-# For groups by moments to sixth order, the lower groups whose bodies have the same moments to that order.
+# For groups by moments to sixth order, the lower groups whose bodies have the same moments to that
+# order.
 UNDECIDED = {
     "Oh": "O",
     "Ih": "I",
@@ -43,8 +45,8 @@ UNDECIDED = {
 class Symmetry:
     """Rotations and reflections about the center that take a body to itself.
 
-    `operations`: (k, 3, 3) the finite ones, orthogonal, the identity among them.
-    `revolution_axes`: (1, 3) the axis about which every rotation is a symmetry; (0, 3) none, (3, 3) all directions.
+    `operations`: (k, 3, 3) the finite ones, orthogonal, the identity among them. `revolution_axes`:
+    (1, 3) the axis about which every rotation is a symmetry; (0, 3) none, (3, 3) all directions.
     `order`: the order of the moments it was found from, or of harmonics about an axis.
     """
 
@@ -110,8 +112,8 @@ def symmetry(
     noise : float
         As for `equivalent_frames`.
     axial : callable, optional
-        Returns the harmonics about the third axis of a (3, 3) frame; called if the moments are those of a body of
-        revolution, about its axis.
+        Returns the harmonics about the third axis of a (3, 3) frame; called if the moments are
+        those of a body of revolution, about its axis.
 
     Returns
     -------
@@ -123,7 +125,8 @@ def symmetry(
     >>> from body_moments.core.mesh import Surface
     >>> from body_moments.core.polyhedron import polyhedron_moments
     >>> from body_moments.core.shape import symmetry
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> symmetry(polyhedron_moments(surface, 6)[0]).group
     'C3v'
     """
@@ -152,7 +155,9 @@ def symmetry(
 
 
 def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """Return the finite operations of a body of revolution, for all others: the identity and perhaps a reflection."""
+    """Return the finite operations of a body of revolution, for all others: the identity and
+    perhaps a reflection.
+    """
     if not _reverses_axis(operations, axis).any():
         return np.eye(3)[None]
     return np.array([np.eye(3), np.eye(3) - 2.0 * np.outer(axis, axis)])
@@ -181,8 +186,10 @@ def _schoenflies(symmetry_found: Symmetry) -> str:
     center = symmetry_found.has_center
     proper = int((np.linalg.det(symmetry_found.operations) > 0.0).sum())
     improper = len(symmetry_found.operations) - proper
+    if not axes and improper:
+        return "Cs" if planes else "Ci"
     if not axes:
-        return "C1" if not improper else "Cs" if planes else "Ci"
+        return "C1"
     axis, n = axes[0]
     is_flat = any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes)
     if proper == n:
@@ -193,7 +200,8 @@ def _schoenflies(symmetry_found: Symmetry) -> str:
         return "C{:d}v".format(n) if planes else "S{:d}".format(2 * n)
     if sum(order == n for _, order in axes) > 1 and n > 2:
         letter = {3: "T", 4: "O", 5: "I"}[n]
-        return letter if not improper else letter + "h" if center else letter + "d"
+        mirrors = "h" if center else "d"
+        return letter + mirrors if improper else letter
     if not improper:
         return "D{:d}".format(n)
     if n == 2:

@@ -2,23 +2,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Zernike moments of a body in the unit ball, and the radial power of its Fourier transform.
 
-Ω_nlm = sqrt(3/4π) ∫ R_nl(r) conj(Y_lm) dV with R_nl = sqrt(2n+3) r^l P_k^(0, l+1/2)(2r² - 1), k = (n-l)/2, orthonormal
-on the ball: the normalization of Novotni and Klein (3D Zernike descriptors for content based shape retrieval, 2003), in
-which a full ball has Ω_000 = 1. The descriptor ‖Ω_nl‖ is the same however the body is turned, or mirrored.
+Ω_nlm = sqrt(3/4π) ∫ R_nl(r) conj(Y_lm) dV with R_nl = sqrt(2n+3) r^l P_k^(0, l+1/2)(2r² - 1), k =
+(n-l)/2, orthonormal on the ball: the normalization of Novotni and Klein (3D Zernike descriptors for
+content based shape retrieval, 2003), in which a full ball has Ω_000 = 1. The descriptor ‖Ω_nl‖ is
+the same however the body is turned, or mirrored.
 
-To order 20 they are sums of raw moments. These sums cancel, and `descriptor_error` estimates the loss. Above that
-order, and if it is too much, the cones from the center over the triangles are integrated by quadrature. Over a
-triangle a polynomial of degree n takes Gauss's rule; along the cone, with S_k = R_nl / sqrt(2n+3), n = l+2k, partial
-integration of r S_k' against each S_i gives (r d/dr + 3) S_k = (n+3) S_k + Σ_{i<k} (2l+4i+3) S_i, and from that for
-J_k(x) = ∫_0^1 t² S_k(tx) dt the stable recursion
+To order 20 they are sums of raw moments. These sums cancel, and `descriptor_error` estimates the
+loss. Above that order, and if it is too much, the cones from the center over the triangles are
+integrated by quadrature. Over a triangle a polynomial of degree n takes Gauss's rule; along the
+cone, with S_k = R_nl / sqrt(2n+3), n = l+2k, partial integration of r S_k' against each S_i gives
+(r d/dr + 3) S_k = (n+3) S_k + Σ_{i<k} (2l+4i+3) S_i, and from that for J_k(x) = ∫_0^1 t² S_k(tx) dt
+the stable recursion
 
     J_k = (S_k - A_k) / (n+3),    A_{k+1} = ((2n+3) S_k - n A_k) / (n+3),    A_0 = 0.
 
-Of a plane shape in the unit disc (Zernike 1934; Teague 1980 for shapes) they are A_nm = sqrt((n+1)/π) ∫ R_nm(r)
-exp(-imφ) dA, orthonormal: the sum of all |A_nm|², m = -n..n, is at most the shape's area. Turned by θ a shape has
-A_nm exp(-imθ), and its mirror image in y = 0 has conj(A_nm).
+Of a plane shape in the unit disc (Zernike 1934; Teague 1980 for shapes) they are A_nm =
+sqrt((n+1)/π) ∫ R_nm(r) exp(-imφ) dA, orthonormal: the sum of all |A_nm|², m = -n..n, is at most the
+shape's area. Turned by θ a shape has A_nm exp(-imθ), and its mirror image in y = 0 has conj(A_nm).
 
-Every frequency within the ball's resolution follows too, for ∫ R_nl j_l(qr) r² dr = (-1)^k sqrt(2n+3) j_{n+1}(q)/q.
+Every frequency within the ball's resolution follows too, for ∫ R_nl j_l(qr) r² dr = (-1)^k
+sqrt(2n+3) j_{n+1}(q)/q.
 """
 
 from __future__ import annotations
@@ -51,7 +54,9 @@ QUADRATURE_RTOL = 1e-13  # for a triangle's integral, in the choice of its quadr
 
 
 def zernike_moments(raw: NDArray, order: int) -> Multiplets:
-    """Return {(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball by its raw moments (K, …)."""
+    """Return {(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball by its raw moments
+    (K, …).
+    """
     harmonic = harmonic_moments(raw, order)
     return {
         (n, l): sqrt(3.0 / (4.0 * pi))
@@ -67,7 +72,9 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
 
 
 def descriptor_error(raw: NDArray, order: int) -> NDArray[np.float64]:
-    """Estimate (…) the descriptors' error: their change if raw moments (K, …) change by a few roundings."""
+    """Estimate (…) the descriptors' error: their change if raw moments (K, …) change by a few
+    roundings.
+    """
     moved = raw * along_first(
         1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)), raw
     )
@@ -90,10 +97,12 @@ def degrees(order: int) -> list[tuple[int, int]]:
 
 
 def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multiplets:
-    """Return the `zernike_moments` of the body that the cones from the origin over outward triangles make up.
+    """Return the `zernike_moments` of the body that the cones from the origin over outward
+    triangles make up.
 
-    points: (n, 3) within the unit ball. triangles: (m, 3). The work grows with the order cubed, and with the number of
-    nodes of a triangle: one for the smallest, order²/4 for a triangle as large as the ball.
+    points: (n, 3) within the unit ball. triangles: (m, 3). The work grows with the order cubed, and
+    with the number of nodes of a triangle: one for the smallest, order²/4 for a triangle as large
+    as the ball.
     """
     corners = [points[triangles[:, i]] for i in range(3)]
     size = np.sqrt(
@@ -114,20 +123,25 @@ def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multi
 
 
 def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
-    """Return the number of Gauss points on a line for each triangle, by its size and the polynomials' oscillation."""
+    """Return the number of Gauss points on a line for each triangle, by its size and the
+    polynomials' oscillation.
+    """
     exact = ceil((order + 2) / 2)
     needed = np.full(len(size), exact)
     phase = (
         (order + 2.0) * size / 2.0
     )  # a polynomial of degree n on the ball turns by at most about n radians
     for g in range(exact - 1, 0, -1):
-        # Gauss's rule: the error of e^(ix) over [-phase/2, phase/2] is (phase/2)^2g / (2g)! in size.
+        # Gauss's rule: the error of e^(ix) over [-phase/2, phase/2] is (phase/2)^2g / (2g)! in
+        # size.
         needed[(phase / 2.0) ** (2 * g) / factorial(2 * g) < QUADRATURE_RTOL] = g
     return needed
 
 
 def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> None:
-    """Add to each total[n, l], (l+1,) for m = 0..l, the integrals along the cones to (k, 3) points."""
+    """Add to each total[n, l], (l+1,) for m = 0..l, the integrals along the cones to (k, 3)
+    points.
+    """
     argument = 2.0 * (x * x).sum(axis=1) - 1.0
     for l, solid in _solid_at(x, order):
         solid = solid.conj()
@@ -139,7 +153,9 @@ def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> No
 
 
 def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex128]]]:
-    """Yield l and (l+1, k) r^l Y_lm at (k, 3) points for m = 0..l, l = 0..order, by recursion upward in l."""
+    """Yield l and (l+1, k) r^l Y_lm at (k, 3) points for m = 0..l, l = 0..order, by recursion
+    upward in l.
+    """
     r2 = (x * x).sum(axis=1)
     plus = x[:, 0] + 1j * x[:, 1]
     z = x[:, 2]
@@ -183,9 +199,11 @@ def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
 def radial_power(
     moments: Multiplets, wave_numbers: NDArray
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the (k, …) means of |F(q)|² over all directions of q, and a bound of the change by the missing orders.
+    """Return the (k, …) means of |F(q)|² over all directions of q, and a bound of the change by the
+    missing orders.
 
-    moments: of a body in the unit ball, (2l+1, …). wave_numbers: (k,) |q|, in units of the ball's inverse radius.
+    moments: of a body in the unit ball, (2l+1, …). wave_numbers: (k,) |q|, in units of the ball's
+    inverse radius.
     """
     order = max(n for n, _ in moments)
     first = moments[0, 0]
@@ -200,8 +218,8 @@ def radial_power(
             for n in range(l, order + 1, 2)
         )
         power += (np.abs(amplitude) ** 2).sum(axis=0)
-    # Parseval: the sum of all |Ω|² is 3/4π times the volume, and by Cauchy and Schwarz the rest of each amplitude is
-    # at most the norms' product.
+    # Parseval: the sum of all |Ω|² is 3/4π times the volume, and by Cauchy and Schwarz the rest of
+    # each amplitude is at most the norms' product.
     volume = first.real[0] * 4.0 * pi / 3.0
     known = sum((np.abs(multiplet) ** 2).sum(axis=0) for multiplet in moments.values())
     missing = np.maximum(3.0 / (4.0 * pi) * volume - known, 0.0)

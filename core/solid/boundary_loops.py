@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The boundary loops of open surfaces: gaps without area, and holes, which are capped.
 
-At each vertex a boundary side is joined to the side whose direction, seen from the vertex, is nearest to its own. So at
-a T-junction the long edge and the short ones along it make a loop without area: the surface is closed there, in space
-though not in the mesh. The other loops are capped by the cone to their centroid: as a
-signed chain, it is the flat cap of a flat loop of any shape, without a triangulation.
+At each vertex a boundary side is joined to the side whose direction, seen from the vertex, is
+nearest to its own. So at a T-junction the long edge and the short ones along it make a loop without
+area: the surface is closed there, in space though not in the mesh. The other loops are capped by
+the cone to their centroid: as a signed chain, it is the flat cap of a flat loop of any shape,
+without a triangulation.
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ MAX_END_PAIRS = (
 def side_ends(
     triangles: NDArray[np.integer], sides: NDArray[np.integer]
 ) -> tuple[NDArray, NDArray]:
-    """Return the start and end vertices of sides; side 3t + i runs from corner i of triangle t to the next corner."""
+    """Return the start and end vertices of sides; side 3t + i runs from corner i of triangle t to
+    the next corner.
+    """
     triangle = sides // 3
     corner = sides % 3
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
@@ -52,7 +55,9 @@ def join_sides(
     stop: NDArray[np.integer],
     directed: bool,
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_]]:
-    """Return (k,) and (k,) sides joined in pairs at equal vertices, sharpest turns first, and True for head to tail."""
+    """Return (k,) and (k,) sides joined in pairs at equal vertices, sharpest turns first, and True
+    for head to tail.
+    """
     count = len(start)
     vertex = np.concatenate([start, stop])
     direction = end - begin
@@ -87,7 +92,9 @@ def join_sides(
 
 
 def _candidate_pairs(order: NDArray, first: NDArray, degree: NDArray) -> tuple[NDArray, NDArray]:
-    """Return pairs of ends that meet at a vertex: all, or only neighbors in `order` if there are too many."""
+    """Return pairs of ends that meet at a vertex: all, or only neighbors in `order` if there are
+    too many.
+    """
     pairs = degree * (degree - 1) // 2
     if pairs.sum() > MAX_END_PAIRS:
         within = np.concatenate([np.ones(len(order) - 1, bool), [False]])
@@ -104,7 +111,9 @@ def _candidate_pairs(order: NDArray, first: NDArray, degree: NDArray) -> tuple[N
 
 
 def _greedy_matching(first_end: NDArray, second_end: NDArray, ends: int) -> tuple[NDArray, NDArray]:
-    """Match candidates, sorted best first, greedily: each round takes the candidates that are best for both ends."""
+    """Match candidates, sorted best first, greedily: each round takes the candidates that are best
+    for both ends.
+    """
     left, right = [first_end[:0]], [second_end[:0]]
     while len(first_end):
         rank = np.arange(len(first_end))
@@ -126,11 +135,12 @@ def _greedy_matching(first_end: NDArray, second_end: NDArray, ends: int) -> tupl
 
 @dataclass(frozen=True, eq=False)
 class BoundaryLoops:
-    """Boundary sides (r) grouped into loops (l), numbered in the order of their first sides; in unit and unit².
+    """Boundary sides (r) grouped into loops (l), numbered in the order of their first sides; in
+    unit and unit².
 
-    `of_side`: (r,) loop of each side. `complete`: (l,) True if all its sides are joined at both ends. `centroid`: (l,
-    3) of the curve. `cone_area`: of the cone to it. `planar_area`: norm of the loop's area vector. `out_of_plane`:
-    distance from its plane; infinite if it has none.
+    `of_side`: (r,) loop of each side. `complete`: (l,) True if all its sides are joined at both
+    ends. `centroid`: (l, 3) of the curve. `cone_area`: of the cone to it. `planar_area`: norm of
+    the loop's area vector. `out_of_plane`: distance from its plane; infinite if it has none.
     """
 
     of_side: NDArray[np.intp]
@@ -142,7 +152,9 @@ class BoundaryLoops:
     out_of_plane: NDArray[np.float64]
 
     def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return an (l,) mask of holes; loops narrower than `tolerance`, one number or (l,), are gaps."""
+        """Return an (l,) mask of holes; loops narrower than `tolerance`, one number or (l,), are
+        gaps.
+        """
         return self.cone_area > self.perimeter * np.minimum(
             tolerance, MAX_GAP_ASPECT * self.perimeter
         )
@@ -156,7 +168,9 @@ class BoundaryLoops:
 
 @dataclass(frozen=True, eq=False)
 class OwnedLoops:
-    """The loops of (r,) boundary sides, joined head to tail within bodies or components: the `owner` of each loop."""
+    """The loops of (r,) boundary sides, joined head to tail within bodies or components: the
+    `owner` of each loop.
+    """
 
     points: NDArray[np.floating]
     start: NDArray[np.integer]
@@ -166,7 +180,9 @@ class OwnedLoops:
 
     @classmethod
     def of_sides(cls, points: NDArray, start: NDArray, stop: NDArray, owner: NDArray) -> OwnedLoops:
-        """Find the loops of r sides, given by the (r,) points that they run from and to. owner: (r,) of each side."""
+        """Find the loops of r sides, given by the (r,) points that they run from and to. owner:
+        (r,) of each side.
+        """
         begin = points[start].astype(np.float64)
         end = points[stop].astype(np.float64)
         first = owner * len(points) + start
@@ -186,7 +202,9 @@ class OwnedLoops:
     def count_caps(
         self, tolerance: NDArray[np.float64], counted: NDArray[np.bool_]
     ) -> NDArray[np.float64]:
-        """Return (o, 3) flat caps, curved caps, and their area, of owners with these tolerances that are `counted`."""
+        """Return (o, 3) flat caps, curved caps, and their area, of owners with these tolerances
+        that are `counted`.
+        """
         loops = self.loops
         within = tolerance[self.owner]
         is_flat = loops.out_of_plane <= within
@@ -197,7 +215,9 @@ class OwnedLoops:
 
 
 def has_distinct_vertices(triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return an (m,) mask of triangles with three different vertices; the others have no boundary and no area."""
+    """Return an (m,) mask of triangles with three different vertices; the others have no boundary
+    and no area.
+    """
     a, b, c = triangles.T
     return (a != b) & (b != c) & (c != a)
 
@@ -205,7 +225,9 @@ def has_distinct_vertices(triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
 def find_loops(
     begin: NDArray[np.float64], end: NDArray[np.float64], links: tuple[NDArray, NDArray, NDArray]
 ) -> BoundaryLoops:
-    """Group boundary sides with (r, 3) ends into loops by their `links`, from `join_sides`, and measure the loops."""
+    """Group boundary sides with (r, 3) ends into loops by their `links`, from `join_sides`, and
+    measure the loops.
+    """
     of_side, number = connected_components(len(begin), links[0], links[1])
     joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))
     complete = np.bincount(of_side, joined != 2) == 0

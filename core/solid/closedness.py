@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The first stages of measuring a solid: a check that it can be measured, and a proof of closedness by its edges."""
+"""The first stages of measuring a solid: a check that it can be measured, and a proof of closedness
+by its edges.
+"""
 
 from __future__ import annotations
 
@@ -34,8 +36,9 @@ SUM_ROUNDING = 1e-13  # Relative rounding of a sum of numbers of one sign.
 class CheckedSurface:
     """A surface that can be measured, without the vertices that no face uses; lengths in its unit.
 
-    `vertices`: (n,) the input's number of each vertex; None if all are used. `size`: diagonal of the bounding box.
-    `error`: largest shift of the points by storing. `tolerance`: distance below which points touch.
+    `vertices`: (n,) the input's number of each vertex; None if all are used. `size`: diagonal of
+    the bounding box. `error`: largest shift of the points by storing. `tolerance`: distance below
+    which points touch.
     """
 
     surface: Surface
@@ -49,8 +52,8 @@ class CheckedSurface:
 class GivenIntegrals:
     """Integrals over the faces as given: `volume` to order 3, and `area`.
 
-    `all_cones_agree`: True if all cones from the reference point over the faces are known to have the same sign.
-    `proven`: the mesh if its own edges prove it closed and oriented, else None.
+    `all_cones_agree`: True if all cones from the reference point over the faces are known to have
+    the same sign. `proven`: the mesh if its own edges prove it closed and oriented, else None.
     """
 
     volume: Moments
@@ -61,7 +64,9 @@ class GivenIntegrals:
 
 
 def check_surface(surface: Surface) -> CheckedSurface:
-    """Check that a surface can be measured, or raise MeasureError; leave out vertices that no face uses."""
+    """Check that a surface can be measured, or raise MeasureError; leave out vertices that no face
+    uses.
+    """
     check_type("surface", surface, Surface)
     faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
     if not faces:
@@ -107,7 +112,9 @@ def check_surface(surface: Surface) -> CheckedSurface:
 
 
 def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> GivenIntegrals:
-    """Integrate over the given faces, areas to order 3 of a shell, and test in parallel if edges prove closedness."""
+    """Integrate over the given faces, areas to order 3 of a shell, and test in parallel if edges
+    prove closedness.
+    """
     surface = checked.surface
     accumulator = PlanarityAccumulator(surface, checked.error)
     integrate = partial(
@@ -131,12 +138,16 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
 
 
 def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray[np.bool_]:
-    """Return whether numbers have one sign, to rounding. total: the sum of their sizes; signed: their own sum."""
+    """Return whether numbers have one sign, to rounding. total: the sum of their sizes; signed:
+    their own sum.
+    """
     return total - abs(signed) <= SUM_ROUNDING * total
 
 
 def prove_closed(surface: Surface) -> RepairedMesh | None:
-    """Return the mesh if its own edges prove it closed and oriented, without triangles if one component; else None."""
+    """Return the mesh if its own edges prove it closed and oriented, without triangles if one
+    component; else None.
+    """
     found = _components_of_closed(surface)
     if found is None:
         return None
@@ -159,7 +170,9 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
 
 
 def _components_of_closed(surface: Surface) -> tuple[NDArray[np.intp], int] | None:
-    """Return the component of each mesh face and their number; None if not proven closed and oriented."""
+    """Return the component of each mesh face and their number; None if not proven closed and
+    oriented.
+    """
     if surface.corner_edges is not None:
         sides = closed_side_faces(surface)
         return None if sides is None else connected_components(int(sides.max()) + 1, *sides)

@@ -10,14 +10,17 @@ INVALID_FACES = error(
 )
 NON_FINITE_VERTICES = error(
     "non_finite_vertices",
-    "{count} of {total} vertices has no finite coordinates. Delete it, or fix the modifier, driver or import that "
+    "{count} of {total} vertices has no finite coordinates. Delete it, or fix the modifier, driver "
+    "or import that "
     "made it.",
-    "{count} of {total} vertices have no finite coordinates. Delete them, or fix the modifier, driver or import "
+    "{count} of {total} vertices have no finite coordinates. Delete them, or fix the modifier, "
+    "driver or import "
     "that made them.",
 )
 VERTICES_WELDED = repair(
     "vertices_welded",
-    "Open edges were welded: vertices moved by up to {share:percent} of the size. Use Mesh > Merge > By Distance.",
+    "Open edges were welded: vertices moved by up to {share:percent} of the size. Use Mesh > Merge "
+    "> By Distance.",
 )
 DUPLICATE_FACES_IGNORED = repair(
     "duplicate_faces_ignored",
@@ -36,22 +39,27 @@ T_JUNCTIONS = note(
 )
 INVERTED_COMPONENTS = repair(
     "inverted_components",
-    "Inside-out components measured as reversed: {count} of {total}. Use Mesh > Normals > Recalculate Outside.",
+    "Inside-out components measured as reversed: {count} of {total}. Use Mesh > Normals > "
+    "Recalculate Outside.",
 )
 HOLES_CAPPED = repair(
     "holes_capped",
-    "Holes capped: {count} ({flat} flat, {curved} curved; {share:percent} of the area). Use Mesh > Clean Up > Fill "
+    "Holes capped: {count} ({flat} flat, {curved} curved; {share:percent} of the area). Use Mesh > "
+    "Clean Up > Fill "
     "Holes.",
 )
 ONE_SIDED_COMPONENTS = warning(
     "one_sided_components",
-    "One-sided components cannot be closed: {count} of {total}. Volume, center of mass and inertia depend on the "
+    "One-sided components cannot be closed: {count} of {total}. Volume, center of mass and inertia "
+    "depend on the "
     "reference point. Set Kind to Shell.",
 )
 NON_MANIFOLD_COMPONENTS = warning(
     "non_manifold_components",
-    "Components cannot be closed where more than two faces meet at an edge: {count} of {total}. Volume, center of mass "
-    "and inertia depend on the reference point. Delete interior faces and fill holes, or set Kind to Shell.",
+    "Components cannot be closed where more than two faces meet at an edge: {count} of {total}. "
+    "Volume, center of mass "
+    "and inertia depend on the reference point. Delete interior faces and fill holes, or set Kind "
+    "to Shell.",
 )
 CAVITIES_SUBTRACTED = note(
     "cavities_subtracted",
@@ -60,16 +68,20 @@ CAVITIES_SUBTRACTED = note(
 )
 CAVITIES_BREAK_THROUGH = warning(
     "cavities_break_through",
-    "{count} cavity breaks through its wall, by up to {share:percent} of the size; what lies outside counts as "
+    "{count} cavity breaks through its wall, by up to {share:percent} of the size; what lies "
+    "outside counts as "
     "negative. Make the cavity smaller or the wall thicker.",
-    "{count} cavities break through their walls, by up to {share:percent} of the size; what lies outside counts as "
+    "{count} cavities break through their walls, by up to {share:percent} of the size; what lies "
+    "outside counts as "
     "negative. Make the cavities smaller or the walls thicker.",
 )
 COMPONENTS_NESTED = warning(
     "components_nested",
-    "{count} outward component lies inside another; the shared space counts twice. Flip cavities, or set Overlaps to "
+    "{count} outward component lies inside another; the shared space counts twice. Flip cavities, "
+    "or set Overlaps to "
     "Count as Union.",
-    "{count} outward components lie inside others; the shared space counts twice. Flip cavities, or set Overlaps to "
+    "{count} outward components lie inside others; the shared space counts twice. Flip cavities, "
+    "or set Overlaps to "
     "Count as Union.",
 )
 COMPONENTS_OVERLAP = warning(
@@ -91,13 +103,15 @@ FLAT_SURFACE = warning(
 )
 SELF_INTERSECTING = warning(
     "self_intersecting",
-    "The surface intersects itself and regions count as negative. Set Overlaps to Count as Union, or repair the mesh.",
+    "The surface intersects itself and regions count as negative. Set Overlaps to Count as Union, "
+    "or repair the mesh.",
 )
 SELF_INTERSECTION_UNCHECKED = note(
     "self_intersection_unchecked", "Whether the surface intersects itself was not checked."
 )
 NON_PLANAR_FACES = warning(
     "non_planar_faces",
-    "Non-planar faces: their triangulation can change the volume by up to {share:percent}. Use Face > Triangulate "
+    "Non-planar faces: their triangulation can change the volume by up to {share:percent}. Use "
+    "Face > Triangulate "
     "Faces.",
 )

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The last steps of a repair: faces of each part are made to agree, gaps without area closed, and holes capped.
+"""The last steps of a repair: faces of each part are made to agree, gaps without area closed, and
+holes capped.
 
-Sides are numbered as in `Edges`: 3t + i runs from corner i of triangle t to the next one, the triangles as given.
+Sides are numbered as in `Edges`: 3t + i runs from corner i of triangle t to the next one, the
+triangles as given.
 """
 
 from __future__ import annotations
@@ -110,7 +112,9 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Finding, ...]:
-    """Return the findings without counting copies of faces that are walls of two bodies. sides: the sides at walls."""
+    """Return the findings without counting copies of faces that are walls of two bodies. sides: the
+    sides at walls.
+    """
     walls = np.unique(mesh.face[sides // 3])
     findings = []
     for item in mesh.findings:
@@ -123,7 +127,9 @@ def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Find
 
 
 def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Find the components that no caps can close, and the loops that remain at edges of three faces or more."""
+    """Find the components that no caps can close, and the loops that remain at edges of three faces
+    or more.
+    """
     edges = mesh.state.edges
     if np.any(edges.count > 2) and mesh.number > 1:
         # Components that meet in an edge are judged one by one, each with vertices of its own.
@@ -244,7 +250,9 @@ def _find_folded_loops(
     unclosable: NDArray[np.bool_],
     tolerance: float,
 ) -> FoldedLoops:
-    """Find components (of `unclosable`) whose remaining loops have no area, such as outlines that turn back."""
+    """Find components (of `unclosable`) whose remaining loops have no area, such as outlines that
+    turn back.
+    """
     edge = np.flatnonzero((signed_count != 0) & unclosable[mesh.component[edges.first // 3]])
     edge = np.repeat(edge, np.abs(signed_count[edge]).astype(np.intp))
     side = edges.first[edge]
@@ -268,11 +276,12 @@ def wall_links(
     triangles: NDArray[np.integer],
     face: NDArray[np.integer],
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (k,) and (k,) the sides that belong together at walls between bodies. face: (t,) of each triangle.
+    """Return (k,) and (k,) the sides that belong together at walls between bodies. face: (t,) of
+    each triangle.
 
-    If two bodies have copies of a face on the same vertices, four faces meet along its border: one of each body, and
-    the two copies, the layers. Each layer belongs to one body along its whole border; the directions of the faces
-    decide, if they can.
+    If two bodies have copies of a face on the same vertices, four faces meet along its border: one
+    of each body, and the two copies, the layers. Each layer belongs to one body along its whole
+    border; the directions of the faces decide, if they can.
     """
     if not (edges.count == 4).any():
         return NO_LINKS
@@ -328,8 +337,9 @@ def _layer_links(
 ) -> NDArray[np.intp]:
     """Return the (k, 2) sides that are joined within walls.
 
-    The order of a face's copies is accidental: each copy is joined to the neighbor with which it agrees. within: (e, 4)
-    sides on edges between two faces of a wall, by layers; wall: (t,) as of `_layers`.
+    The order of a face's copies is accidental: each copy is joined to the neighbor with which it
+    agrees. within: (e, 4) sides on edges between two faces of a wall, by layers; wall: (t,) as of
+    `_layers`.
     """
     crossed = wall[within[:, 1] // 3] != wall[within[:, 3] // 3]
     within = np.where(
@@ -351,8 +361,9 @@ def _layers(
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return (t,) layers, 1 and 2 for triangles of walls, else 0; and (t,) numbers of the walls.
 
-    Layers are faces on the same vertices, or flat pieces with the same border that are cut into triangles differently.
-    piece: (t,) the piece of each triangle, connected across edges of two faces.
+    Layers are faces on the same vertices, or flat pieces with the same border that are cut into
+    triangles differently. piece: (t,) the piece of each triangle, connected across edges of two
+    faces.
     """
     group = same_vertices_groups(triangles, face)
     layer = is_duplicated(group, face).astype(np.intp) + (group != face)

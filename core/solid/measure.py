@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measurement of a surface's body: its kind, the repairs that it needed, and its moments.
 
-A mesh whose own edges prove it closed is measured as it stands. Any other is repaired on a copy, one decision after the
-other, and each decision is reported: equal positions are welded, then, along open edges only, positions that differ by
-rounding; copies of faces that keep edges from closing are left out; faces that run against the rest of their part are
-turned; gaps without area (T-junctions) close; other boundary loops are capped. Then the components are compared: one
-that is inside out and in no other's material is turned. A surface still not closed is measured as a signed sum about
-the reference point, and called open.
+A mesh whose own edges prove it closed is measured as it stands. Any other is repaired on a copy,
+one decision after the other, and each decision is reported: equal positions are welded, then, along
+open edges only, positions that differ by rounding; copies of faces that keep edges from closing are
+left out; faces that run against the rest of their part are turned; gaps without area (T-junctions)
+close; other boundary loops are capped. Then the components are compared: one that is inside out and
+in no other's material is turned. A surface still not closed is measured as a signed sum about the
+reference point, and called open.
 """
 
 from __future__ import annotations
@@ -65,15 +66,16 @@ STEPS: tuple[Callable[[RepairedMesh, float], RepairedMesh], ...] = (
 def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) -> SolidIntegrals:
     """Measure the body that a surface bounds, and report how its moments came about.
 
-    Vertices along open edges that differ by rounding are welded, unless the body is so thin that it would collapse.
+    Vertices along open edges that differ by rounding are welded, unless the body is so thin that it
+    would collapse.
 
     Parameters
     ----------
     surface : Surface
         Any polygons; closed or not.
     shell : bool
-        True if the surface has the mass: the area's moments are found to order 3 instead of 0, and self-intersection,
-        which only spoils a volume, is not looked for.
+        True if the surface has the mass: the area's moments are found to order 3 instead of 0, and
+        self-intersection, which only spoils a volume, is not looked for.
     threads : int
         For the sums over faces, and for the proof of closedness.
 
@@ -85,14 +87,17 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     Raises
     ------
     MeasureError
-        If there are no faces, a face names no vertex, or positions are not finite, too large or too small.
+        If there are no faces, a face names no vertex, or positions are not finite, too large or too
+        small.
 
     Examples
     --------
     >>> from body_moments.core import Surface, measure_solid
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 3, 2]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 3, 2]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> body = measure_solid(surface)
-    >>> str(body.method), round(body.volume.total * 6, 9), body.health.defective_elements.flipped_faces.tolist()
+    >>> flipped = body.health.defective_elements.flipped_faces
+    >>> str(body.method), round(body.volume.total * 6, 9), flipped.tolist()
     ('reoriented', 1.0, [3])
     """
     checked = check_surface(surface)
@@ -100,7 +105,9 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
 
 
 def measure_left_over(stack: SolidStack, i: int, surface: Surface) -> SolidIntegrals:
-    """Measure a surface that its stack left over as number `i`, as `measure_solid` does, from the stack's integrals."""
+    """Measure a surface that its stack left over as number `i`, as `measure_solid` does, from the
+    stack's integrals.
+    """
     checked = check_surface(surface)
     return _measure_given(
         checked, stack.given(i, surface) or integrate_and_prove(checked, False, 1), False, 1
@@ -123,7 +130,10 @@ def _measure_given(
 def _measure_repaired(
     checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, shell: bool, threads: int
 ) -> SolidIntegrals:
-    """Measure the body of a repaired mesh. Faces that are left out of a solid count in none of its numbers."""
+    """Measure the body of a repaired mesh.
+
+    Faces that are left out of a solid count in none of its numbers.
+    """
     if len(mesh.left_out) and not shell:
         checked = replace(checked, surface=without_faces(checked.surface, mesh.left_out))
         given = integrate_and_prove(checked, shell, threads)
@@ -133,7 +143,10 @@ def _measure_repaired(
 def _judge(
     checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool
 ) -> SolidIntegrals:
-    """Return the judged body. A shell is not searched for self-intersections; its copies of faces are reported."""
+    """Return the judged body.
+
+    A shell is not searched for self-intersections; its copies of faces are reported.
+    """
     if not shell:
         return judge(checked, given, oriented, find_self_intersection(checked, given, oriented))
     solid = judge(checked, given, oriented, None)
@@ -148,10 +161,12 @@ def _judge(
 
 
 def repair_surface(surface: Surface, tolerance: float, weld_near: bool = True) -> RepairedMesh:
-    """Repair a surface, whose vertices all belong to faces, on a copy. The steps end if no triangle is left.
+    """Repair a surface, whose vertices all belong to faces, on a copy.
 
-    tolerance: positions nearer than this (unit) count as equal at open edges, and loops narrower than this have no
-    area.
+    The steps end if no triangle is left.
+
+    tolerance: positions nearer than this (unit) count as equal at open edges, and loops narrower
+    than this have no area.
     """
     mesh = split_into_triangles(surface)
     for step in STEPS:

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Relations between the closed components of one body: apart, nested or intersecting.
 
-Pairs whose boxes overlap are found by a sweep. Each pair is then tested twice (`core/mesh/bvh.py`): points just under
-the skin of the smaller component are located in the larger one; then edges of one that pierce triangles of the other
-are looked for. Contact within the tolerance is no crossing.
+Pairs whose boxes overlap are found by a sweep. Each pair is then tested twice (`core/mesh/bvh.py`):
+points just under the skin of the smaller component are located in the larger one; then edges of one
+that pierce triangles of the other are looked for. Contact within the tolerance is no crossing.
 """
 
 from __future__ import annotations
@@ -45,12 +45,14 @@ MAX_STEPS_PER_EDGE = 16
 
 @dataclass(frozen=True, eq=False)
 class ComponentRelations:
-    """Relations between components, as (k, 2) pairs: `contained_in`, inner and outer one, and `intersecting`.
+    """Relations between components, as (k, 2) pairs: `contained_in`, inner and outer one, and
+    `intersecting`.
 
     The latter share a part of their interiors without one containing the other, or are the same.
-    `undecided_pairs`: number of pairs that would have been too much work.
-    `mostly_in`: inner and outer component of the intersecting pairs of opposite orientation with most of the inner one
-    in the outer one, as a cavity that breaks through its wall. `breakthrough`: (k,) how far they reach out (unit).
+    `undecided_pairs`: number of pairs that would have been too much work. `mostly_in`: inner and
+    outer component of the intersecting pairs of opposite orientation with most of the inner one in
+    the outer one, as a cavity that breaks through its wall. `breakthrough`: (k,) how far they reach
+    out (unit).
     """
 
     contained_in: NDArray[np.intp]
@@ -60,7 +62,9 @@ class ComponentRelations:
     breakthrough: NDArray[np.float64] = field(default_factory=NO_LENGTHS.view)
 
     def containers(self) -> NDArray[np.intp]:
-        """Return (2, k) inner and outer components of the pairs that are decided as if one contained the other."""
+        """Return (2, k) inner and outer components of the pairs that are decided as if one
+        contained the other.
+        """
         return np.concatenate([self.contained_in, self.mostly_in]).T
 
 
@@ -70,7 +74,10 @@ def classify_pairs(
     candidates: NDArray[np.bool_],
     tolerance: float,
 ) -> ComponentRelations:
-    """Find the relations of the `candidates`, (c,), closed and not flat. Points nearer than `tolerance` touch."""
+    """Find the relations of the `candidates`, (c,), closed and not flat.
+
+    Points nearer than `tolerance` touch.
+    """
     chosen = np.flatnonzero(candidates)
     i, j, skipped = overlapping_box_pairs(
         components.low[chosen], components.high[chosen], tolerance, MAX_COMPONENT_PAIRS
@@ -115,7 +122,9 @@ def classify_pairs(
 def _breakthrough(
     components: SortedComponents, tree: Bvh, pairs: NDArray[np.intp], tolerance: float
 ) -> NDArray[np.float64]:
-    """Return (k,) how far inner and outer component reach out of each other, at least `tolerance`."""
+    """Return (k,) how far inner and outer component reach out of each other, at least
+    `tolerance`.
+    """
     depth = np.full(len(pairs), tolerance)
     if not len(pairs):
         return depth
@@ -152,7 +161,9 @@ def surfaces_intersect(
     vertex: NDArray[np.integer],
     tolerance: float,
 ) -> bool:
-    """Return whether surfaces are found to go through each other or themselves by over `tolerance`."""
+    """Return whether surfaces are found to go through each other or themselves by over
+    `tolerance`.
+    """
     surfaces = sort_components(points, triangles, component, int(component[-1]) + 1)
     tree = Bvh(points, surfaces, np.ones(len(surfaces.volume), bool))
     return bool(intersecting_pairs(tree, pairs[:, 0], pairs[:, 1], tolerance, vertex)[0].any())
@@ -164,7 +175,9 @@ def self_overlaps(
     candidates: NDArray[np.bool_],
     tolerance: float,
 ) -> bool:
-    """Return whether a closed candidate surrounds a point under its skin twice, though no edge need pierce a face."""
+    """Return whether a closed candidate surrounds a point under its skin twice, though no edge need
+    pierce a face.
+    """
     chosen = np.flatnonzero(candidates)
     if not len(chosen):
         return False
@@ -192,11 +205,12 @@ def self_overlaps(
 def orient_nested_components(
     components: SortedComponents, relations: ComponentRelations, candidates: NDArray[np.bool_]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return (c,) masks of the components to turn, of outward ones in the material of others, and of cavities.
+    """Return (c,) masks of the components to turn, of outward ones in the material of others, and
+    of cavities.
 
-    From the outermost inward: an inward component that no material surrounds is inside out. It is turned, with any
-    consistent contents (a hollow body turned inside out as a whole). A cavity that breaks through its wall
-    remains a cavity.
+    From the outermost inward: an inward component that no material surrounds is inside out. It is
+    turned, with any consistent contents (a hollow body turned inside out as a whole). A cavity that
+    breaks through its wall remains a cavity.
     """
     number = len(candidates)
     given = np.where(candidates, np.sign(components.volume), 0.0)
@@ -220,7 +234,9 @@ def orient_nested_components(
 
 
 def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Return (c,) hosts: for a cavity the innermost component around it that is not cut yet, else itself."""
+    """Return (c,) hosts: for a cavity the innermost component around it that is not cut yet, else
+    itself.
+    """
     host = np.arange(len(cavity))
     parent = _innermost_container(relations, len(cavity))
     pending = np.flatnonzero(cavity)
@@ -254,7 +270,9 @@ def _classify_by_samples(
     large: NDArray,
     tolerance: float,
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Count, by pair, decidable points under the smaller component's skin inside and outside the larger one."""
+    """Count, by pair, decidable points under the smaller component's skin inside and outside the
+    larger one.
+    """
     most, least, together = SAMPLES_PER_PAIR
     number = max(least, min(together // len(small), most))
     samples = np.arange(number)
@@ -293,13 +311,16 @@ def _interior_samples(
     number: int | NDArray[np.integer],
     tolerance: float,
 ) -> NDArray[np.float64]:
-    """Return the `k`-th of `number` points under the skin of each `component`, (n, 3) about the tree's origin."""
+    """Return the `k`-th of `number` points under the skin of each `component`, (n, 3) about the
+    tree's origin.
+    """
     triangle = (
         components.start[component]
         + k * (components.start[component + 1] - components.start[component]) // number
     )
     corner = points[components.triangles[triangle]].astype(np.float64) - tree.origin
-    # Three numbers that never put two samples of a triangle in one place, nor any on a line of symmetry.
+    # Three numbers that never put two samples of a triangle in one place, nor any on a line of
+    # symmetry.
     weight = np.stack(
         [
             0.17 + k * 0.7548776662 % 1.0,

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The fourth stage of measuring a solid: relations between its components, and components that are inside out."""
+"""The fourth stage of measuring a solid: relations between its components, and components that are
+inside out.
+"""
 
 from __future__ import annotations
 
@@ -26,10 +28,10 @@ from .repaired_mesh import RepairedMesh, copy_with
 class ComponentComparison:
     """Result of comparing the components of a body; masks are (c,).
 
-    `flipped`: components to turn. `solid`: with a volume. `nested`, `cavities`: outward and inward ones inside the
-    material of another. `intersecting`: overlapping others, except `breaking` ones: cavities that break through the
-    wall around them, by at most `breakthrough` (unit). `host`: as `ClosedParts.host_part`.
-    `undecided_pairs`: number of pairs that would have been too much work.
+    `flipped`: components to turn. `solid`: with a volume. `nested`, `cavities`: outward and inward
+    ones inside the material of another. `intersecting`: overlapping others, except `breaking` ones:
+    cavities that break through the wall around them, by at most `breakthrough` (unit). `host`: as
+    `ClosedParts.host_part`. `undecided_pairs`: number of pairs that would have been too much work.
     """
 
     flipped: NDArray[np.bool_]
@@ -70,7 +72,9 @@ class ComponentComparison:
         )
 
     def add_to(self, report: MeshHealth) -> MeshHealth:
-        """Return the report with the numbers of nested components, cavities and overlapping components."""
+        """Return the report with the numbers of nested components, cavities and overlapping
+        components.
+        """
         return copy_with(
             report,
             nested_components=int(self.nested.sum()),
@@ -81,10 +85,11 @@ class ComponentComparison:
 
 @dataclass(frozen=True, eq=False)
 class ClosedParts:
-    """Triangles, (t, 3), turned and with caps, whose signed sum is the body; and the closed part that each bounds.
+    """Triangles, (t, 3), turned and with caps, whose signed sum is the body; and the closed part
+    that each bounds.
 
-    face: (t,) the mesh face of each, -1 for a cap. part: (t,), 0 to number - 1. host_part: (number,) the part to whose
-    volume a part belongs: itself, or for a cavity the part around it.
+    face: (t,) the mesh face of each, -1 for a cap. part: (t,), 0 to number - 1. host_part:
+    (number,) the part to whose volume a part belongs: itself, or for a cavity the part around it.
     """
 
     points: NDArray[np.floating]
@@ -106,11 +111,12 @@ class ClosedParts:
 class OrientedSolid:
     """A body with components that face as they count; masks are (c,).
 
-    `is_proven`: True if nothing had to be repaired, so that `surface` has the input's faces. `surface`: the surface
-    with the signed sum `volume`: without flat parts, with caps; not negative, except for rounding noise of flat bodies.
-    `is_solid`: True if any component has a volume. `solid`: the components that have one. `turned`: components turned
-    as a whole. `reversed`: components with triangles in `mesh` that run against `surface`. `comparison`: None for one
-    component.
+    `is_proven`: True if nothing had to be repaired, so that `surface` has the input's faces.
+    `surface`: the surface with the signed sum `volume`: without flat parts, with caps; not
+    negative, except for rounding noise of flat bodies. `is_solid`: True if any component has a
+    volume. `solid`: the components that have one. `turned`: components turned as a whole.
+    `reversed`: components with triangles in `mesh` that run against `surface`. `comparison`: None
+    for one component.
     """
 
     mesh: RepairedMesh
@@ -155,7 +161,9 @@ class OrientedSolid:
 def orient_components(
     checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, threads: int
 ) -> OrientedSolid:
-    """Compare the components of a body, turn components that are inside out, and integrate the result."""
+    """Compare the components of a body, turn components that are inside out, and integrate the
+    result.
+    """
     is_proven = mesh is given.proven
     comparison = None
     flipped = np.zeros(mesh.number, bool)
@@ -192,7 +200,10 @@ def orient_components(
 
 
 def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> ComponentComparison:
-    """Find the components with a volume, and their relations. Points touch nearer than `tolerance`."""
+    """Find the components with a volume, and their relations.
+
+    Points touch nearer than `tolerance`.
+    """
     components = sort_components(mesh.points, mesh.triangles, mesh.component, mesh.number)
     size = lengths(components.high - components.low)[:, 0]
     threshold = zero_volume(size, components.area, mesh.caps.any(axis=1), error)
@@ -203,7 +214,9 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
 
 
 def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
-    """Return the volume below which a component is flat: of a sheet, capped or closed, by rounding and float32."""
+    """Return the volume below which a component is flat: of a sheet, capped or closed, by rounding
+    and float32.
+    """
     return (
         np.where(
             capped,
@@ -258,7 +271,9 @@ def _integrate_oriented(
     measured: Surface,
     threads: int,
 ) -> Moments:
-    """Return the volume moments of the measured surface; only its caps are integrated if the rest is as given."""
+    """Return the volume moments of the measured surface; only its caps are integrated if the rest
+    is as given.
+    """
     integrate = partial(polyhedron_moments, area_order=0, threads=threads, allow_open=True)
     caps = mesh.face < 0
     is_turned = mesh.flipped.any() or flip.any()

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mesh that the steps of a repair hand on to each other. No step changes the mesh that it receives."""
+"""The mesh that the steps of a repair hand on to each other.
+
+No step changes the mesh that it receives.
+"""
 
 from __future__ import annotations
 
@@ -18,11 +21,14 @@ from .boundary_loops import side_ends
 NO_EDGES = np.empty((0, 2), np.intp)
 NO_INDICES = np.empty(0, np.intp)
 Record = TypeVar("Record")
-UNKNOWN: Any = None  # a value that no step has found yet: the order of the steps ensures that none reads it before
+# a value that no step has found yet: the order of the steps ensures that none reads it before
+UNKNOWN: Any = None
 
 
 def copy_with(record: Record, **values: Any) -> Record:
-    """Return a copy of a dataclass with other values, twenty times faster than `dataclasses.replace`."""
+    """Return a copy of a dataclass with other values, twenty times faster than
+    `dataclasses.replace`.
+    """
     copy = object.__new__(type(record))
     copy.__dict__.update(record.__dict__, **values)
     return copy
@@ -32,8 +38,8 @@ def copy_with(record: Record, **values: Any) -> Record:
 class OpenParts:
     """Connected parts that are not closed; only these may be welded.
 
-    `rows`: their triangles with three different vertices; all such if `are_all`. `vertices`: their vertices
-    along open edges, or all if no edge is known, sorted.
+    `rows`: their triangles with three different vertices; all such if `are_all`. `vertices`: their
+    vertices along open edges, or all if no edge is known, sorted.
     """
 
     rows: NDArray[np.intp]
@@ -43,10 +49,11 @@ class OpenParts:
 
 @dataclass(frozen=True, eq=False)
 class ZeroAreaLoops:
-    """Boundary loops without area (T-junctions): there the surface closes in space, though not in the mesh.
+    """Boundary loops without area (T-junctions): there the surface closes in space, though not in
+    the mesh.
 
-    `sides`, `loop`: (k,) their sides, and the loop of each, 0 to `number` - 1.
-    `first`, `second`, `misoriented`: (l,) the two sides of each joint; True if the faces there disagree.
+    `sides`, `loop`: (k,) their sides, and the loop of each, 0 to `number` - 1. `first`, `second`,
+    `misoriented`: (l,) the two sides of each joint; True if the faces there disagree.
     """
 
     sides: NDArray[np.intp]
@@ -61,7 +68,8 @@ class ZeroAreaLoops:
 class FoldedLoops:
     """The `number` loops without area that remain in components with edges of three faces or more.
 
-    `components`: (c,) mask of those components that close. `sides`, `caps`: (k,) and (k, 3) triangles that close them.
+    `components`: (c,) mask of those components that close. `sides`, `caps`: (k,) and (k, 3)
+    triangles that close them.
     """
 
     components: NDArray[np.bool_]
@@ -74,10 +82,11 @@ class FoldedLoops:
 class RepairState:
     """Knowledge of earlier steps for later ones; dropped when the repair is done.
 
-    `given`: (t, 3) triangles over the input's vertices; side 3t + i runs from corner i of triangle t to the next one.
-    `edges`: of triangles with three different vertices; `component_edges`: with vertices of its own for each component.
-    `one_sided`: (c,) mask of components in which faces cannot agree, as on a Möbius strip.
-    `uncapped_sides`: (k,) boundary sides that bound no gap, of components that may still be closed.
+    `given`: (t, 3) triangles over the input's vertices; side 3t + i runs from corner i of triangle
+    t to the next one. `edges`: of triangles with three different vertices; `component_edges`: with
+    vertices of its own for each component. `one_sided`: (c,) mask of components in which faces
+    cannot agree, as on a Möbius strip. `uncapped_sides`: (k,) boundary sides that bound no gap, of
+    components that may still be closed.
     """
 
     given: NDArray[np.intp]
@@ -94,15 +103,16 @@ class RepairState:
 class RepairedMesh:
     """A surface as triangles, repaired as far as the steps have come.
 
-    `points`: (n, 3) in the input's type and unit. `triangles`: (t, 3) vertices; in the end all face as `flipped` says,
-    caps last. `face`: (t,) mesh face of each triangle, -1 for caps. `flipped`: (t,) triangles that are, or are to be,
-    reversed. `component`: (t,) 0 to `number` - 1. `open`: (number,) components that cannot be closed. `caps`: (number,
-    3) number of flat caps, of curved caps, and their area (unit²). `report`: the input as far as the steps have seen
-    it; its edges are pairs of the surface's vertices. `topology_changed`: True if the triangles, apart from their
-    direction and from caps, differ from the input's. `max_displacement`: largest displacement of a vertex by welding
-    (unit). `left_out`: (k,) mesh faces that are surplus copies of others, sorted. `capped_edges`, `capped_component`:
-    (k, 2) boundary edges of capped holes, and (k,) their components. `findings`: decisions, except for welding and
-    caps, which depend on the volume.
+    `points`: (n, 3) in the input's type and unit. `triangles`: (t, 3) vertices; in the end all face
+    as `flipped` says, caps last. `face`: (t,) mesh face of each triangle, -1 for caps. `flipped`:
+    (t,) triangles that are, or are to be, reversed. `component`: (t,) 0 to `number` - 1. `open`:
+    (number,) components that cannot be closed. `caps`: (number, 3) number of flat caps, of curved
+    caps, and their area (unit²). `report`: the input as far as the steps have seen it; its edges
+    are pairs of the surface's vertices. `topology_changed`: True if the triangles, apart from their
+    direction and from caps, differ from the input's. `max_displacement`: largest displacement of a
+    vertex by welding (unit). `left_out`: (k,) mesh faces that are surplus copies of others, sorted.
+    `capped_edges`, `capped_component`: (k, 2) boundary edges of capped holes, and (k,) their
+    components. `findings`: decisions, except for welding and caps, which depend on the volume.
     """
 
     points: NDArray[np.floating]
@@ -129,7 +139,9 @@ class RepairedMesh:
     def with_report(
         self, *, elements: dict[str, NDArray[np.integer]] | None = None, **counts: Any
     ) -> RepairedMesh:
-        """Return the mesh with entries of its report replaced. elements: entries of its `DefectiveElements`."""
+        """Return the mesh with entries of its report replaced. elements: entries of its
+        `DefectiveElements`.
+        """
         if elements:
             counts["defective_elements"] = copy_with(self.report.defective_elements, **elements)
         return copy_with(self, report=copy_with(self.report, **counts))

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Self-intersection of closed surfaces, and the volume that it counts twice or as negative.
 
-If all cones of a surface from some point have the same sign, and their sum surrounds that point once, it is the radial
-image of a sphere, and cannot meet itself; for a convex body the center of mass is such a point. For most bodies, sums
-over faces show this on the way. The others need a pass over the faces, which ends early if a face looks away.
+If all cones of a surface from some point have the same sign, and their sum surrounds that point
+once, it is the radial image of a sphere, and cannot meet itself; for a convex body the center of
+mass is such a point. For most bodies, sums over faces show this on the way. The others need a pass
+over the faces, which ends early if a face looks away.
 
-Other surfaces are sampled along lines. Each place on a line must be in a closed part once or not at all, if the part
-faces outward. The total length of violations, times the lines' distances, is the volume that counts wrongly. Every
-region as wide as these distances is found. The number of lines follows from the number of faces, so that the search
-costs little.
+Other surfaces are sampled along lines. Each place on a line must be in a closed part once or not at
+all, if the part faces outward. The total length of violations, times the lines' distances, is the
+volume that counts wrongly. Every region as wide as these distances is found. The number of lines
+follows from the number of faces, so that the search costs little.
 """
 
 from __future__ import annotations
@@ -39,8 +40,9 @@ FACES_LOOKED_AT_FIRST = 1024
 class SelfIntersection:
     """Result of the search for self-intersections.
 
-    `volume`: estimated volume that counts twice or as negative (unit³), times the number of surplus counts. `effect`:
-    the larger of its shares of the volume and of the second moment about the center.
+    `volume`: estimated volume that counts twice or as negative (unit³), times the number of surplus
+    counts. `effect`: the larger of its shares of the volume and of the second moment about the
+    center.
     """
 
     state: Intersection
@@ -51,7 +53,10 @@ class SelfIntersection:
 def find_self_intersection(
     checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid
 ) -> SelfIntersection:
-    """Search the surface of a solid for self-intersections. All three arguments are of the same surface."""
+    """Search the surface of a solid for self-intersections.
+
+    All three arguments are of the same surface.
+    """
     mesh = oriented.mesh
     surface = oriented.surface
     volume = oriented.volume
@@ -93,7 +98,10 @@ def _used_points(points: NDArray[np.floating], triangles: NDArray[np.integer]) -
 
 
 def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
-    """Return whether no two faces have opposite sides toward a point. The surface may go around it several times."""
+    """Return whether no two faces have opposite sides toward a point.
+
+    The surface may go around it several times.
+    """
     total = signed = 0.0
     for corners in _corner_blocks(surface):
         a, b, c = (corner - center[:, None] for corner in corners)
@@ -106,7 +114,9 @@ def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
 
 
 def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
-    """Yield the corners of blocks of triangles, three (3, k) arrays; the first blocks of each kind are short."""
+    """Yield the corners of blocks of triangles, three (3, k) arrays; the first blocks of each kind
+    are short.
+    """
     for faces in (surface.quads, surface.triangles):
         starts = [0, *range(FACES_LOOKED_AT_FIRST, len(faces), FACES_PER_BLOCK), len(faces)]
         for start, stop in zip(starts[:-1], starts[1:]):
@@ -125,10 +135,11 @@ def surrounds_once(surface: Surface, point: NDArray[np.float64], size: float) ->
 
 @dataclass(frozen=True, eq=False)
 class Excess:
-    """Miscounted volumes of b bodies, (b,): regions that count more than once or as negative, times the surplus.
+    """Miscounted volumes of b bodies, (b,): regions that count more than once or as negative, times
+    the surplus.
 
-    `second_moment`: of these regions, about the center of the body's box. `unsure`: share of the crossed lines that do
-    not enter as often as they leave; 1 if no line is crossed.
+    `second_moment`: of these regions, about the center of the body's box. `unsure`: share of the
+    crossed lines that do not enter as often as they leave; 1 if no line is crossed.
     """
 
     volume: NDArray[np.float64]

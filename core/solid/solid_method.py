@@ -50,15 +50,16 @@ SMOOTH_SHARE = 0.03
 class SolidIntegrals:
     """The moments of the body that a surface bounds, and how they came about.
 
-    A flat body's volume moments are zero; an open body's depend on the reference point. If vertices were welded across
-    gaps, `input_error` includes the possible change.
+    A flat body's volume moments are zero; an open body's depend on the reference point. If vertices
+    were welded across gaps, `input_error` includes the possible change.
 
     Attributes
     ----------
     volume : Moments
         To order 3, about the middle of the bounding box.
     area : Moments
-        The area of the input's faces, without caps and copies left out, to order 0, or 3 for a shell.
+        The area of the input's faces, without caps and copies left out, to order 0, or 3 for a
+        shell.
     health : MeshHealth
         State of the input.
     method : Procedure
@@ -68,15 +69,18 @@ class SolidIntegrals:
     oriented : OrientedSolid
         The surface that was measured, and its components.
     given_surface : Surface
-        The surface that was given, without the vertices that no face uses and the copies of faces that are left out.
+        The surface that was given, without the vertices that no face uses and the copies of faces
+        that are left out.
 
     Examples
     --------
     >>> from body_moments.core import Surface, measure_solid
     >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2]])
     >>> body = measure_solid(surface)
-    >>> str(body.method), [found.code for found in body.findings], round(body.exact_third_order().total * 6, 9)
-    ('capped', ['holes_capped'], 1.0)
+    >>> str(body.method), [found.code for found in body.findings]
+    ('capped', ['holes_capped'])
+    >>> round(body.exact_third_order().total * 6, 9)
+    1.0
     >>> round(body.moments(8, about=(0, 0, 0))[0][8, 0, 0] * 990, 9)
     1.0
     """
@@ -102,10 +106,12 @@ class SolidIntegrals:
         about: ArrayLike | None = None,
         threads: int = 1,
     ) -> tuple[Moments, Moments | None]:
-        """Return the body's volume moments to an order; and area moments of the given faces, as in ``area``, or None.
+        """Return the body's volume moments to an order; and area moments of the given faces, as in
+        ``area``, or None.
 
-        The moments are about the middle of the given points' bounding box, the point of ``volume``, unless `about` is
-        given. The moments of open bodies depend on this point. MeasureError if a moment is beyond the range of numbers.
+        The moments are about the middle of the given points' bounding box, the point of ``volume``,
+        unless `about` is given. The moments of open bodies depend on this point. MeasureError if a
+        moment is beyond the range of numbers.
         """
         reference = self.volume.about
         volume, area = polyhedron_moments(
@@ -137,7 +143,9 @@ class SolidIntegrals:
         return self.oriented.closed_parts()
 
     def exact_third_order(self, threads: int = 1) -> Moments:
-        """Return `volume` with its third order exact to rounding, for decisions that its bounds leave open."""
+        """Return `volume` with its third order exact to rounding, for decisions that its bounds
+        leave open.
+        """
         return polyhedron_moments(
             self.repaired_surface, exact=True, threads=threads, allow_open=True
         )[0]
@@ -149,7 +157,9 @@ def judge(
     oriented: OrientedSolid,
     intersection: SelfIntersection | None,
 ) -> SolidIntegrals:
-    """Decide the method of a measured body, and report all decisions. intersection: None if not searched."""
+    """Decide the method of a measured body, and report all decisions. intersection: None if not
+    searched.
+    """
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
     if not oriented.is_solid and not has_open:  # Rounding noise would pass for a tiny body.
@@ -213,7 +223,9 @@ def judge(
 def _flipped_faces(
     mesh: RepairedMesh, turned: NDArray[np.bool_]
 ) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
-    """Return the mesh faces that were turned within their components, and the components turned as a whole."""
+    """Return the mesh faces that were turned within their components, and the components turned as
+    a whole.
+    """
     of_mesh = mesh.face >= 0
     flipped = (mesh.flipped ^ turned[mesh.component])[of_mesh]
     component = mesh.component[of_mesh]
@@ -257,7 +269,9 @@ def _health(
 
 
 def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
-    """Return the finding with edges in the input's vertices, if unused vertices were left out before."""
+    """Return the finding with edges in the input's vertices, if unused vertices were left out
+    before.
+    """
     elements = np.asarray(item.elements)
     return (
         replace(item, elements=vertices[elements])
@@ -267,7 +281,9 @@ def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
 
 
 def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume: float) -> bool:
-    """Return whether triangles are too small to matter, by their area times the body's size. rows: (t,)."""
+    """Return whether triangles are too small to matter, by their area times the body's size. rows:
+    (t,).
+    """
     return bool(
         triangle_areas(mesh.points, mesh.triangles[rows]).sum() * size < NEGLIGIBLE * volume
     )
@@ -295,7 +311,9 @@ def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[n
 def cap_finding(
     edges: NDArray[np.intp], caps: NDArray[np.float64], share: float, size: float, volume: float
 ) -> Finding:
-    """Return a finding about capped holes. caps: (3,) flat ones, curved ones, their area; share: of the surface's."""
+    """Return a finding about capped holes. caps: (3,) flat ones, curved ones, their area; share: of
+    the surface's.
+    """
     flat, curved = map(int, caps[:2])
     slight = caps[2] * size < NEGLIGIBLE * volume  # all their moments together
     return finding(
@@ -338,7 +356,9 @@ def _component_findings(
 
 
 def _all_but_largest(mesh: RepairedMesh, which: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return a mask without its component of the largest area: the others contain the shared volume."""
+    """Return a mask without its component of the largest area: the others contain the shared
+    volume.
+    """
     rows = which[mesh.component]
     areas = np.bincount(mesh.component[rows], triangle_areas(mesh.points, mesh.triangles[rows]))
     others = which.copy()
@@ -359,7 +379,9 @@ def _intersection_findings(intersection: SelfIntersection, volume: float) -> lis
 
 
 def shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> list[Finding]:
-    """Return findings about a surface without volume, and about faces with diagonals that make a difference."""
+    """Return findings about a surface without volume, and about faces with diagonals that make a
+    difference.
+    """
     if not is_solid:
         return [finding(FLAT_SURFACE)]
     total = volume.total

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of many small solids at once, if they face outward and are closed as they are or by caps alone.
+"""Measurement of many small solids at once, if they face outward and are closed as they are or by
+caps alone.
 
-A solid may have one or several separate pieces. Results are exact or capped, with the same numbers as from
-`measure_solid`, which measures all other solids one by one. Caps are made if every edge has one face, or two that
-agree, at each boundary vertex one side arrives and one leaves, every loop has an area, and no vertices touch that a
-repair would weld.
+A solid may have one or several separate pieces. Results are exact or capped, with the same numbers
+as from `measure_solid`, which measures all other solids one by one. Caps are made if every edge has
+one face, or two that agree, at each boundary vertex one side arrives and one leaves, every loop has
+an area, and no vertices touch that a repair would weld.
 """
 
 from __future__ import annotations
@@ -38,17 +39,19 @@ from .self_intersection import MAX_UNSURE_LINES, measure_excess
 from .solid_method import SolidIntegrals, cap_finding, shape_findings
 
 MAX_COMPONENTS = 16  # Limit for one body: all pairs are compared.
-CLEAR_VOLUME = 4.0  # times the volume that counts as none: bodies with smaller components are measured one by one
+# times the volume that counts as none: bodies with smaller components are measured one by one
+CLEAR_VOLUME = 4.0
 
 
 @dataclass(frozen=True, eq=False)
 class SolidStack:
     """The moments of the bodies that n surfaces bound, meaningless unless measured.
 
-    `is_measured`: (n,) surfaces closed as they are or by caps; `is_integrated`: (n,) surfaces whose integrals hold for
-    the faces as given, at least. `cones`: (n, 2) sums of the cones over faces, positive and signed.
-    `volume`, `area`: to order 3 and 0, about each body's own point; area without caps.
-    `size`: (n,) diagonal of the bounding box. `intersection`: (n,) objects of type Intersection.
+    `is_measured`: (n,) surfaces closed as they are or by caps; `is_integrated`: (n,) surfaces whose
+    integrals hold for the faces as given, at least. `cones`: (n, 2) sums of the cones over faces,
+    positive and signed. `volume`, `area`: to order 3 and 0, about each body's own point; area
+    without caps. `size`: (n,) diagonal of the bounding box. `intersection`: (n,) objects of type
+    Intersection.
     """
 
     is_measured: NDArray[np.bool_]
@@ -63,7 +66,9 @@ class SolidStack:
     caps: StackCaps
 
     def given(self, i: int, surface: Surface) -> GivenIntegrals | None:
-        """Return the integrals over the faces of a surface that is not measured, or None if they do not hold."""
+        """Return the integrals over the faces of a surface that is not measured, or None if they do
+        not hold.
+        """
         if not self.is_integrated[i]:
             return None
         agree = bool(same_sign(*self.cones[i].tolist()))
@@ -106,13 +111,17 @@ class SolidStack:
         return float(self.caps.counts[i, 2] / self.area.raw[i, 0])
 
     def to_order(self, rows: NDArray[np.intp], order: int) -> Moments:
-        """Return the volume moments of the bodies `rows`, ascending, to a higher order than third."""
+        """Return the volume moments of the bodies `rows`, ascending, to a higher order than
+        third.
+        """
         stack = self.caps.triangles.some(rows)
         return _extend(self.volume.at(rows), order, stack, stack.coordinate_error)
 
 
 def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Moments:
-    """Return volumes, to an order above third, of single solids of at most MAX_SMALL_TRIANGLES triangles each."""
+    """Return volumes, to an order above third, of single solids of at most MAX_SMALL_TRIANGLES
+    triangles each.
+    """
     surfaces = [solid.repaired_surface for solid in solids]
     triangles = [surface.all_triangles()[0] for surface in surfaces]
     point_counts = np.array([len(surface.points) for surface in surfaces])
@@ -131,7 +140,9 @@ def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Mome
 def _extend(
     volume: Moments, order: int, stack: TriangleStack, error: NDArray[np.float64]
 ) -> Moments:
-    """Return the volume moments of the stack's bodies to an order. error: (n, 3) shifts of the points by storing."""
+    """Return the volume moments of the stack's bodies to an order. error: (n, 3) shifts of the
+    points by storing.
+    """
     low, high = stack.box
     reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + error
     return extend_small_moments(
@@ -145,7 +156,9 @@ def can_be_stacked(surfaces: Sequence[Surface]) -> list[bool]:
 
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
-    """Measure the bodies of surfaces, at least one, that `can_be_stacked` allows, if closed as they are or by caps."""
+    """Measure the bodies of surfaces, at least one, that `can_be_stacked` allows, if closed as they
+    are or by caps.
+    """
     stack = SurfaceStack.from_surfaces(surfaces)
     low, high = stack.box
     center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
@@ -244,7 +257,9 @@ def _stand_apart(
     capped: NDArray[np.bool_],
     error: NDArray[np.float64],
 ) -> NDArray[np.bool_]:
-    """Return a (k,) mask of the bodies `rows` whose parts face outward, surely have a volume, and stand apart."""
+    """Return a (k,) mask of the bodies `rows` whose parts face outward, surely have a volume, and
+    stand apart.
+    """
     chosen = stack.owned(rows)[1]
     part = _renumbered(part[chosen])
     body = np.repeat(
@@ -268,8 +283,8 @@ def _stand_apart(
 def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
     """Return an (n,) mask of the bodies that are star-shaped about their (n, 3) points.
 
-    All cones from the point over the faces have one sign, and their solid angles (van Oosterom and Strackee 1983)
-    surround the point once.
+    All cones from the point over the faces have one sign, and their solid angles (van Oosterom and
+    Strackee 1983) surround the point once.
     """
     places = points.take(np.repeat(np.arange(len(stack)), stack.triangle_counts), 0).T[:, None]
     corners = stack.points.T.take(stack.triangles.T, 1) - places
@@ -291,7 +306,9 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
 def _search_self_intersections(
     stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]
 ) -> NDArray[np.object_]:
-    """Return the (k,) `Intersection` of each body, like `find_self_intersection`. part: (t,) triangles' components."""
+    """Return the (k,) `Intersection` of each body, like `find_self_intersection`. part: (t,)
+    triangles' components.
+    """
     low, high = stack.box
     body = np.repeat(np.arange(len(tolerance)), stack.point_counts)
     grids = LineGrids.over_boxes(low, high, line_counts(stack.triangle_counts))
@@ -306,10 +323,10 @@ def _search_self_intersections(
 class StackCaps:
     """The caps of n surfaces; `is_capped`: (n,) mask of the surfaces that have any.
 
-    `triangles`, `part`: t triangles of all surfaces, each surface's caps last, and the component of each.
-    `cap_counts`: (n,) triangles that are caps. `counts`: (n, 3) holes with flat and with curved caps, and the caps'
-    area.
-    `edges`: (k, 2) sorted pairs of the surfaces' own vertices along the holes, by surface, `edge_counts` each.
+    `triangles`, `part`: t triangles of all surfaces, each surface's caps last, and the component of
+    each. `cap_counts`: (n,) triangles that are caps. `counts`: (n, 3) holes with flat and with
+    curved caps, and the caps' area. `edges`: (k, 2) sorted pairs of the surfaces' own vertices
+    along the holes, by surface, `edge_counts` each.
     """
 
     is_capped: NDArray[np.bool_]
@@ -359,7 +376,9 @@ def cap_stack(
     usable: NDArray[np.bool_],
     tolerance: NDArray[np.float64],
 ) -> StackCaps | None:
-    """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,) distances of touch."""
+    """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,)
+    distances of touch.
+    """
     can = usable & links.is_open
     start, stop = links.open_sides
     owner = stack.point_owners
@@ -404,7 +423,9 @@ def _capped(
     side: NDArray[np.intp],
     found: OwnedLoops,
 ) -> StackCaps:
-    """Add the caps of loops to their surfaces. part: (t,) components of triangles; side: (r,) sides of the loops."""
+    """Add the caps of loops to their surfaces. part: (t,) components of triangles; side: (r,) sides
+    of the loops.
+    """
     count = len(stack)
     owner = stack.point_owners
     (apexes, caps, kept) = found.cones()

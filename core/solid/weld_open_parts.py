@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The first steps of a repair, of open parts only: vertices at equal positions are welded, copies of faces left out."""
+"""The first steps of a repair, of open parts only: vertices at equal positions are welded, copies
+of faces left out.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, copy_w
 
 
 def split_into_triangles(surface: Surface) -> RepairedMesh:
-    """Cut a surface, whose vertices all belong to faces, into triangles, and find the parts that welding may touch."""
+    """Cut a surface, whose vertices all belong to faces, into triangles, and find the parts that
+    welding may touch.
+    """
     triangles, face = surface.all_triangles()
     triangles, count = triangles.astype(np.intp), len(triangles)
     edges, open_parts = _find_open_parts(surface, triangles, np.asarray(face, np.intp))
@@ -68,7 +72,9 @@ def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Weld vertices along open edges that are nearer than the tolerance, and near compared with their triangles."""
+    """Weld vertices along open edges that are nearer than the tolerance, and near compared with
+    their triangles.
+    """
     parts = mesh.state.open_parts
     if parts is None:
         return mesh
@@ -101,7 +107,9 @@ def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMe
 def _find_open_parts(
     surface: Surface, triangles: NDArray[np.intp], face: NDArray[np.intp]
 ) -> tuple[Edges | None, OpenParts | None]:
-    """Return the edges of the triangles that have three different vertices, and the parts to weld; each may be None."""
+    """Return the edges of the triangles that have three different vertices, and the parts to weld;
+    each may be None.
+    """
     rows = np.flatnonzero(has_distinct_vertices(triangles))
     if not len(rows):
         return None, None
@@ -130,7 +138,9 @@ def _find_open_parts(
 def _weld(
     mesh: RepairedMesh, rows: NDArray[np.intp], vertices: NDArray[np.intp], same: NDArray[np.intp]
 ) -> tuple[RepairedMesh, NDArray[np.intp]]:
-    """Return the mesh with vertices replaced by `vertices[same]` in `rows`, and (n,) the new vertex of each vertex."""
+    """Return the mesh with vertices replaced by `vertices[same]` in `rows`, and (n,) the new vertex
+    of each vertex.
+    """
     triangles = mesh.triangles.copy()
     onto = np.arange(len(mesh.points))
     onto[vertices] = vertices[same]
@@ -148,10 +158,11 @@ def _unique_sorted(values: NDArray[np.integer], width: int) -> NDArray[np.intp]:
 def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Leave out faces on the same vertices as an earlier face, if one layer of them is meant.
 
-    A region of copied faces is reduced to one layer if an odd number of other faces meets its boundary, so that one
-    layer closes it. If an even number does, both layers belong: a wall between two boxes that touch, a two-sided fin. A
-    region with no other faces at its boundary is reduced if its layers run the same way, or if one layer is closed: a
-    two-sided body, which would cancel itself.
+    A region of copied faces is reduced to one layer if an odd number of other faces meets its
+    boundary, so that one layer closes it. If an even number does, both layers belong: a wall
+    between two boxes that touch, a two-sided fin. A region with no other faces at its boundary is
+    reduced if its layers run the same way, or if one layer is closed: a two-sided body, which would
+    cancel itself.
     """
     edges = mesh.state.edges
     face = mesh.face
@@ -194,7 +205,9 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def copied_faces(surface: Surface) -> NDArray[np.integer]:
-    """Return the sorted (k,) mesh faces on the same vertices as an earlier one, which bound nothing."""
+    """Return the sorted (k,) mesh faces on the same vertices as an earlier one, which bound
+    nothing.
+    """
     triangles, face = surface.all_triangles()
     return np.unique(face[same_vertices_groups(triangles, face) != face])
 
@@ -222,7 +235,9 @@ def without_faces(surface: Surface, faces: NDArray[np.integer]) -> Surface:
 
 
 def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return an (m,) mask of triangles of faces on another face's vertices. group: from `same_vertices_groups`."""
+    """Return an (m,) mask of triangles of faces on another face's vertices. group: from
+    `same_vertices_groups`.
+    """
     copied = np.zeros(int(face.max()) + 1, bool)
     copied[group[group != face]] = True
     return copied[group]
@@ -231,7 +246,9 @@ def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDAr
 def _regions_of_one_layer(
     edges: Edges, later: NDArray[np.bool_], copied: NDArray[np.bool_], agree: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Return an (m,) mask of triangles in regions to be reduced to one layer; later, copied: masks; agree: signs."""
+    """Return an (m,) mask of triangles in regions to be reduced to one layer; later, copied: masks;
+    agree: signs.
+    """
     side = np.flatnonzero(np.repeat(copied, 3))
     edge = edges.of_side[side]
     owner = side // 3
@@ -249,7 +266,9 @@ def _regions_of_one_layer(
 
 
 def _non_manifold_sides(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return the sides on edges with more than two triangles, not counting both sides of a polygon's own diagonal."""
+    """Return the sides on edges with more than two triangles, not counting both sides of a
+    polygon's own diagonal.
+    """
     sides = np.flatnonzero((edges.count > 2)[edges.of_side])
     first = first_occurrence(edges.of_side[sides], face[sides // 3].astype(np.intp))
     return sides[np.bincount(first)[first] == 1]

@@ -2,17 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The least change of shape that brings a body's center of mass to a given point.
 
-Some vertices may move. With the derivative G of the center at the start, the moves v that bring it there with the least
-Σ a |v|² / m are v = (m / a) G' λ, with one λ for each coordinate of the center. Here a is a vertex's equal share of the
-areas of its faces, so that the resulting shape does not depend on how finely the mesh is cut, and m ≤ 1 is the vertex's
-freedom to move. Moves longer than a limit are cut to it, which is the solution of the same problem with that limit. For
-G and a, every face is taken as the fan around its middle, so that its diagonals show in the shape as little as
-possible; the center itself is computed from the faces as they are cut.
+Some vertices may move. With the derivative G of the center at the start, the moves v that bring it
+there with the least Σ a |v|² / m are v = (m / a) G' λ, with one λ for each coordinate of the
+center. Here a is a vertex's equal share of the areas of its faces, so that the resulting shape does
+not depend on how finely the mesh is cut, and m ≤ 1 is the vertex's freedom to move. Moves longer
+than a limit are cut to it, which is the solution of the same problem with that limit. For G and a,
+every face is taken as the fan around its middle, so that its diagonals show in the shape as little
+as possible; the center itself is computed from the faces as they are cut.
 
-The center is not a linear function of the moves, so λ is found by Newton's method, with the exact derivative at every
-step, until the center is there to rounding. The moves are then least to first order: moves of the least sum differ by
-terms of their square. Those are not sought, because on fine meshes they wrinkle: folds are the cheapest way for a shell
-to gain area.
+The center is not a linear function of the moves, so λ is found by Newton's method, with the exact
+derivative at every step, until the center is there to rounding. The moves are then least to first
+order: moves of the least sum differ by terms of their square. Those are not sought, because on fine
+meshes they wrinkle: folds are the cheapest way for a shell to gain area.
 """
 
 from __future__ import annotations
@@ -49,7 +50,9 @@ SLIVER_RTOL = 1e-9  # Relative to the longest side squared: smaller triangles ha
 
 @dataclass(frozen=True, eq=False)
 class BalanceResult:
-    """Moved vertices (n, 3) that bring the center of mass to its target, and the center before and after."""
+    """Moved vertices (n, 3) that bring the center of mass to its target, and the center before and
+    after.
+    """
 
     points: NDArray[np.float64]
     before: NDArray[np.float64]
@@ -81,8 +84,8 @@ def balance(
     limit : float
         How far a vertex may move.
     shell : bool
-        True if the mass is in the surface, otherwise in the body it bounds, which must be closed. Uniform density, and
-        all lengths in one unit.
+        True if the mass is in the surface, otherwise in the body it bounds, which must be closed.
+        Uniform density, and all lengths in one unit.
 
     Returns
     -------
@@ -97,7 +100,8 @@ def balance(
     --------
     >>> from body_moments.core.mesh import Surface
     >>> from body_moments.core.statics import balance
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> result = balance(surface, np.arange(4), np.array([0.25, 0.25, 0.3]))
     >>> np.round(result.after, 9).tolist()
     [0.25, 0.25, 0.3]
@@ -142,7 +146,9 @@ def _newton_solve(
     movable: NDArray,
     limit: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-    """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if reached."""
+    """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if
+    reached.
+    """
     points = problem.start
     (center, residual, gradient) = start
     multiplier = np.zeros(len(step_directions))
@@ -181,7 +187,9 @@ def _is_solvable(system: NDArray) -> bool:
 def _limited_moves(
     step_directions: NDArray, multiplier: NDArray, limit: float
 ) -> NDArray[np.float64]:
-    """Return (k, 3) moves: (r, k, 3) step directions times the (r,) multiplier, each cut to the limit."""
+    """Return (k, 3) moves: (r, k, 3) step directions times the (r,) multiplier, each cut to the
+    limit.
+    """
     moves = np.einsum("rnk,r->nk", step_directions, multiplier)
     length = np.linalg.norm(moves, axis=1)
     if not (length > limit).any():  # also if there is no limit
@@ -192,7 +200,9 @@ def _limited_moves(
 def _center_jacobian(
     step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
 ) -> NDArray[np.float64]:
-    """Return the (r, r) derivative of the center by the multiplier; moves cut to the limit can turn but not grow."""
+    """Return the (r, r) derivative of the center by the multiplier; moves cut to the limit can turn
+    but not grow.
+    """
     if np.isfinite(limit):
         moves = np.einsum("rnk,r->nk", step_directions, multiplier)
         length = np.linalg.norm(moves, axis=1)
@@ -230,7 +240,9 @@ class _Problem:
         return area if self.shell else volume
 
     def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
-        """Return the (3,) center, its (r,) distances from the target, and (r, n, 3) derivatives; None if inside out."""
+        """Return the (3,) center, its (r,) distances from the target, and (r, n, 3) derivatives;
+        None if inside out.
+        """
         moments = self._moments(points)
         if not moments.total * self.sign > moments.rounding_error[0]:
             return None
@@ -244,7 +256,9 @@ class _Problem:
         )
 
     def check(self, points: NDArray, movable: NDArray) -> None:
-        """Raise MeasureError if a triangle turns by a right angle: N(s)·N(0), a quadratic, has a root in [0, 1]."""
+        """Raise MeasureError if a triangle turns by a right angle: N(s)·N(0), a quadratic, has a
+        root in [0, 1].
+        """
         moved = np.zeros(len(points), bool)
         moved[movable] = True
         triangles = self.triangles[moved[self.triangles].any(axis=1)]
@@ -275,7 +289,9 @@ class _Problem:
 
 
 class _Fans:
-    """Faces as fans around the means of their vertices; areas: (n,) each vertex's equal shares of its faces' areas."""
+    """Faces as fans around the means of their vertices; areas: (n,) each vertex's equal shares of
+    its faces' areas.
+    """
 
     def __init__(self, surface: Surface, shell: bool):
         triangles, faces = surface.all_triangles()
@@ -314,7 +330,9 @@ class _Fans:
         self.fan = fan
 
     def center_gradient(self, center: NDArray) -> NDArray[np.float64]:
-        """Return (n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its vertices."""
+        """Return (n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its
+        vertices.
+        """
         if self.shell:  # signed as the faces' own areas are
             parts = [
                 area_gradient(Surface(self.points, triangles), center)[:, 1:4]

@@ -10,7 +10,8 @@ BALANCE_NO_EFFECT = error(
 )
 BALANCE_SHORT = error(
     "balance_short",
-    "The center of mass stays {distance:length} short. Select more vertices, a nearer point or, if moves of at most "
+    "The center of mass stays {distance:length} short. Select more vertices, a nearer point or, if "
+    "moves of at most "
     "{limit:length} do not suffice, a larger Max Distance.",
 )
 BALANCE_FOLDS_FACES = error(
@@ -20,6 +21,7 @@ BALANCE_FOLDS_FACES = error(
 )
 CENTER_OUTSIDE_HULL = error(
     "center_outside_hull",
-    "The center of mass is outside the convex hull: no body can have it there. Check the surface and the density.",
+    "The center of mass is outside the convex hull: no body can have it there. Check the surface "
+    "and the density.",
 )
 NO_STABLE_POSE = error("no_stable_pose", "There is no pose in which it rests: it rolls on.")

@@ -2,16 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Derivatives of the zeroth, first and second moments by every vertex, in one pass.
 
-A vertex that moves by δ carries its surface with it by λ δ, λ its barycentric coordinate, and the flow through the
-surface is the change of the body (Reynolds): with N = (b-a) × (c-a) of each triangle around the vertex v,
+A vertex that moves by δ carries its surface with it by λ δ, λ its barycentric coordinate, and the
+flow through the surface is the change of the body (Reynolds): with N = (b-a) × (c-a) of each
+triangle around the vertex v,
 
-    ∂/∂v ∫ f dV = Σ N ∫ f λ_v,   the integral over the unit triangle: f = 1: 1/6;   x: (s + x_v) / 24,   s = Σ x;
+    ∂/∂v ∫ f dV = Σ N ∫ f λ_v,   the integral over the unit triangle: f = 1: 1/6;   x: (s + x_v) /
+                                 24,   s = Σ x;
     xy: (s_x s_y + Σ xy + s_x y_v + x_v s_y + 2 x_v y_v) / 120.
 
-It holds for closed surfaces; of the sum over cones it is the derivative there, and needs no reference point. An area's
-moment is |N| m, m the mean of f over the triangle times 1/2; ∂|N|/∂a = (b - c) × n with n = N / |N|.
+It holds for closed surfaces; of the sum over cones it is the derivative there, and needs no
+reference point. An area's moment is |N| m, m the mean of f over the triangle times 1/2; ∂|N|/∂a =
+(b - c) × n with n = N / |N|.
 
-About the body's own center, first moments vanish, so that the derivative of the center is just ∂first / volume.
+About the body's own center, first moments vanish, so that the derivative of the center is just
+∂first / volume.
 """
 
 from __future__ import annotations
@@ -31,7 +35,7 @@ TRIANGLES_PER_BLOCK = 65536  # triangles at a time
 
 
 def volume_gradient(surface: Surface, about: ArrayLike, order: int = 1) -> NDArray[np.float64]:
-    """Return the derivatives of the volume and its moments to an order of at most two by every vertex.
+    """Return the derivatives of the volume moments to order two at most by every vertex.
 
     Parameters
     ----------
@@ -50,7 +54,8 @@ def volume_gradient(surface: Surface, about: ArrayLike, order: int = 1) -> NDArr
     --------
     >>> from body_moments.core.mesh import Surface
     >>> from body_moments.core.statics import volume_gradient
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), faces)
     >>> np.round(volume_gradient(surface, np.zeros(3))[3, 0] * 6, 9).tolist()
     [0.0, 0.0, 1.0]
     """
@@ -107,7 +112,9 @@ def _gradient(
 def _volume_shares(
     corners: NDArray, local: NDArray, normal: NDArray, order: int
 ) -> Iterator[NDArray]:
-    """Yield for each corner the (k, 3, m) shares of m triangles; local: (3, 3, m) corners from the reference point."""
+    """Yield for each corner the (k, 3, m) shares of m triangles; local: (3, 3, m) corners from the
+    reference point.
+    """
     total = local[0] + local[1] + local[2]
     i, j = np.triu_indices(3)
     products = total[i] * total[j] + (local[:, i] * local[:, j]).sum(axis=0) if order > 1 else None
@@ -122,7 +129,9 @@ def _volume_shares(
 
 
 def _area_shares(corners: NDArray, local: NDArray, normal: NDArray) -> Iterator[NDArray]:
-    """Yield for each corner the (4, 3, m) derivatives of area moments; parameters as for `_volume_shares`."""
+    """Yield for each corner the (4, 3, m) derivatives of area moments; parameters as for
+    `_volume_shares`.
+    """
     double = np.sqrt(np.einsum("im,im->m", normal, normal))
     unit = normal / np.where(double > 0.0, double, 1.0)
     mean = np.empty((4, len(double)))

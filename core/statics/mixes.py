@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Volume and center of bodies with vertices mixed from several shapes.
 
-If every vertex is p + Σ v_k d_k, the moments of order n of the volume are polynomials of degree 3 + n in the mixing
-values v: the integral over a cone to a triangle is the determinant of its corners times a polynomial of degree n of
-them. So the moments of as many mixes as the polynomial has coefficients give the moments of all mixes, inside the range
-of the samples and beyond it.
+If every vertex is p + Σ v_k d_k, the moments of order n of the volume are polynomials of degree 3 +
+n in the mixing values v: the integral over a cone to a triangle is the determinant of its corners
+times a polynomial of degree n of them. So the moments of as many mixes as the polynomial has
+coefficients give the moments of all mixes, inside the range of the samples and beyond it.
 """
 
 from __future__ import annotations
@@ -37,7 +37,9 @@ class Mixes:
     about: NDArray[np.float64]
 
     def at(self, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return (f,) volumes and (f, 3) centers of mixes by (f, k) values; NaN for flat and inside-out ones."""
+        """Return (f,) volumes and (f, 3) centers of mixes by (f, k) values; NaN for flat and
+        inside-out ones.
+        """
         powers = _powers(np.asarray(values, np.float64), self.exponents)
         moments = powers @ self.coefficients
         terms = np.abs(powers) @ np.abs(self.coefficients[:, 0])
@@ -51,7 +53,9 @@ def sample_count(shapes: int) -> int:
 
 
 def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
-    """Fit the polynomials of a closed, outward surface, triangulated as now, with the (k, n, 3) offsets of k shapes."""
+    """Fit the polynomials of a closed, outward surface, triangulated as now, with the (k, n, 3)
+    offsets of k shapes.
+    """
     triangles, _ = surface.all_triangles()
     points = surface.points.astype(np.float64)
     offsets = np.asarray(offsets, np.float64)

@@ -1,18 +1,21 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Standing bodies: the support polygon and the place of the center of mass over it; the poses in which bodies rest.
+"""Standing bodies: the support polygon and the place of the center of mass over it; the poses in
+which bodies rest.
 
-A rigid body at rest on a plane stands if the foot of the plumb line through its center is inside the convex hull of its
-contact points, the support polygon. The margin is the foot's distance from the nearest edge; about that edge the body
-tips when the ground is tilted by more than atan(margin / height of the center).
+A rigid body at rest on a plane stands if the foot of the plumb line through its center is inside
+the convex hull of its contact points, the support polygon. The margin is the foot's distance from
+the nearest edge; about that edge the body tips when the ground is tilted by more than atan(margin /
+height of the center).
 
-A body rests stably on a face of its convex hull if the foot of the center of mass is inside the face. From any other
-face it tips onto the next one, over the edge that the foot has passed by the largest distance. It ends on a stable
-face, because the center sinks all the time. The share of a pose is the quasi-static estimate of Wiegley, Rao and
-Goldberg ("Computing a statistical distribution of stable poses for a polyhedron", Allerton 1992). All orientations are
-equally likely when the body is let go, it lands on the face below the center, and nothing bounces; so a face's
-probability is its solid angle, seen from the center. A face that is not stable adds its probability to the face that
-the body tips onto.
+A body rests stably on a face of its convex hull if the foot of the center of mass is inside the
+face. From any other face it tips onto the next one, over the edge that the foot has passed by the
+largest distance. It ends on a stable face, because the center sinks all the time. The share of a
+pose is the quasi-static estimate of Wiegley, Rao and Goldberg ("Computing a statistical
+distribution of stable poses for a polyhedron", Allerton 1992). All orientations are equally likely
+when the body is let go, it lands on the face below the center, and nothing bounces; so a face's
+probability is its solid angle, seen from the center. A face that is not stable adds its probability
+to the face that the body tips onto.
 """
 
 from __future__ import annotations
@@ -33,12 +36,14 @@ from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
 from .findings import CENTER_OUTSIDE_HULL, NO_STABLE_POSE
 
-CONTACT_RTOL = 1e-6  # Relative to the body's extent: points up to this height above the lowest one touch the ground.
+# Relative to the body's extent: points up to this height above the lowest one touch the ground.
+CONTACT_RTOL = 1e-6
 NEAR = 0.1  # Relative to the polygon's extent: the foot is near the edge.
 ON_EDGE = 4.0 * float(
     np.finfo(np.float64).eps
 )  # Relative to the corners' distances: zero after rounding.
-PLANE_RTOL = 1e-6  # Relative to the body's extent: nearer corners are in a plane, smaller margins count as none.
+# Relative to the body's extent: nearer corners are in a plane, smaller margins count as none.
+PLANE_RTOL = 1e-6
 ALIKE_COSINE = 0.5  # For normals: across the edge of a face they mostly differ by more.
 
 
@@ -46,11 +51,11 @@ ALIKE_COSINE = 0.5  # For normals: across the edge of a face they mostly differ 
 class Support:
     """The stand of a body on the ground, in the unit and the frame of its points.
 
-    `polygon`: (k, 3) corners of the support polygon, counter-clockwise from above; two if it is a line, one if a point.
-    `foot`: the point of the ground below the center of mass. `height`: of the center above the ground.
-    `margin`: distance of the foot from the nearest edge, negative if it is outside the polygon.
-    `direction`: unit vector along the ground across the nearest edge, over which the body tips first or falls.
-    `up`: unit vector against gravity.
+    `polygon`: (k, 3) corners of the support polygon, counter-clockwise from above; two if it is a
+    line, one if a point. `foot`: the point of the ground below the center of mass. `height`: of the
+    center above the ground. `margin`: distance of the foot from the nearest edge, negative if it is
+    outside the polygon. `direction`: unit vector along the ground across the nearest edge, over
+    which the body tips first or falls. `up`: unit vector against gravity.
     """
 
     polygon: NDArray[np.float64]
@@ -62,12 +67,16 @@ class Support:
 
     @property
     def stands(self) -> bool:
-        """True if the foot is inside the polygon; a body balanced on an edge, a line or a point does not stand."""
+        """True if the foot is inside the polygon; a body balanced on an edge, a line or a point
+        does not stand.
+        """
         return self.margin > 0.0
 
     @property
     def tipping_angle(self) -> float:
-        """The tilt of the ground at which the body tips, in radians; negative if it tips by itself."""
+        """The tilt of the ground at which the body tips, in radians; negative if it tips by
+        itself.
+        """
         return atan2(self.margin, self.height)
 
     @property
@@ -76,7 +85,9 @@ class Support:
         return self.margin < NEAR * float(np.linalg.norm(np.ptp(self.polygon, axis=0)))
 
     def target(self, margin: float | None) -> NDArray[np.float64]:
-        """Return the (3,) polygon point nearest to the foot with a margin; the middle if it is None or too large."""
+        """Return the (3,) polygon point nearest to the foot with a margin; the middle if it is None
+        or too large.
+        """
         axes = ground_axes(-self.up)[:, :2]
         corners = (self.polygon - self.foot) @ axes
         inside = corners[:0] if margin is None else nearest_inside(corners, margin)
@@ -84,7 +95,9 @@ class Support:
 
 
 def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
-    """Return a (3, 3) rotation with two columns along the ground and the third up; down: direction of gravity."""
+    """Return a (3, 3) rotation with two columns along the ground and the third up; down: direction
+    of gravity.
+    """
     up = -float_array("down", down, 3)
     return np.transpose(frame_about((up / float(np.linalg.norm(up))).tolist()))
 
@@ -100,7 +113,8 @@ def find_support(
     Parameters
     ----------
     points : (n, 3) array_like
-        Points of the body; the corners of its convex hull are enough. The ground goes through the lowest of them.
+        Points of the body; the corners of its convex hull are enough. The ground goes through the
+        lowest of them.
     center : (3,) array_like
         Center of mass.
     down : (3,) array_like
@@ -135,10 +149,12 @@ def find_contacts(
     reach: float,
     may_touch: ArrayLike = True,
 ) -> tuple[NDArray[np.intp], NDArray[np.float64], float]:
-    """Return the rows of the points that touch level ground, their (k, 3) places in the world, and the least height.
+    """Return the rows of the points that touch level ground, their (k, 3) places in the world, and
+    the least height.
 
-    points: (n, 3) of a body. matrix: (4, 4) from these to the world. ground: its height against gravity from the
-    world's origin. reach: points up to this height above it touch it. may_touch: (n,) mask of points that count.
+    points: (n, 3) of a body. matrix: (4, 4) from these to the world. ground: its height against
+    gravity from the world's origin. reach: points up to this height above it touch it. may_touch:
+    (n,) mask of points that count.
     """
     heights = points @ (-down @ matrix[:3, :3]).astype(points.dtype) - (
         down @ matrix[:3, 3] + ground
@@ -154,10 +170,12 @@ def support_of_contacts(
     down: ArrayLike = (0.0, 0.0, -1.0),
     tolerance: float = 0.0,
 ) -> Support:
-    """Find the support polygon of (n, 3) contact points at any heights: hands on a wall, feet on stairs.
+    """Find the support polygon of (n, 3) contact points at any heights: hands on a wall, feet on
+    stairs.
 
-    The polygon is the hull of the contacts projected along gravity onto the ground through the lowest contact, without
-    corners that stand out by less than the tolerance, relative to its extent.
+    The polygon is the hull of the contacts projected along gravity onto the ground through the
+    lowest contact, without corners that stand out by less than the tolerance, relative to its
+    extent.
     """
     center = np.asarray(center, np.float64)
     axes = ground_axes(down)
@@ -174,10 +192,12 @@ def support_of_contacts(
 
 
 def polygon_margin(corners: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
-    """Return the distance of the origin inside a convex polygon, and the unit vector over the nearest edge.
+    """Return the distance of the origin inside a convex polygon, and the unit vector over the
+    nearest edge.
 
-    corners: (k, 2) counter-clockwise. Returns the distance from the nearest edge; outside, minus the distance from the
-    polygon; and the direction, (2,), from inside straight over that edge, from outside away from the polygon.
+    corners: (k, 2) counter-clockwise. Returns the distance from the nearest edge; outside, minus
+    the distance from the polygon; and the direction, (2,), from inside straight over that edge,
+    from outside away from the polygon.
     """
     along = np.roll(corners, -1, axis=0) - corners
     lengths = np.linalg.norm(along, axis=1)
@@ -210,7 +230,9 @@ def polygon_middle(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def nearest_inside(corners: NDArray[np.float64], margin: float) -> NDArray[np.float64]:
-    """Return the (1, 2) point nearest to the origin that is `margin` inside a convex polygon, none if there is none."""
+    """Return the (1, 2) point nearest to the origin that is `margin` inside a convex polygon, none
+    if there is none.
+    """
     along = np.roll(corners, -1, axis=0) - corners
     lengths = np.linalg.norm(along, axis=1)
     outward = (
@@ -234,10 +256,10 @@ def nearest_inside(corners: NDArray[np.float64], margin: float) -> NDArray[np.fl
 class RestingPoses:
     """Stable resting poses, the likeliest first.
 
-    `normals`: (k, 3) outward unit normals of the faces that the body rests on; at rest they point down.
-    `shares`: (k,) quasi-static probabilities, adding up to 1.
-    `margins`: (k,) distances of the center's foot from the nearest edge of the face.
-    `heights`: (k,) heights of the center above the ground.
+    `normals`: (k, 3) outward unit normals of the faces that the body rests on; at rest they point
+    down. `shares`: (k,) quasi-static probabilities, adding up to 1. `margins`: (k,) distances of
+    the center's foot from the nearest edge of the face. `heights`: (k,) heights of the center above
+    the ground.
     """
 
     normals: NDArray[np.float64]
@@ -263,8 +285,9 @@ def resting_poses(
     center : (3,) array_like
         Its center of mass.
     tolerance : float
-        Relative to the hull's largest extent: triangles with corners this near to one plane are one face, and faces
-        with a smaller margin are not stable. At least twice the distance of points outside the hull is used.
+        Relative to the hull's largest extent: triangles with corners this near to one plane are one
+        face, and faces with a smaller margin are not stable. At least twice the distance of points
+        outside the hull is used.
 
     Returns
     -------
@@ -291,12 +314,14 @@ def resting_poses(
     if heights.min() < -least or hull.is_flat and margins.max() < -least:
         raise MeasureError(CENTER_OUTSIDE_HULL)
     shares = sums_by_index(face, solid_angles(points, hull.triangles), len(heights)) / (4.0 * np.pi)
-    # A face that contains the center has an uncertain solid angle: it gets the share that the others leave.
+    # A face that contains the center has an uncertain solid angle: it gets the share that the
+    # others leave.
     around = heights <= 1e-9 * extent
     if around.any():
         shares[around] = (1.0 - shares[~around].sum()) / np.count_nonzero(around)
     stable = margins > least
-    # Over the edge of a face with a margin near zero the center may rise: the body stays where it is.
+    # Over the edge of a face with a margin near zero the center may rise: the body stays where it
+    # is.
     rests = stable | (heights[beyond] >= heights)
     ends = np.where(rests, np.arange(len(rests)), beyond)
     while not np.array_equal(further := ends[ends], ends):
@@ -318,10 +343,11 @@ def _faces(
     NDArray[np.float64],
     NDArray[np.intp],
 ]:
-    """Return (m,) faces of a hull's triangles, (f, 3) unit normals, (f,) heights of the center, margins and neighbors.
+    """Return (m,) faces of a hull's triangles, (f, 3) unit normals, (f,) heights of the center,
+    margins and neighbors.
 
-    points: from the center. The neighbor is the face beyond the edge that the foot is nearest to, or has passed
-    farthest. least: smaller distances count as 0.
+    points: from the center. The neighbor is the face beyond the edge that the foot is nearest to,
+    or has passed farthest. least: smaller distances count as 0.
     """
     triangles, neighbors = hull.triangles, hull.neighbors
     double = normals(points, triangles)
@@ -356,9 +382,10 @@ def _coplanar(
 ) -> tuple[NDArray[np.intp], int]:
     """Return the (m,) faces of the triangles, and the number of faces.
 
-    Neighbors are in one plane if the corner of the smaller one is in the plane of the larger. A sliver may join
-    triangles on both its sides that are not in one plane. Such a group is divided, and only neighbors that face alike
-    are joined; the triangles of a group still not in one plane, such as a fine rounding, stay single.
+    Neighbors are in one plane if the corner of the smaller one is in the plane of the larger. A
+    sliver may join triangles on both its sides that are not in one plane. Such a group is divided,
+    and only neighbors that face alike are joined; the triangles of a group still not in one plane,
+    such as a fine rounding, stay single.
     """
     lengths = np.linalg.norm(double, axis=1)
     triangle, side = np.divmod(np.arange(neighbors.size), 3)
@@ -381,7 +408,9 @@ def _coplanar(
     order = np.argsort(lengths, kind="stable")
 
     def join_triangles(pairs: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """Return the (m,) groups of triangles joined by these pairs, and an (m,) mask of groups not in one plane."""
+        """Return the (m,) groups of triangles joined by these pairs, and an (m,) mask of groups not
+        in one plane.
+        """
         face, count = connected_components(len(triangles), triangle[pairs], other[pairs])
         largest = np.empty(count, np.intp)
         largest[face[order]] = order  # the last one written is the largest

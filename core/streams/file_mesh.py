@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh of a file as arrays, the same for every format; the bounding box of finite coordinates in blocks."""
+"""A mesh of a file as arrays, the same for every format; the bounding box of finite coordinates in
+blocks.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +13,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.damage import refuse_non_finite
 from ..mesh.surface import Surface
 from ..mesh.welding import first_at_equal_position
-from ..verdict.finding import FileError, finding
-from .findings import AT_ROW, NON_FINITE_COORDINATES
 
 CORNERS_PER_BLOCK = 1 << 18
 
@@ -25,8 +26,9 @@ Box = tuple[NDArray[np.float64], NDArray[np.float64]]
 class FileMesh:
     """A mesh of a file, not repaired.
 
-    points: (n, 3). corners: (k,) vertices of all faces, one face after another. sides: (m,) the number of corners of
-    each face. edges: (e, 2) edges beside faces. values: (n,) numbers of the vertices, by name.
+    points: (n, 3). corners: (k,) vertices of all faces, one face after another. sides: (m,) the
+    number of corners of each face. edges: (e, 2) edges beside faces. values: (n,) numbers of the
+    vertices, by name.
     """
 
     name: str
@@ -37,7 +39,9 @@ class FileMesh:
     values: Mapping[str, NDArray[np.float32]] = field(default_factory=dict)
 
     def surface(self) -> Surface:
-        """Return the faces as a surface of triangles, quads, and the triangles of larger polygons."""
+        """Return the faces as a surface of triangles, quads, and the triangles of larger
+        polygons.
+        """
         starts = np.cumsum(self.sides) - self.sides
         faces = np.arange(len(self.sides))
         triangles: list[NDArray[np.integer]] = [np.zeros((0, 3), np.int32)]
@@ -82,7 +86,9 @@ class Polygons:
         self._count = max(self._count, int(rows.max(initial=-1)) + 1)
 
     def join(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Return corners and sides of all faces, without repeated corners and without faces of two corners."""
+        """Return corners and sides of all faces, without repeated corners and without faces of two
+        corners.
+        """
         sides = np.zeros(self._count, np.int64)
         for rows, corners in self._blocks:
             sides[rows] = corners.shape[1]
@@ -108,7 +114,9 @@ def without_repeats(
 
 
 def merge_equal(points: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
-    """Return the different points of (n, 3), in the order of their first places, and the (n,) index of each point."""
+    """Return the different points of (n, 3), in the order of their first places, and the (n,) index
+    of each point.
+    """
     points = points + np.float32(0.0)  # -0.0 equals 0.0
     first = first_at_equal_position(points)
     is_first = first == np.arange(len(points))
@@ -116,7 +124,9 @@ def merge_equal(points: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArr
 
 
 def box_of_blocks(blocks: Iterable[NDArray[np.floating]], element: str) -> Box:
-    """Return the least and the largest coordinates of (n, 3) or (n, 3, 3) blocks, zeros if there are none."""
+    """Return the least and the largest coordinates of (n, 3) or (n, 3, 3) blocks, zeros if there
+    are none.
+    """
     low = np.full(3, np.inf)
     high = np.full(3, -np.inf)
     rows = bad = first = 0
@@ -132,13 +142,6 @@ def box_of_blocks(blocks: Iterable[NDArray[np.floating]], element: str) -> Box:
         rows += len(block)
     refuse_non_finite(bad, element, first)
     return (low, high) if rows else (np.zeros(3), np.zeros(3))
-
-
-def refuse_non_finite(count: int, element: str, row: int | str) -> None:
-    """Raise FileError if the count is not zero. row: the first element with such a number, or its name."""
-    if count:
-        place = finding(AT_ROW, element=element, row=row).as_record()
-        raise FileError(NON_FINITE_COORDINATES, count=count, place=place)
 
 
 def strip_triangles(strip: NDArray[np.integer]) -> NDArray[np.integer]:
@@ -160,10 +163,11 @@ def polygon_surface(points: NDArray[np.floating], faces: NDArray[np.integer]) ->
 
 
 def tessellate(points: NDArray[np.floating], polygons: NDArray[np.integer]) -> NDArray[np.integer]:
-    """Return the (n, k - 2, 3) triangles of (n, k) polygons over (m, 3) points, as Blender draws them: ears are cut.
+    """Return the (n, k - 2, 3) triangles of (n, k) polygons over (m, 3) points, as Blender draws
+    them: ears are cut.
 
-    D. Eberly, Triangulation by Ear Clipping. The search for the next ear begins one corner beyond the last one, and
-    turns back if that corner is no ear.
+    D. Eberly, Triangulation by Ear Clipping. The search for the next ear begins one corner beyond
+    the last one, and turns back if that corner is no ear.
     """
     count, sides = polygons.shape
     triangles = np.empty((count, sides - 2, 3), polygons.dtype)
@@ -176,7 +180,9 @@ def tessellate(points: NDArray[np.floating], polygons: NDArray[np.integer]) -> N
 
 
 def _flatten(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the (n, k, 2) corners of (n, k, 3) polygons seen against their normals, stretched by any factor."""
+    """Return the (n, k, 2) corners of (n, k, 3) polygons seen against their normals, stretched by
+    any factor.
+    """
     about = corners - corners[:, :1]
     normal = np.cross(about, np.roll(about, -1, axis=1)).sum(axis=1)
     least = np.zeros_like(normal)
@@ -192,7 +198,8 @@ def _flatten(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 class _Ears:
     """Polygons of k corners, (n, k, 2), that are cut at the same time.
 
-    before, after: (n, k) neighbors of the corners that are left. turn: (n, k) their signs, 1 for convex corners.
+    before, after: (n, k) neighbors of the corners that are left. turn: (n, k) their signs, 1 for
+    convex corners.
     """
 
     def __init__(self, corners: NDArray[np.float64]) -> None:
@@ -238,7 +245,9 @@ class _Ears:
     def _find(
         self, start: NDArray[np.intp], is_backward: NDArray[np.bool_], left: int
     ) -> NDArray[np.intp]:
-        """Return the (n,) ears: convex corners, else straight ones, else those that are not concave, else any."""
+        """Return the (n,) ears: convex corners, else straight ones, else those that are not
+        concave, else any.
+        """
         found = start.copy()
         waiting = self._every
         for least, most, is_checked in ((1, 1, True), (0, 0, True), (0, 1, False)):
@@ -259,7 +268,9 @@ class _Ears:
         return found
 
     def _holds_corner(self, which: NDArray[np.intp], tip: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """Return whether another corner that is not convex lies in the triangle at a corner, or on its edges."""
+        """Return whether another corner that is not convex lies in the triangle at a corner, or on
+        its edges.
+        """
         ends = self._before[which, tip], tip, self._after[which, tip]
         others = self._is_left[which] & (self._turn[which] <= 0)
         for end in ends:

@@ -11,14 +11,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.findings import FILE_TYPE, FILE_WITHOUT_OBJECTS
 from ..mesh.boundary import BoundarySum
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..polyhedron.integration import polyhedron_moments
 from ..polyhedron.third_order import box_center
-from ..scans.findings import FILE_TYPE
 from ..verdict.finding import FileError
-from .findings import FILE_WITHOUT_OBJECTS
 from .ply import PlyFile
 from .stl import StlFile
 
@@ -30,10 +29,12 @@ KINDS = {".stl": StlFile, ".ply": PlyFile}
 
 @dataclass(frozen=True, eq=False)
 class StreamIntegrals:
-    """Integrals of a mesh that was read in blocks, without repair, about the center of a bounding box.
+    """Integrals of a mesh that was read in blocks, without repair, about the center of a bounding
+    box.
 
-    closed: True if every edge is used equally often both ways, by their hashes (`BoundarySum`); the volume of an open
-    mesh depends on the center. face_count: triangles and quads that were measured.
+    closed: True if every edge is used equally often both ways, by their hashes (`BoundarySum`); the
+    volume of an open mesh depends on the center. face_count: triangles and quads that were
+    measured.
     """
 
     volume: Moments
@@ -51,9 +52,10 @@ def measure_stream(
 ) -> StreamIntegrals:
     """Measure a mesh that is larger than memory, to orders of the volume's and the area's moments.
 
-    The moments are about the center of the bounding box of all vertices of a .ply, or of a sample of the triangles of
-    an .stl; a mesh that reaches much farther than the sample is read again with the box of all. FileError if the file
-    is damaged, or not finite. progress: called with the count of faces read since the last time.
+    The moments are about the center of the bounding box of all vertices of a .ply, or of a sample
+    of the triangles of an .stl; a mesh that reaches much farther than the sample is read again with
+    the box of all. FileError if the file is damaged, or not finite. progress: called with the count
+    of faces read since the last time.
     """
     for find_box in (mesh.sampled_box, mesh.box):
         stream = _Stream(mesh, *find_box(), progress)
@@ -80,7 +82,9 @@ class _FarPiece(Exception):
 
 
 class _Stream:
-    """The faces of a file, with their boundary and count. progress: called with the count of faces of each piece."""
+    """The faces of a file, with their boundary and count. progress: called with the count of faces
+    of each piece.
+    """
 
     def __init__(
         self, mesh: MeshFile, low: NDArray, high: NDArray, progress: Callable[[int], None] | None
@@ -110,7 +114,10 @@ class _Stream:
 
 
 def open_mesh_file(path: str | Path) -> MeshFile:
-    """Open an .stl or .ply file, to read it in blocks, but a .ply's vertices at once. Raises FileError and OSError."""
+    """Open an .stl or .ply file, to read it in blocks, but a .ply's vertices at once.
+
+    Raises FileError and OSError.
+    """
     path = Path(path)
     kind = KINDS.get(path.suffix.lower())
     if kind is None:

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces in .ply files, in blocks, the table of vertices in memory; checks of text: each row is one line of fields.
+"""Faces in .ply files, in blocks, the table of vertices in memory; checks of text: each row is one
+line of fields.
 
 Blender reads a missing or wrong number as 0, and leaves out faces with a wrong index.
 """
@@ -15,31 +16,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface
-from ..scans.findings import FILE_UNRECOGNIZED
-from ..scans.scan import damaged
-from ..verdict.finding import FileError
-from .file_mesh import (
-    Box,
-    FileMesh,
-    Polygons,
-    box_of_blocks,
-    name_of_file,
-    polygon_surface,
-    strip_triangles,
-)
-from .findings import DAMAGE_INDEX, DAMAGE_PLY_ROWS, FILE_WITHOUT_OBJECTS
-from .ply_rows import (
-    INDICES,
-    MAX_HEADER,
-    Element,
-    Header,
-    Property,
-    RowReader,
-    RowsError,
-    parse_header,
-)
-from .text_fields import (
+from ..files.damage import damaged
+from ..files.findings import DAMAGE_INDEX, FILE_UNRECOGNIZED, FILE_WITHOUT_OBJECTS
+from ..files.text_fields import (
     BLOCK,
     SHORT,
     SHORT_OR_NAN,
@@ -53,6 +32,28 @@ from .text_fields import (
     map_file,
     refuse_line,
     shorten,
+)
+from ..mesh.surface import Surface
+from ..verdict.finding import FileError
+from .file_mesh import (
+    Box,
+    FileMesh,
+    Polygons,
+    box_of_blocks,
+    name_of_file,
+    polygon_surface,
+    strip_triangles,
+)
+from .findings import DAMAGE_PLY_ROWS
+from .ply_rows import (
+    INDICES,
+    MAX_HEADER,
+    Element,
+    Header,
+    Property,
+    RowReader,
+    RowsError,
+    parse_header,
 )
 
 MAX_SPREAD = (
@@ -102,7 +103,10 @@ class PlyFile:
 
     @cached_property
     def _faces(self) -> tuple[Element, int]:
-        """The element of faces, and the index of the property that lists their vertices. Raises FileError."""
+        """The element of faces, and the index of the property that lists their vertices.
+
+        Raises FileError.
+        """
         for element in self._header.elements:
             if element.name == "face" and element.list_of_indices is not None:
                 return element, element.list_of_indices
@@ -129,7 +133,10 @@ class PlyFile:
                 yield self._piece(*self._corners(columns[column], len(self._points)))
 
     def mesh(self) -> FileMesh:
-        """Read faces, strips of triangles, edges, and numbers of the vertices, finite or not. Raises FileError."""
+        """Read faces, strips of triangles, edges, and numbers of the vertices, finite or not.
+
+        Raises FileError.
+        """
         points = self._empty_points()
         names = {one.name for one in self._vertices.properties if not one.counter} - {"x", "y", "z"}
         values = {name: np.empty(len(points), np.float32) for name in names}
@@ -160,7 +167,10 @@ class PlyFile:
         )
 
     def _corners(self, corners: NDArray, count: int) -> tuple[NDArray[np.integer], int, int]:
-        """Return vertex indices as integers, their least, and their largest plus one. FileError if one is wrong."""
+        """Return vertex indices as integers, their least, and their largest plus one.
+
+        FileError if one is wrong.
+        """
         given = corners
         with np.errstate(invalid="ignore"):  # a text may have NaN
             corners = np.ascontiguousarray(
@@ -180,7 +190,9 @@ class PlyFile:
         )
 
     def _empty_points(self) -> NDArray[np.floating]:
-        """Return (n, 3) points to be filled: float32 if the file has them as such or as text, else float64."""
+        """Return (n, 3) points to be filled: float32 if the file has them as such or as text, else
+        float64.
+        """
         is_exact = self._header.order and {
             self._vertices.properties[axis].type for axis in self._axes
         } != {"f4"}
@@ -261,7 +273,9 @@ class _Rows:
             start = stop
 
     def _check_indices(self, start: int, end: int) -> None:
-        """Check the faces of a block row by row only if one of its numbers, of any meaning, can be no index."""
+        """Check the faces of a block row by row only if one of its numbers, of any meaning, can be
+        no index.
+        """
         while start < end:
             stop = self._data.find(b"\n", min(start + BLOCK, end - 1), end) + 1 or end
             values = np.fromstring(self._data[start:stop], self._type, sep=" ")
@@ -307,7 +321,9 @@ class _Rows:
 
 
 def _is_whole(one: Property) -> bool:
-    """Return whether importers read a property as a list of whole numbers; they read single values as numbers."""
+    """Return whether importers read a property as a list of whole numbers; they read single values
+    as numbers.
+    """
     return bool(one.counter) and (one.type[0] in "iu" or one.name in INDICES)
 
 

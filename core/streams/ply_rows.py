@@ -14,7 +14,7 @@ from typing import BinaryIO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .text_fields import parse_decimals
+from ..files.text_fields import parse_decimals
 
 BYTES_PER_BLOCK = 1 << 22  # of a text a quarter
 FEW_ROWS = 64  # Rows of equal lengths: after so many, a run of them is looked for.
@@ -34,14 +34,22 @@ INDICES = "vertex_indices", "vertex_index"  # names of the list of vertices of a
 END = re.compile(rb"^end_header[ \t]*\r?\n", re.MULTILINE)
 ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 TYPES = {
-    **dict.fromkeys(("char", "int8"), "i1"),
-    **dict.fromkeys(("uchar", "uint8"), "u1"),
-    **dict.fromkeys(("short", "int16"), "i2"),
-    **dict.fromkeys(("ushort", "uint16"), "u2"),
-    **dict.fromkeys(("int", "int32"), "i4"),
-    **dict.fromkeys(("uint", "uint32"), "u4"),
-    **dict.fromkeys(("float", "float32"), "f4"),
-    **dict.fromkeys(("double", "float64"), "f8"),
+    "char": "i1",
+    "int8": "i1",
+    "uchar": "u1",
+    "uint8": "u1",
+    "short": "i2",
+    "int16": "i2",
+    "ushort": "u2",
+    "uint16": "u2",
+    "int": "i4",
+    "int32": "i4",
+    "uint": "u4",
+    "uint32": "u4",
+    "float": "f4",
+    "float32": "f4",
+    "double": "f8",
+    "float64": "f8",
 }
 
 
@@ -58,7 +66,10 @@ class RowReader:
         self._text = b""
 
     def read_rows(self, element: Element) -> Iterator[Block]:
-        """Yield the next element in blocks of rows with lists of the same lengths. All blocks have to be taken."""
+        """Yield the next element in blocks of rows with lists of the same lengths.
+
+        All blocks have to be taken.
+        """
         done = 0
         properties = element.properties
         while done < element.rows and properties:
@@ -91,7 +102,9 @@ class RowReader:
     def _scan(
         self, properties: Sequence[Property], rows: int
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return (n + 1,) offsets of the next rows in the buffer, and the (n, lists) lengths of their lists."""
+        """Return (n + 1,) offsets of the next rows in the buffer, and the (n, lists) lengths of
+        their lists.
+        """
         gap = 0
         lists = []
         for one in properties:
@@ -173,7 +186,9 @@ class RowReader:
         return np.dtype(fields)
 
     def _size(self, kind: str) -> int:
-        """Return the size of a number in items of the buffer: bytes of a binary file, numbers of a text."""
+        """Return the size of a number in items of the buffer: bytes of a binary file, numbers of a
+        text.
+        """
         return int(kind[1:]) if self._order else 1
 
     def _type(self, kind: str) -> np.dtype:
@@ -222,7 +237,9 @@ def _names(properties: Sequence[Property]) -> list[str]:
 
 
 class Property(NamedTuple):
-    """A number of a row, or a list of numbers. type: numpy's name. counter: type of a list's length, else empty."""
+    """A number of a row, or a list of numbers. type: numpy's name. counter: type of a list's
+    length, else empty.
+    """
 
     name: str
     type: str
@@ -239,7 +256,9 @@ class Element:
 
     @property
     def list_of_indices(self) -> int | None:
-        """The index of the property that lists the vertices of a face or strip, or None if there is none."""
+        """The index of the property that lists the vertices of a face or strip, or None if there is
+        none.
+        """
         names = [one.name if one.counter else "" for one in self.properties]
         return next((names.index(name) for name in INDICES if name in names), None)
 
@@ -250,7 +269,9 @@ class Element:
 
 @dataclass(frozen=True)
 class Header:
-    """The header of a file. order: "" for text, else "<" or ">". start: offset of the first element."""
+    """The header of a file. order: "" for text, else "<" or ">". start: offset of the first
+    element.
+    """
 
     order: str
     elements: tuple[Element, ...]
@@ -258,7 +279,10 @@ class Header:
 
 
 def parse_header(data: bytes) -> Header:
-    """Return the header at the start of a file. ValueError, KeyError or IndexError if there is none."""
+    """Return the header at the start of a file.
+
+    ValueError, KeyError or IndexError if there is none.
+    """
     end = END.search(data)
     if end is None or not data.startswith(b"ply"):
         raise ValueError("no header")

@@ -16,11 +16,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface
-from ..verdict.finding import FileError
-from .file_mesh import Box, FileMesh, Polygons, box_of_blocks, merge_equal, name_of_file
-from .findings import STL_CUT_SHORT
-from .text_fields import (
+from ..files.text_fields import (
     MARK,
     MAX_FLOAT32,
     SHORT,
@@ -33,6 +29,10 @@ from .text_fields import (
     refuse_line,
     shorten,
 )
+from ..mesh.surface import Surface
+from ..verdict.finding import FileError
+from .file_mesh import Box, FileMesh, Polygons, box_of_blocks, merge_equal, name_of_file
+from .findings import STL_CUT_SHORT
 
 # Bytes before the triangles, and bytes of each triangle.
 HEAD = 84
@@ -43,7 +43,8 @@ SAMPLES = 1000  # triangles that show where the body is
 TEXT_PER_BLOCK = 1 << 20  # bytes
 TEXT_PER_TRIANGLE = 250  # bytes, about
 FACET_END = b"endfacet"
-# The words of a facet without the letter that numbers may have, and all letters of numbers and white space.
+# The words of a facet without the letter that numbers may have, and all letters of numbers and
+# white space.
 FACET_LETTERS = b"factnormaloutrloopvrtxvrtxvrtxndloopndfact"
 # of a facet
 WORDS = 21
@@ -76,7 +77,9 @@ _FACET_WORDS = [
 
 
 class StlFile:
-    """The triangles of an .stl file. face_count: estimated for a text. is_loose: True, as triangles share no points."""
+    """The triangles of an .stl file. face_count: estimated for a text. is_loose: True, as triangles
+    share no points.
+    """
 
     is_loose = True
 
@@ -93,7 +96,9 @@ class StlFile:
         self.face_count = count if self._binary else size // TEXT_PER_TRIANGLE
 
     def sampled_box(self) -> Box:
-        """Return the box of a sample of the triangles (of a text, the first ones), of all if a sample is not finite."""
+        """Return the box of a sample of the triangles (of a text, the first ones), of all if a
+        sample is not finite.
+        """
         with open(self._path, "rb") as file:
             blocks = (
                 [self._samples()] if self._binary else list(islice(self._text_corners(file), 1))
@@ -145,7 +150,10 @@ class StlFile:
             raise FileError(STL_CUT_SHORT, end=BY_WORD)
 
     def _parse(self, text: bytes) -> NDArray[np.float32]:
-        """Return the (n, 3, 3) corners of whole facets in lower case. FileError if a word is wrong."""
+        """Return the (n, 3, 3) corners of whole facets in lower case.
+
+        FileError if a word is wrong.
+        """
         has_solids = b"solid" in text
         corners = None if has_solids else _plain_corners(text)
         if corners is not None:
@@ -163,7 +171,9 @@ class StlFile:
 
 
 def _plain_corners(text: bytes) -> NDArray[np.float32] | None:
-    """Return the (n, 3, 3) corners of facets whose words and numbers are in their places, or None if some are not."""
+    """Return the (n, 3, 3) corners of facets whose words and numbers are in their places, or None
+    if some are not.
+    """
     count = text.count(FACET_END)
     if text.translate(None, _NUMERIC) != FACET_LETTERS * count:
         return None
@@ -210,7 +220,7 @@ def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:
         corners = np.empty((TRIANGLES_PER_BLOCK, 3, 3), np.float32)
         done = 0
         while count and done < TRIANGLES_PER_BLOCK:
-            count = file.readinto(memoryview(records).cast("B")) // RECORD  # type: ignore[attr-defined]
+            count = file.readinto(records.view(np.uint8)) // RECORD  # type: ignore[attr-defined]
             corners[done : done + count] = records["at"][:count]
             done += count
         if done:

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """3MF files: meshes, components, the build's transforms and its unit.
 
-Read according to the 3MF Core Specification 1.3 and its Production Extension (https://3mf.io/spec). The demands of a
-file are limited: the archive's entries and their size, the number of placed meshes. XML document types, and with them
-entities, are refused, as the specification forbids them.
+Read according to the 3MF Core Specification 1.3 and its Production Extension (https://3mf.io/spec).
+The demands of a file are limited: the archive's entries and their size, the number of placed
+meshes. XML document types, and with them entities, are refused, as the specification forbids them.
 """
 
 from __future__ import annotations
@@ -21,13 +21,24 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scans.findings import DAMAGE_INCOMPLETE
-from ..scans.scan import damaged
-from ..scans.scan_files import DEFAULT_LIMITS, Limits
+from ..files.damage import damaged
+from ..files.findings import (
+    DAMAGE_INCOMPLETE,
+    DAMAGE_INDEX,
+    FILE_TOO_LARGE,
+    FILE_UNREADABLE,
+    LINE_MISREAD,
+)
+from ..files.limits import DEFAULT_LIMITS, Limits
+from ..files.number_text import (
+    SPACES,
+    parse_number,
+    parse_numbers,
+    parse_whole,
+)
+from ..files.text_fields import BLOCK, MAX_FLOAT32, MAX_TEXT
 from ..verdict.finding import FileError, system_reason
-from ..verdict.number_text import SPACES, parse_number, parse_numbers, parse_whole
-from .findings import DAMAGE_INDEX, FILE_TOO_LARGE, FILE_UNREADABLE, LINE_MISREAD, THREEMF_EXTENSION
-from .text_fields import BLOCK, MAX_FLOAT32, MAX_TEXT
+from .findings import THREEMF_EXTENSION
 
 MODEL = "model"  # the type of objects that are parts; supports and helpers have other types
 MAX_INSTANCES = 100_000  # meshes that the build places
@@ -67,8 +78,8 @@ class _Object:
 class Placed:
     """A mesh at one of its places.
 
-    key: the same at all places of a mesh. matrix: (4, 4), for column vectors. hidden: the reason why it is no part of
-    what is printed, or empty.
+    key: the same at all places of a mesh. matrix: (4, 4), for column vectors. hidden: the reason
+    why it is no part of what is printed, or empty.
     """
 
     name: str
@@ -80,9 +91,11 @@ class Placed:
 
 
 def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], float]:
-    """Return the meshes of a file's build, one for each place, in the file's unit; and that unit in meters.
+    """Return the meshes of a file's build, one for each place, in the file's unit; and that unit in
+    meters.
 
-    FileError if the file is damaged, beyond limits (`entries`, `unpacked_bytes`), or needs an unknown extension.
+    FileError if the file is damaged, beyond limits (`entries`, `unpacked_bytes`), or needs an
+    unknown extension.
     """
     try:
         with zipfile.ZipFile(path) as archive:
@@ -133,7 +146,9 @@ class _Package:
         return placed, UNITS[model.unit]
 
     def _root(self) -> str:
-        """Return the part with the model: the target of the first relationship to one, else the usual place."""
+        """Return the part with the model: the target of the first relationship to one, else the
+        usual place.
+        """
         targets: list[str] = []
 
         def start(name: str, values: dict[str, str]) -> None:
@@ -199,7 +214,9 @@ def _feed(parser: expat.XMLParserType, pieces: Iterator[bytes]) -> None:
 
 
 class _Model:
-    """A model part: its objects by id, the items of its build (part, id, transform, why hidden), its unit."""
+    """A model part: its objects by id, the items of its build (part, id, transform, why hidden),
+    its unit.
+    """
 
     def __init__(self, part: str, pieces: Iterator[bytes]) -> None:
         self._part = part
@@ -262,7 +279,10 @@ class _Model:
 
 
 def _transform(text: str) -> NDArray[np.float64]:
-    """Return the (3, 4) matrix of a text, which lists its columns. ValueError, with the text, if it is wrong."""
+    """Return the (3, 4) matrix of a text, which lists its columns.
+
+    ValueError, with the text, if it is wrong.
+    """
     numbers = np.array(parse_numbers(text))
     if len(numbers) != 12 or not np.isfinite(numbers).all():
         raise ValueError(text)
@@ -270,7 +290,10 @@ def _transform(text: str) -> NDArray[np.float64]:
 
 
 def _coordinate(text: str) -> float:
-    """Return the number of a text. ValueError, with the text, if it is no number or too large for float32."""
+    """Return the number of a text.
+
+    ValueError, with the text, if it is no number or too large for float32.
+    """
     value = parse_number(text.strip(SPACES))
     if not abs(value) < MAX_FLOAT32:
         raise ValueError(text)

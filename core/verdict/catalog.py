@@ -22,6 +22,7 @@ PACKAGES = (
     "core.bodies",
     "core.cad",
     "core.density",
+    "core.files",
     "core.flat",
     "core.fourier",
     "core.inertia",
@@ -44,7 +45,10 @@ PACKAGES = (
 
 @cache
 def declared(code: str) -> Code:
-    """Return the declaration of a code. KeyError if no package declares it: it may be of another version."""
+    """Return the declaration of a code.
+
+    KeyError if no package declares it: it may be of another version.
+    """
     if isinstance(code, Code):
         return code
     for package in PACKAGES:

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Observations, decisions and refusals as data; and the exceptions that carry a refusal.
 
-A finding is a code, the values that its sentence needs, and the elements that it is about. The severity and the
-sentence belong to the code (`Code`), which a package declares in its `findings.py`. Nothing parses a sentence.
+A finding is a code, the values that its sentence needs, and the elements that it is about. The
+severity and the sentence belong to the code (`Code`), which a package declares in its
+`findings.py`. Nothing parses a sentence.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ class Elements(Protocol):
 
 
 class Severity(StrEnum):
-    """The weight of a finding: a note does not question the numbers, a warning does, an error means there are none.
+    """The weight of a finding: notes do not question numbers, warnings do, errors leave none.
 
     Examples
     --------
@@ -40,10 +41,13 @@ class Severity(StrEnum):
 
 
 class Code(str):
-    """The code of a finding, with its severity and its English sentence. Packages declare theirs in `findings.py`.
+    """The code of a finding, with its severity and its English sentence.
 
-    `text`: a `str.format` template over the finding's values (`core/verdict/sentences.py`) and the key of translations.
-    `plural`: the template for a `count` other than 1. `is_repair`: True if the surface was repaired on a copy.
+    Packages declare theirs in `findings.py`.
+
+    `text`: a `str.format` template over the finding's values (`core/verdict/sentences.py`) and the
+    key of translations. `plural`: the template for a `count` other than 1. `is_repair`: True if the
+    surface was repaired on a copy.
     """
 
     severity: Severity
@@ -100,11 +104,13 @@ class Finding:
     code : str
         The name of a declared `Code`, such as ``holes_capped``.
     values : mapping
-        Values for the sentence: numbers, strings, booleans, lists of these, and findings as mappings with the
-        keys ``code`` and ``values``. Everything is plain enough for JSON. ``sources`` names the objects with the
-        surfaces in question, if that is not simply the measured object.
+        Values for the sentence: numbers, strings, booleans, lists of these, and findings as
+        mappings with the keys ``code`` and ``values``. Everything is plain enough for JSON.
+        ``sources`` names the objects with the surfaces in question, if that is not simply the
+        measured object.
     elements : sequence or array
-        Mesh elements that it is about, in the input's numbers: faces as integers, edges as pairs of vertices.
+        Mesh elements that it is about, in the input's numbers: faces as integers, edges as pairs of
+        vertices.
 
     Examples
     --------
@@ -121,7 +127,9 @@ class Finding:
     elements: Elements = ()
 
     def as_record(self) -> dict[str, Any]:
-        """Return the code, the values and the first elements as plain values for JSON, to be read by `from_record`."""
+        """Return the code, the values and the first elements as plain values for JSON, to be read
+        by `from_record`.
+        """
         record = {"code": str(self.code), "values": dict(self.values)}
         first = self.elements[:MAX_STORED_ELEMENTS]
         if len(first):
@@ -156,10 +164,10 @@ def finding(
 ) -> Finding:
     """Make a finding with this code, about mesh elements, with the values of its sentence.
 
-    slight: True if the effect on mass, size and inertia is negligible (`core/verdict/tolerances.py`): a warning is then
-    a note.
+    slight: True if the effect on mass, size and inertia is negligible
+    (`core/verdict/tolerances.py`): a warning is then a note.
     """
-    return Finding(code, {**values, "slight": True} if slight else values, elements)
+    return Finding(code, values | {"slight": True} if slight else values, elements)
 
 
 def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:
@@ -173,13 +181,17 @@ def system_reason(error: OSError) -> str:
 
 
 def truncate(items: Elements, limit: int, count: int | None = None) -> tuple[Elements, int]:
-    """Return the first `limit` items and the number of items left out. count: items in all, by default the length."""
+    """Return the first `limit` items and the number of items left out. count: items in all, by
+    default the length.
+    """
     shown = items[:limit]
     return shown, max((count or len(items)) - len(shown), 0)
 
 
 def truncate_findings(findings: Sequence[Any], limit: int) -> list[Any]:
-    """Return the first `limit` findings or texts, and an ``and_more`` finding if there are others."""
+    """Return the first `limit` findings or texts, and an ``and_more`` finding if there are
+    others.
+    """
     from .findings import AND_MORE  # late, as `findings` imports this module
 
     shown, more = truncate(findings, limit)
@@ -187,10 +199,11 @@ def truncate_findings(findings: Sequence[Any], limit: int) -> list[Any]:
 
 
 class MeasureError(Exception):
-    """A refusal of a request that cannot be met, with the reason and the remedy as a finding of severity error.
+    """A refusal of a request, with the reason and the remedy as a finding of severity error.
 
-    Raised if the user's objects, settings, files or queries make a result impossible. Wrong arguments of a programmer
-    are ValueError and TypeError; any other exception is a fault of the program.
+    Raised if the user's objects, settings, files or queries make a result impossible. Wrong
+    arguments of a programmer are ValueError and TypeError; any other exception is a fault of the
+    program.
 
     Parameters
     ----------
@@ -227,7 +240,9 @@ class MeasureError(Exception):
         super().__init__(self.finding.code)
 
     def about(self, subject: str) -> MeasureError:
-        """Set the subject, an object or a file, unless the error has one already, and return the error itself."""
+        """Set the subject, an object or a file, unless the error has one already, and return the
+        error itself.
+        """
         self.subject = self.subject or subject
         return self
 

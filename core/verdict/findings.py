@@ -10,20 +10,24 @@ OBJECT_TOO_SMALL = error("object_too_small", "Too small to be measured. Scale th
 FLIPPED_FACES = repair(
     "flipped_faces",
     "Flipped face measured as reversed: {elements}. Use Mesh > Normals > Recalculate Outside.",
-    "{count} flipped faces measured as reversed: {elements}. Use Mesh > Normals > Recalculate Outside.",
+    "{count} flipped faces measured as reversed: {elements}. Use Mesh > Normals > Recalculate "
+    "Outside.",
 )
 SELF_INTERSECTION = warning(
     "self_intersection",
-    "The surface intersects itself: about {share:percent} of the volume counts twice or as negative. Set Overlaps "
+    "The surface intersects itself: about {share:percent} of the volume counts twice or as "
+    "negative. Set Overlaps "
     "to Count as Union, or repair the mesh.",
 )
 TOTAL_OF_OPEN_OBJECTS = warning(
     "total_of_open_objects",
-    "The total depends on the reference point, as these are open: {objects}. Close them, or leave them out.",
+    "The total depends on the reference point, as these are open: {objects}. Close them, or leave "
+    "them out.",
 )
 LINKED_OBJECT = error(
     "linked_object",
-    "Linked from another file, or an override of something linked, which would lose the change. Use Object > Relations "
+    "Linked from another file, or an override of something linked, which would lose the change. "
+    "Use Object > Relations "
     "> Make Local for the object and its data.",
 )
 OUT_OF_MEMORY = error(

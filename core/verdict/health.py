@@ -17,7 +17,9 @@ NO_FACES = np.empty(0, np.int64)
 
 
 class Intersection(StrEnum):
-    """Result of a search for self-intersections; for several surfaces, the first member that any of them has."""
+    """Result of a search for self-intersections; for several surfaces, the first member that any of
+    them has.
+    """
 
     FOUND = "found"
     NOT_CHECKED = "not_checked"
@@ -27,11 +29,13 @@ class Intersection(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class DefectiveElements:
-    """Elements with defects, in the input mesh's own numbers, sorted: faces (k,), edges (k, 2) as vertex pairs.
+    """Elements with defects, in the input mesh's own numbers, sorted: faces (k,), edges (k, 2) as
+    vertex pairs.
 
-    flipped_faces: turned to agree with the rest of their part (not in a part that is inside out as a whole).
-    boundary_edges, non_manifold_edges, inconsistent_edges: as counted in `MeshHealth`, but each with all the mesh's
-    edges that lie there. duplicate_faces: the later copies. degenerate_faces: faces without area.
+    flipped_faces: turned to agree with the rest of their part (not in a part that is inside out as
+    a whole). boundary_edges, non_manifold_edges, inconsistent_edges: as counted in `MeshHealth`,
+    but each with all the mesh's edges that lie there. duplicate_faces: the later copies.
+    degenerate_faces: faces without area.
     """
 
     flipped_faces: NDArray[np.integer] = field(default_factory=NO_FACES.view)
@@ -46,14 +50,17 @@ class DefectiveElements:
 class MeshHealth:
     """Defects of the input, before any repair, and the extent of the repair.
 
-    closed: True if the surface closes in space: equal positions count as one, gaps without area as closed.
-    welded: True if positions had to be welded to find that out.
-    boundary_edges: edges with one face, after that welding, unless the gap that they bound has no area.
-    non_manifold_edges: edges with more than two faces. inconsistent_edges: edges with two faces that run the same way.
-    components: parts connected across edges. inverted_components: parts inside out. nested_components: outward parts in
-        the material of others, counted twice. cavities: inward parts in the material of others. overlapping_components:
-        parts that share a piece of their interiors with another one, or are a copy of it.
-    duplicate_faces: later copies of faces. degenerate_faces: faces without area. non_planar_faces, volume_spread: faces
+    closed: True if the surface closes in space: equal positions count as one, gaps without area as
+    closed. welded: True if positions had to be welded to find that out. boundary_edges: edges with
+    one face, after that welding, unless the gap that they bound has no area. non_manifold_edges:
+    edges with more than two faces. inconsistent_edges: edges with two faces that run the same way.
+    components: parts connected across edges. inverted_components: parts inside out.
+    nested_components: outward parts in
+        the material of others, counted twice. cavities: inward parts in the material of others.
+        overlapping_components: parts that share a piece of their interiors with another one, or are
+        a copy of it.
+    duplicate_faces: later copies of faces. degenerate_faces: faces without area. non_planar_faces,
+    volume_spread: faces
         that are not flat, and the volume (unit³) that the choice of their diagonals can change.
     cap_area_share: the area of the caps that were needed, divided by the area of the faces.
     self_intersection: the result of the search for components that go through themselves.

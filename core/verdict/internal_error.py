@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The reason why one of many objects was left alone: a refusal, or an unforeseen error of this program.
+"""The reason why one of many objects was left alone: a refusal, or an unforeseen error of this
+program.
 
-Both end only the work on their object. An unforeseen error is reported, and its traceback goes to the console.
+Both end only the work on their object. An unforeseen error is reported, and its traceback goes to
+the console.
 """
 
 from __future__ import annotations
@@ -17,7 +19,9 @@ PACKAGE = __name__.removesuffix("core.verdict.internal_error")
 
 
 def finding_of(error: Exception) -> Finding:
-    """Return the finding of a refusal or of too little memory; for any other error, print its traceback first."""
+    """Return the finding of a refusal or of too little memory; for any other error, print its
+    traceback first.
+    """
     if isinstance(error, MeasureError):
         return error.finding
     if isinstance(error, MemoryError):

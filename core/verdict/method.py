@@ -9,7 +9,10 @@ from enum import StrEnum
 
 
 class Procedure(StrEnum):
-    """The procedure that a body needed. The first four are of solids, the least trustworthy first."""
+    """The procedure that a body needed.
+
+    The first four are of solids, the least trustworthy first.
+    """
 
     OPEN = "open"  # bounds no certain volume: not to be closed, flat, or mostly within itself
     CAPPED = "capped"  # closed by caps over its holes
@@ -48,8 +51,8 @@ class Method:
     --------
     >>> from body_moments.core.verdict import Method
     >>> from body_moments.core.verdict.method import Procedure, Source
-    >>> str(Method(Procedure.EXACT, Source.NURBS)), Method.parse("NURBS exact").source is Source.NURBS
-    ('NURBS exact', True)
+    >>> str(Method(Procedure.EXACT, Source.NURBS)), str(Method.parse("NURBS exact").source)
+    ('NURBS exact', 'NURBS')
     """
 
     procedure: Procedure

@@ -2,18 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sentences of findings: their templates, filled.
 
-A template is a `str.format` template over the finding's values. `plural` is taken if the value `count` is not 1.
-Values stay numbers, strings, booleans and lists; only the template formats them:
+A template is a `str.format` template over the finding's values. `plural` is taken if the value
+`count` is not 1. Values stay numbers, strings, booleans and lists; only the template formats them:
 
     {share:percent}      a fraction, as 12.3%                {samples:size}   integers, as 2 x 3 x 4
     {thickness:length}   meters, as the scene shows them     {point:point}    three lengths
-    {names}              a list, the first 8: “A”, “B”, and 3 more    {side:word}     a word of ours, to be translated
+    {names}              a list, the first 8: “A”, “B”, and 3 more    {side:word}     a word of
+                         ours, to be translated
     {cause}, {causes}    another finding, or several ({"code", "values"}): their messages
-    {elements}           its mesh elements (`Finding.elements`, `count` in all): 3, 5, 9, or 3 of “Cube”
+    {elements}           its mesh elements (`Finding.elements`, `count` in all): 3, 5, 9, or 3 of
+                         “Cube”
 
-The optional value `sources` (names of the objects that a surface came from, if not the measured object itself) puts
-“A”, “B”: before any message. `accepted` says that a user has judged the finding, `slight` that its effect is
-negligible: a warning is a note then.
+The optional value `sources` (names of the objects that a surface came from, if not the measured
+object itself) puts “A”, “B”: before any message. `accepted` says that a user has judged the
+finding, `slight` that its effect is negligible: a warning is a note then.
 """
 
 from __future__ import annotations
@@ -45,7 +47,9 @@ def _item(item: Any, translate: Callable[[str], str]) -> str:
 def truncate_list(
     items: Elements, count: int | None = None, translate: Callable[[str], str] = str
 ) -> str:
-    """Write the first names, numbers or pairs of a list, and the number of the others: “A”, “B”, and 3 more."""
+    """Write the first names, numbers or pairs of a list, and the number of the others: “A”, “B”,
+    and 3 more.
+    """
     shown, more = truncate(items, MAX_LISTED, count)
     texts = [_item(item, translate) for item in shown]
     if more:
@@ -54,7 +58,9 @@ def truncate_list(
 
 
 class _Formatter(string.Formatter):
-    """`str.format` with the formats named above. lengths: formats a length in meters, by default in meters."""
+    """`str.format` with the formats named above. lengths: formats a length in meters, by default in
+    meters.
+    """
 
     def __init__(
         self, translate: Callable[[str], str], lengths: Callable[[float], str] | None
@@ -98,7 +104,9 @@ def fill(
     translate: Callable[[str], str] = str,
     lengths: Callable[[float], str] | None = None,
 ) -> str:
-    """Return a template, translated and then filled. plural: the template for a `count` other than 1."""
+    """Return a template, translated and then filled. plural: the template for a `count` other than
+    1.
+    """
     template = text if plural is None or values.get("count") == 1 else plural
     return _Formatter(translate, lengths).vformat(translate(template), (), values)
 
@@ -108,7 +116,9 @@ def sentence(
     translate: Callable[[str], str] = str,
     lengths: Callable[[float], str] | None = None,
 ) -> str:
-    """Return the sentence of a finding; templates are translated before they are filled, lengths are meters."""
+    """Return the sentence of a finding; templates are translated before they are filled, lengths
+    are meters.
+    """
     entry = declared(finding.code)
     values = finding.values
     count = values.get("count")
@@ -156,7 +166,9 @@ METHODS = {
 
 
 def method_key(method: Method | None, walled: bool) -> str:
-    """Return the entry of METHODS that a method belongs to, "" for none. walled: if a shell is a wall."""
+    """Return the entry of METHODS that a method belongs to, "" for none. walled: if a shell is a
+    wall.
+    """
     if method is None:
         return ""
     if walled and method.procedure == Procedure.SHELL:
@@ -205,7 +217,9 @@ class Group(NamedTuple):
 
 
 def grouped(findings: Iterable[tuple[str, Finding]]) -> list[Group]:
-    """Return groups of the findings of objects, given with their full names; the most severe first."""
+    """Return groups of the findings of objects, given with their full names; the most severe
+    first.
+    """
     together: dict[tuple[Severity, str], list[tuple[str, Finding]]] = {}
     for name, found in findings:
         together.setdefault((severity(found), found.code), []).append((name, found))

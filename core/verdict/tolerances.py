@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Thresholds below which lengths, volumes and rounding count as nothing, relative to the body's own size."""
+"""Thresholds below which lengths, volumes and rounding count as nothing, relative to the body's own
+size.
+"""
 
 from __future__ import annotations
 
@@ -24,11 +26,15 @@ NEGLIGIBLE = (
 
 
 def check_size(*sides: float) -> None:
-    """Raise MeasureError if the diagonal of a box is so short, but not zero, that volumes in it are no numbers."""
+    """Raise MeasureError if the diagonal of a box is so short, but not zero, that volumes in it are
+    no numbers.
+    """
     if 0.0 < hypot(*sides) < MIN_SIZE:
         raise MeasureError(OBJECT_TOO_SMALL)
 
 
 def welding_tolerance(size: float, error: float) -> float:
-    """Return the distance below which a body's points count as one. size: its diagonal; error: of its coordinates."""
+    """Return the distance below which a body's points count as one. size: its diagonal; error: of
+    its coordinates.
+    """
     return max(WELDING_RTOL * size, 4.0 * error)

@@ -38,7 +38,9 @@ def find_verdict(method: Method | None, findings: Iterable[Finding]) -> Verdict:
 
 
 def open_body_caveats(methods: Iterable[tuple[str, Method | None]]) -> list[Finding]:
-    """Return caveats about open bodies, given as names and methods: their own numbers depend on a reference point."""
+    """Return caveats about open bodies, given as names and methods: their own numbers depend on a
+    reference point.
+    """
     methods = list(methods)
     names = sorted(
         name

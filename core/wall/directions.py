@@ -2,17 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Offset directions: the movement of a surface's vertices if its faces move along their normals.
 
-Every vertex moves along a direction d that moves the planes of its faces by one: n·d = 1 for each normal n around it
-(Blender's Solidify calls that even thickness; on a cube it is the mitre). If at most three planes meet, the shortest
-such d is exact; planes within about one degree count as one, because d would have to run far along their crease. If
-more planes meet, there may be no such d. It is then the least-squares solution, with each face weighted by its angle at
-the vertex, so that the cutting of flat faces does not matter. Planes within about 15 degrees count as the round surface
-that they stand for, and the vertex goes along their mean normal. If this d would run behind one of the faces, d is the
-direction most in front of all of them (by multiplicative weights, Arora, Hazan and Kale, Theory of Computing 8, 2012).
+Every vertex moves along a direction d that moves the planes of its faces by one: n·d = 1 for each
+normal n around it (Blender's Solidify calls that even thickness; on a cube it is the mitre). If at
+most three planes meet, the shortest such d is exact; planes within about one degree count as one,
+because d would have to run far along their crease. If more planes meet, there may be no such d. It
+is then the least-squares solution, with each face weighted by its angle at the vertex, so that the
+cutting of flat faces does not matter. Planes within about 15 degrees count as the round surface
+that they stand for, and the vertex goes along their mean normal. If this d would run behind one of
+the faces, d is the direction most in front of all of them (by multiplicative weights, Arora, Hazan
+and Kale, Theory of Computing 8, 2012).
 
-Inside a flat side and along a straight edge a vertex may slide without moving the planes. There d is as even as it can
-be, Σ cot |d_i - d_j|² least (Pinkall and Polthier, Experiment. Math. 2, 1993), so that the finely cut sides of a thick-
-walled box shrink as a whole, and do not fold over if its edges move inward.
+Inside a flat side and along a straight edge a vertex may slide without moving the planes. There d
+is as even as it can be, Σ cot |d_i - d_j|² least (Pinkall and Polthier, Experiment. Math. 2, 1993),
+so that the finely cut sides of a thick- walled box shrink as a whole, and do not fold over if its
+edges move inward.
 """
 
 from __future__ import annotations
@@ -32,7 +35,8 @@ from ..verdict.finding import MeasureError
 from .findings import NO_FACE_AREA, WALL_INCONSISTENT_FACES, WALL_NON_MANIFOLD
 
 TRIANGLES_PER_BLOCK = 4096  # triangles at a time
-SAME_PLANE_RTOL = 1e-4  # Relative to the largest eigenvalue of Σ θ n n'; φ²/4 for planes φ apart. Less is one plane.
+# Relative to the largest eigenvalue of Σ θ n n'; φ²/4 for planes φ apart. Less is one plane.
+SAME_PLANE_RTOL = 1e-4
 LEAST_SQUARES_RTOL = 2e-2  # The same if not all planes can be met.
 SLIVER_RTOL = 1e-9  # Relative to the longest side: lower triangles have no reliable normal.
 NOISY_HEIGHT_FACTOR = (
@@ -55,8 +59,9 @@ SMOOTHING_RTOL = 1e-12
 class OffsetDirections:
     """Offset directions, (n, 3) `vectors`: the displacement of each vertex per unit of thickness.
 
-    tangential_error, normal_error: (2, n) first-order bounds of the vectors' changes, in all and along the normals, by
-    rounding and by storing the points as float32, except by multiplicative weights. has_normal: (m,) False if ignored.
+    tangential_error, normal_error: (2, n) first-order bounds of the vectors' changes, in all and
+    along the normals, by rounding and by storing the points as float32, except by multiplicative
+    weights. has_normal: (m,) False if ignored.
     """
 
     vectors: NDArray[np.float64]
@@ -74,7 +79,9 @@ def blocks(triangles: NDArray) -> Iterator[NDArray]:
 
 
 def weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
-    """Return points and triangles with one vertex for each place, and refuse edges that a wall cannot have."""
+    """Return points and triangles with one vertex for each place, and refuse edges that a wall
+    cannot have.
+    """
     triangles, _ = surface.all_triangles()
     first = first_at_equal_position(surface.points)
     triangles = first[triangles.astype(np.intp)]
@@ -100,7 +107,9 @@ def weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.intege
 def offset_directions(
     points: NDArray[np.float64], triangles: NDArray[np.integer], stored: float = 0.0
 ) -> OffsetDirections:
-    """Return the direction of every vertex of float64 points, which storing has moved by at most `stored`."""
+    """Return the direction of every vertex of float64 points, which storing has moved by at most
+    `stored`.
+    """
     count = len(points)
     normals, angles, noise, solid = (
         np.concatenate(column)
@@ -117,8 +126,8 @@ def offset_directions(
     middle = np.stack([mean(column) for column in normals.T], axis=1)
     length = np.linalg.norm(middle, axis=1)
     middle /= np.where(length > 0.0, length, 1.0)[:, None]
-    # With d = m + c, m the mean normal: Σ θ n n'·c = Σ θ n (1 - n·m), and 1 - n·m = |n - m|² / 2 does not cancel. The
-    # part of m along an ignored crease has to go, too.
+    # With d = m + c, m the mean normal: Σ θ n n'·c = Σ θ n (1 - n·m), and 1 - n·m = |n - m|² / 2
+    # does not cancel. The part of m along an ignored crease has to go, too.
     short = ((normals - middle[corner]) ** 2).sum(axis=1) / 2.0
     system = np.empty((count, 3, 3))
     for i in range(3):
@@ -133,7 +142,9 @@ def offset_directions(
     )
 
     def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
-        """Return (n, 3) directions across planes with eigenvalues above `least`, mean deviations, and sensitivities."""
+        """Return (n, 3) directions across planes with eigenvalues above `least`, mean deviations,
+        and sensitivities.
+        """
         independent = values > least * values[:, 2:]
         inverse = np.where(independent, 1.0 / np.where(independent, values, 1.0), 0.0)
         vectors = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right) + np.einsum(
@@ -171,7 +182,9 @@ def offset_directions(
 def _smooth_in_plane(
     points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray
 ) -> NDArray[np.float64]:
-    """Return vectors made even by conjugate gradients along projections `free`, (n, 3, 3); boundaries stay."""
+    """Return vectors made even by conjugate gradients along projections `free`, (n, 3, 3);
+    boundaries stay.
+    """
     edges = find_edges(triangles)
     free[triangles.ravel()[edges.boundary_sides()]] = (
         0.0  # closed loops: each end of a side is a start
@@ -248,7 +261,9 @@ def _maximin_direction(
     weight: NDArray,
     normals: NDArray,
 ) -> None:
-    """Replace the vectors of vertices `behind` by vectors farther in front of all their faces. low: (n,) least n·d."""
+    """Replace the vectors of vertices `behind` by vectors farther in front of all their faces. low:
+    (n,) least n·d.
+    """
     number = np.full(len(vectors), -1)
     number[behind] = np.arange(len(behind))
     corner_rows = np.flatnonzero(number[corner] >= 0)
@@ -279,7 +294,9 @@ def _maximin_direction(
 
 
 def _corner_geometry(points: NDArray, stored: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Return (m, 3) unit normals, (m, 3) angles, (m, 2) bounds of the normals' errors, and a mask of known normals."""
+    """Return (m, 3) unit normals, (m, 3) angles, (m, 2) bounds of the normals' errors, and a mask
+    of known normals.
+    """
     sides = points[:, [1, 2, 0]] - points
     normal = np.cross(sides[:, 0], sides[:, 1])
     double = np.linalg.norm(normal, axis=1)

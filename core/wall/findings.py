@@ -14,12 +14,15 @@ WALL_NON_MANIFOLD = error(
 )
 WALL_INCONSISTENT_FACES = error(
     "wall_inconsistent_faces",
-    "{count} edge joins faces with opposite normals. Use Mesh > Normals > Recalculate Outside, or set Wall to Thin.",
-    "{count} edges join faces with opposite normals. Use Mesh > Normals > Recalculate Outside, or set Wall to Thin.",
+    "{count} edge joins faces with opposite normals. Use Mesh > Normals > Recalculate Outside, or "
+    "set Wall to Thin.",
+    "{count} edges join faces with opposite normals. Use Mesh > Normals > Recalculate Outside, or "
+    "set Wall to Thin.",
 )
 WALL_PRECISION_LOST = error(
     "wall_precision_lost",
-    "{share:percent} of the area is in faces too small, so far from the origin, to have a direction in float32. Model "
+    "{share:percent} of the area is in faces too small, so far from the origin, to have a "
+    "direction in float32. Model "
     "nearer to the origin, or set Wall to Thin.",
 )
 WALL_MEASURED = note(

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The moments of a wall to any order.
 
-Both sides of a wall are polyhedra, joined by bilinear patches along the surface's boundary: its moments follow from
-these boundaries. Compared with the polynomials of `walls`, which end at third order, this loses digits, the more the
-thinner the wall; the error bounds include the loss.
+Both sides of a wall are polyhedra, joined by bilinear patches along the surface's boundary: its
+moments follow from these boundaries. Compared with the polynomials of `walls`, which end at third
+order, this loses digits, the more the thinner the wall; the error bounds include the loss.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ NODES_PER_BLOCK = 1 << 14
 
 
 def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -> Moments:
-    """Return the volume moments of a wall to any order, about the middle of the surface's bounding box.
+    """Return a wall's volume moments to any order, about the middle of the surface's box.
 
     Parameters
     ----------
@@ -88,7 +88,9 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
 
 
 def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], order: int) -> Moments:
-    """Return moments of the cones from `about` over bilinear patches, (4, k, 3) relative to it, by an exact rule."""
+    """Return moments of the cones from `about` over bilinear patches, (4, k, 3) relative to it, by
+    an exact rule.
+    """
     table = monomials(order)
     sums = np.zeros((2, len(table)))
     nodes, weights = gauss_legendre((order + 4) // 2)
@@ -100,7 +102,8 @@ def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], ord
     step = max(1, NODES_PER_BLOCK // len(weight))
     for first in range(0, corners.shape[1], step):
         block = corners[:, first : first + step]
-        # Differences of corners are rounded relative to the sides, which may be much shorter than their distance.
+        # Differences of corners are rounded relative to the sides, which may be much shorter than
+        # their distance.
         sides = block[[1, 2]] - block[[0, 3]]
         ends = block[[3, 2]] - block[[0, 1]]
         place, reach, tangent, other = (

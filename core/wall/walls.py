@@ -1,16 +1,19 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Walls: the material between a surface and its offset, with moments that are polynomials in the thickness.
+"""Walls: the material between a surface and its offset, with moments that are polynomials in the
+thickness.
 
-With the directions d of its vertices (see `directions`), a triangle sweeps the prism x = p + s d, both linear on the
-triangle, with Jacobian J = Σ λ_k N(s)·d_k, with N(s) = (e + s f) × (e' + s f') the normal of the triangle moved by s,
-e, e' its edges and f, f' the differences of its directions. J x^α is a polynomial of degree |α| + 2 in s and |α| + 1 in
-the barycentric coordinates λ, which six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate exactly.
-Neighboring prisms share the ruled surface over their edge, so that their sum is the wall, with no gap.
+With the directions d of its vertices (see `directions`), a triangle sweeps the prism x = p + s d,
+both linear on the triangle, with Jacobian J = Σ λ_k N(s)·d_k, with N(s) = (e + s f) × (e' + s f')
+the normal of the triangle moved by s, e, e' its edges and f, f' the differences of its directions.
+J x^α is a polynomial of degree |α| + 2 in s and |α| + 1 in the barycentric coordinates λ, which six
+nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate exactly. Neighboring prisms share
+the ruled surface over their edge, so that their sum is the wall, with no gap.
 
-J is linear in λ, hence positive on a prism exactly if its three quadratics N(s)·d_k in s are: their first roots are the
-thickness at which the offset folds over. Walls that run into each other far along the surface are looked for
-separately, one thickness at a time; a volume that two share counts twice.
+J is linear in λ, hence positive on a prism exactly if its three quadratics N(s)·d_k in s are: their
+first roots are the thickness at which the offset folds over. Walls that run into each other far
+along the surface are looked for separately, one thickness at a time; a volume that two share counts
+twice.
 """
 
 from __future__ import annotations
@@ -63,16 +66,19 @@ WEIGHTS = np.repeat([0.11169079483900573, 0.054975871827660933], 3)
 
 @dataclass(frozen=True, eq=False)
 class OffsetSolid:
-    """The solid that a surface sweeps as it moves along its directions by s; its growth per s, as polynomials in s.
+    """The solid that a surface sweeps as it moves along its directions by s; its growth per s, as
+    polynomials in s.
 
-    points, vectors, triangles: (n, 3), (n, 3) and (m, 3), the moving surface and its directions. about: (3,) of the
-    moments. coefficients, rounding_error, input_error: (20, 6) of s^0 to s^5 for each moment to third order, and bounds
-    for either sign of s of the changes by rounding and by storing the points as float32. swept_bound, swept_rounding:
-    (4,) of s^0 to s^3, bounds of the volume that a side, and the strip along the boundary, sweep if storing the points,
-    or rounding, moves them. reach: (2, 3) of the points from `about` and of the vectors, by axis. outward, inward: the
-    move at which the first prism folds over, infinite if none does; outward_at, inward_at: the triangles that fold
-    first, or -1. inexact_vertices: vertices without a direction that moves all their faces alike; min_ratio, max_ratio:
-    the thickness there, divided by the thickness asked for. degenerate_triangles: swept, but without a known normal.
+    points, vectors, triangles: (n, 3), (n, 3) and (m, 3), the moving surface and its directions.
+    about: (3,) of the moments. coefficients, rounding_error, input_error: (20, 6) of s^0 to s^5 for
+    each moment to third order, and bounds for either sign of s of the changes by rounding and by
+    storing the points as float32. swept_bound, swept_rounding: (4,) of s^0 to s^3, bounds of the
+    volume that a side, and the strip along the boundary, sweep if storing the points, or rounding,
+    moves them. reach: (2, 3) of the points from `about` and of the vectors, by axis. outward,
+    inward: the move at which the first prism folds over, infinite if none does; outward_at,
+    inward_at: the triangles that fold first, or -1. inexact_vertices: vertices without a direction
+    that moves all their faces alike; min_ratio, max_ratio: the thickness there, divided by the
+    thickness asked for. degenerate_triangles: swept, but without a known normal.
     """
 
     points: NDArray[np.float64]
@@ -95,7 +101,9 @@ class OffsetSolid:
     degenerate_triangles: int
 
     def moments(self, inward: float, outward: float) -> Moments:
-        """Return a wall's volume moments to third order, about the middle of the surface's bounding box."""
+        """Return a wall's volume moments to third order, about the middle of the surface's bounding
+        box.
+        """
         if not (inward < self.inward or inward == 0.0) or not (
             outward < self.outward or outward == 0.0
         ):
@@ -119,7 +127,9 @@ class OffsetSolid:
         return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
 
     def self_intersects(self, inward: float, outward: float) -> bool:
-        """Return whether the wall's sides go through each other or themselves, or walls of separate parts overlap."""
+        """Return whether the wall's sides go through each other or themselves, or walls of separate
+        parts overlap.
+        """
         count = len(self.points)
         points = np.concatenate(
             [self.points - inward * self.vectors, self.points + outward * self.vectors]
@@ -135,7 +145,9 @@ class OffsetSolid:
         ) or self._overlaps(points, tolerance)
 
     def _overlaps(self, points: NDArray, tolerance: float) -> bool:
-        """Return whether walls of connected parts overlap each other or themselves, even without crossing edges."""
+        """Return whether walls of connected parts overlap each other or themselves, even without
+        crossing edges.
+        """
         part, number = connected_components(
             len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
         )
@@ -165,7 +177,9 @@ class OffsetSolid:
         )
 
     def first_fold_location(self, side: str) -> NDArray[np.float64]:
-        """Return the (3,) middle of the triangle that folds first. side: "inward", "outward" or "centered"."""
+        """Return the (3,) middle of the triangle that folds first. side: "inward", "outward" or
+        "centered".
+        """
         at = (
             self.inward_at
             if side == "inward" or side == "centered" and self.inward < self.outward
@@ -174,7 +188,9 @@ class OffsetSolid:
         return self.points[self.triangles[at]].mean(axis=0)
 
     def max_thickness(self, side: str) -> float:
-        """Return the thickness from which the wall on that side folds over: "inward", "outward" or "centered"."""
+        """Return the thickness from which the wall on that side folds over: "inward", "outward" or
+        "centered".
+        """
         return {
             "inward": self.inward,
             "outward": self.outward,
@@ -183,7 +199,9 @@ class OffsetSolid:
 
 
 def split_thickness(side: str, thickness: float) -> tuple[float, float]:
-    """Return the parts of a thickness inside and outside the surface. side: "inward", "outward" or "centered"."""
+    """Return the parts of a thickness inside and outside the surface. side: "inward", "outward" or
+    "centered".
+    """
     share = {"inward": 1.0, "outward": 0.0, "centered": 0.5}[side]
     return thickness * share, thickness * (1.0 - share)
 
@@ -194,7 +212,8 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     Parameters
     ----------
     surface : Surface
-        Closed or open; its faces must agree which side is outward. Points at exactly the same place are one.
+        Closed or open; its faces must agree which side is outward. Points at exactly the same place
+        are one.
 
     Returns
     -------
@@ -203,8 +222,8 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     Raises
     ------
     MeasureError
-        If faces disagree, more than two meet in an edge, none has an area, or float32 has lost their directions; the
-        finding's edges are pairs of the surface's vertices.
+        If faces disagree, more than two meet in an edge, none has an area, or float32 has lost
+        their directions; the finding's edges are pairs of the surface's vertices.
 
     Examples
     --------
@@ -212,7 +231,9 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     >>> from body_moments.core.wall import offset_solid
     >>> cube = Surface(
     ...     np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]),
-    ...     quads=np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]),
+    ...     quads=np.array(
+    ...         [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    ...     ),
     ... )
     >>> wall = offset_solid(cube)
     >>> round(wall.moments(0.1, 0.0).total, 9), round(float(wall.max_thickness("inward")), 5)
@@ -314,7 +335,9 @@ class _Prisms:
         )
 
     def jacobians(self) -> tuple[NDArray, NDArray, NDArray]:
-        """Return (3, 3, m) coefficients in s of J at each corner, (3, m) bounds of their rounding, and (m,) |N(0)|."""
+        """Return (3, 3, m) coefficients in s of J at each corner, (3, m) bounds of their rounding,
+        and (m,) |N(0)|.
+        """
         return self.own_size, JACOBIAN_ROUNDINGS * U * self._sizes(), self.double
 
     def _sizes(self) -> NDArray[np.float64]:
@@ -352,11 +375,13 @@ class _Prisms:
     def bounds(
         self, tangential_error: NDArray, normal_error: NDArray, stored: float
     ) -> NDArray[np.float64]:
-        """Return (3, 7) coefficients in s, summed over the prisms: a row of sizes of J, and two rows of changes.
+        """Return (3, 7) coefficients in s, summed over the prisms: a row of sizes of J, and two
+        rows of changes.
 
-        The row of sizes is three coefficients and four zeros. A row of changes is three coefficients of the change of
-        J, and four of J's size times the move of x. The directions move by the first row of the errors; in the last row
-        by the second row of the errors, and the points by `stored`.
+        The row of sizes is three coefficients and four zeros. A row of changes is three
+        coefficients of the change of J, and four of J's size times the move of x. The directions
+        move by the first row of the errors; in the last row by the second row of the errors, and
+        the points by `stored`.
         """
         sizes = self._sizes()
         coefficients = [np.zeros((7, len(self.double)))]
@@ -383,7 +408,9 @@ class _Prisms:
     def swept(
         self, tangential_error: NDArray, normal_error: NDArray, stored: float
     ) -> NDArray[np.float64]:
-        """Return (4,) coefficients in s of the volume swept as points and directions move by their errors."""
+        """Return (4,) coefficients in s of the volume swept as points and directions move by their
+        errors.
+        """
         unit = self.normals[0] / np.where(self.double > 0.0, self.double, 1.0)
         height = [np.einsum("im,im->m", normal, unit) for normal in self.normals]
         rest = [normal - along * unit for normal, along in zip(self.normals, height)]
@@ -405,7 +432,9 @@ class _Prisms:
 def _swept_by_strips(
     points: NDArray, vectors: NDArray, triangles: NDArray, stored: float, slide: float
 ) -> NDArray[np.float64]:
-    """Return (4,) coefficients in s of the volume that the strips along the boundary sweep, as `_Prisms.swept`."""
+    """Return (4,) coefficients in s of the volume that the strips along the boundary sweep, as
+    `_Prisms.swept`.
+    """
     start, stop = find_edges(triangles).boundary_ends(triangles)
     ends = [np.linalg.norm(array[stop] - array[start], axis=1) for array in (points, vectors)]
     far = np.maximum(*(np.linalg.norm(vectors[end], axis=1) for end in (start, stop)))
@@ -416,7 +445,9 @@ def _swept_by_strips(
 def _propagate_error(
     bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`."""
+    """Return (20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of
+    `_Prisms.bounds`.
+    """
     place = reach[0] + stored
     step = reach[1]
 
@@ -441,10 +472,11 @@ def _propagate_error(
 
 
 def first_positive_root(jacobian: NDArray, error: NDArray) -> NDArray[np.float64]:
-    """Return (m,) the s up to which three quadratics, a y² + b y + c with y = 1 / s, are certainly positive.
+    """Return (m,) the s up to which three quadratics, a y² + b y + c with y = 1 / s, are certainly
+    positive.
 
-    jacobian: (3, 3, m) their a, b and c; error: (3, m) bounds of their rounding. Discriminants that rounding may have
-    made negative are zero.
+    jacobian: (3, 3, m) their a, b and c; error: (3, m) bounds of their rounding. Discriminants that
+    rounding may have made negative are zero.
     """
     a, b, c = jacobian - error[:, None]
     dead = ~(a > 0.0)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""File > Import > Robot Description for Audit: a text with its findings, on request a page and a repaired copy."""
+"""File > Import > Robot Description for Audit: a text with its findings, on request a page and a
+repaired copy.
+"""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
-    """Check mass, center and inertia in a robot description against its meshes. What is found becomes a text"""
+    """Check mass, center and inertia in a robot description against its meshes; write a text"""
 
     bl_idname = "import_scene.body_moments_audit"
     bl_label = "Audit Robot Description"

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""File > Export, and the exporters of collections: measured objects as URDF, SDF, MJCF, USD or glTF.
+"""File > Export, and the exporters of collections: measured objects as URDF, SDF, MJCF, USD or
+glTF.
 
-The exporters of collections keep their path and options in the .blend; Blender runs them again by Export All.
+The exporters of collections keep their path and options in the .blend; Blender runs them again by
+Export All.
 """
 
 from dataclasses import replace
@@ -34,7 +36,8 @@ LINKS = (
     (
         "OBJECT",
         "Objects",
-        "Each object is a link; rigid-body constraints are joints, and parents hold by fixed joints",
+        "Each object is a link; rigid-body constraints are joints, and parents hold by fixed "
+        "joints",
     ),
     (
         "COLLECTION",
@@ -163,14 +166,15 @@ class RobotExport(selection.InObjectMode, ExportHelper):
 
 
 class GeometryExport(RobotExport):
-    """Base of exporters that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
+    """Base of exporters that leave the geometry of objects to Blender's own exporter."""
 
     def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
         is_own = self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only
         has_colliders = self.use_collision and any(
             not shape.seen for link in made.with_colliders().robot.links for shape in link.shapes
         )
-        # Nested prims and nodes cannot move in each other, and Blender's exporters would show colliders.
+        # Nested prims and nodes cannot move in each other, and Blender's exporters would show
+        # colliders.
         if is_own or has_colliders or any(joint.free for joint in made.robot.joints):
             return super()._export(context, made, path)
         made.findings.extend(write.texts.check(made.robot, self.FORMAT))
@@ -182,7 +186,9 @@ class GeometryExport(RobotExport):
         return self._export_over(made, path)
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
-        """Write the geometry by Blender's exporter, with our masses; return the findings about the robot."""
+        """Write the geometry by Blender's exporter, with our masses; return the findings about the
+        robot.
+        """
         raise NotImplementedError
 
     def _run_exporter(self, exporter: str, path: Path, options: dict) -> None:
@@ -201,7 +207,7 @@ class GeometryExport(RobotExport):
 
 
 class UsdExport(GeometryExport):
-    """Base of the USD exporter: a layer with the masses refers to the layer that Blender's exporter has written."""
+    """Base of the USD exporter: a layer with masses refers to that of Blender's exporter."""
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
         robot = made.robot
@@ -230,7 +236,7 @@ class UsdExport(GeometryExport):
 
 
 class GltfExport(GeometryExport):
-    """Base of the glTF exporter: rigid bodies are added to the file that Blender's exporter has written."""
+    """Base of the glTF exporter: rigid bodies are added to the file of Blender's exporter."""
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
         findings = made.findings

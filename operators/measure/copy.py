@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Getting numbers out: one value to the last digit, texts and tables, a file; and the list of objects."""
+"""Getting numbers out: one value to the last digit, texts and tables, a file; and the list of
+objects.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,8 @@ from .moments import reference_text
 def copy_text(operator: Operator, context: Context, text: str, done: str) -> None:
     """Copy a text to the clipboard, and report `done`.
 
-    In background mode there is no clipboard, and long reports are cut short: the text goes to the standard output.
+    In background mode there is no clipboard, and long reports are cut short: the text goes to the
+    standard output.
     """
     if bpy.app.background:
         sys.stdout.write(text.removesuffix("\n") + "\n")
@@ -63,7 +66,9 @@ class OBJECT_OT_body_moments_copy_value(Operator):
 
 
 def selected_document(context: Context) -> dict[str, Any]:
-    """Return the stored results of the selected objects and their total, with marks for outdated or doubtful ones."""
+    """Return the stored results of the selected objects and their total, with marks for outdated or
+    doubtful ones.
+    """
     objects = selection.selected_measurable(context)
     outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
     counted = [obj for obj in objects if properties.is_stored(obj)]
@@ -141,7 +146,8 @@ def _moments(context: Context) -> Copied | str:
     return text, reports.phrase("Copied {count} moments", count=text.count("\n") - 2)
 
 
-# What is copied: its name, its tooltip, and the function that returns it or the reason why there is nothing to copy.
+# What is copied: its name, its tooltip, and the function that returns it or the reason why there is
+# nothing to copy.
 COPIES = {
     "REPORT": (
         "Report",
@@ -220,7 +226,7 @@ SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
 
 
 class OBJECT_OT_body_moments_save_numbers(Operator):
-    """Save the stored mass properties of the selected objects and their total, in SI units, as .csv, .json or .jsonl"""
+    """Save the selected objects' results and their total, in SI units, as .csv, .json or .jsonl"""
 
     bl_idname = "object.body_moments_save_numbers"
     bl_label = "Save CSV or JSON"
@@ -263,7 +269,9 @@ def _active_index(_scene: Scene) -> int:
 
 
 def _select(_scene: Scene, index: int) -> None:
-    """Select only the object with this index in the view layer, and make it active; only in Object Mode."""
+    """Select only the object with this index in the view layer, and make it active; only in Object
+    Mode.
+    """
     layer = bpy.context.view_layer
     if bpy.context.mode != "OBJECT" or not 0 <= index < len(layer.objects):
         return

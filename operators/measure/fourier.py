@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Fourier transform of the active object on a grid: its values in a file, and slices of them in an image."""
+"""The Fourier transform of the active object on a grid: its values in a file, and slices of them in
+an image.
+"""
 
 from __future__ import annotations
 
@@ -32,12 +34,13 @@ SUFFIX = ".npz"
 
 
 class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
-    """Ask for a file and a grid of frequencies, then write the Fourier transform of the active object."""
+    """Ask for a file and a grid, then write the Fourier transform of the active object."""
 
     bl_idname = "object.body_moments_fourier"
     bl_label = "Fourier Transform"
     bl_description = (
-        "Write the Fourier transform of the active object on a regular grid of frequencies to an .npz file, and show "
+        "Write the Fourier transform of the active object on a regular grid of frequencies to an "
+        ".npz file, and show "
         "slices of its magnitude as an image"
     )
     bl_options = {"REGISTER"}  # Blender would push its undo step before the image is there
@@ -72,14 +75,16 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         default=64,
         min=2,
         max=256,
-        description="Number of frequencies along each axis. 0 is in the middle, as after numpy.fft.fftshift",
+        description="Number of frequencies along each axis. 0 is in the middle, as after "
+        "numpy.fft.fftshift",
     )
     largest: FloatProperty(
         name="Max Frequency",
         min=0.0,
         soft_max=1e6,
         precision=4,
-        description="Highest frequency along each axis in rad/m. 0 uses that of a discrete Fourier transform of a box "
+        description="Highest frequency along each axis in rad/m. 0 uses that of a discrete Fourier "
+        "transform of a box "
         "of twice the object's size",
     )
     filter_glob: StringProperty(default="*" + SUFFIX, options={"HIDDEN"})
@@ -164,7 +169,8 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
                 area.spaces.active.image = image
         bpy.ops.ed.undo_push(message=self.bl_label)
         done = reports.phrase(
-            "Wrote {count} frequencies to {file}; the image {image} shows slices of their magnitude",
+            "Wrote {count} frequencies to {file}; the image {image} shows slices of their "
+            "magnitude",
             count=len(transform.q),
             file=self._path.name,
             image=image.name,

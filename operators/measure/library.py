@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure a folder or an asset library while the window goes on living: other processes open its files."""
+"""Measure a folder or an asset library while the window goes on living: other processes open its
+files.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ _PAUSE = 0.05  # seconds between looks at the run
 
 
 def _sources(_operator: Operator | None, context: Context | None) -> list[tuple[str, str, str]]:
-    """Return the menu's items: the folder in the file browser, and the asset libraries of the preferences."""
+    """Return the menu's items: the folder in the file browser, and the asset libraries of the
+    preferences.
+    """
     libraries = context.preferences.filepaths.asset_libraries if context else ()
     found = [(FOLDER, "Folder", "The folder that is open in the file browser")]
     found += [
@@ -46,7 +50,7 @@ _kept: list[tuple[str, str, str]] = []
 
 
 class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
-    """Measure all files of a folder or an asset library in separate processes, and write results and a report there"""
+    """Measure all files of a folder or an asset library, and write results and a report there"""
 
     bl_idname = "object.body_moments_measure_library"
     bl_label = "Measure Library"
@@ -63,11 +67,13 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     )
     asset_metadata: BoolProperty(
         name="Write Asset Metadata",
-        description="Write mass, volume and center into the metadata of the objects and collections that are assets",
+        description="Write mass, volume and center into the metadata of the objects and "
+        "collections that are assets",
     )
     overwrite: BoolProperty(
         name="Overwrite Files",
-        description="Save the metadata in the asset files themselves instead of in copies beside them",
+        description="Save the metadata in the asset files themselves instead of in copies beside "
+        "them",
     )
     thumbnails: BoolProperty(
         name="Pictures", description="Draw a picture of each body in the report", default=True
@@ -136,7 +142,10 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     def _finish(self, context: Context) -> set[str]:
         result = self._folder / RESULT
         if self._exit_code not in (0, 1, 70) or not result.exists():
-            text = "Measuring the library failed with exit code {code}. Use the command line to see why."
+            text = (
+                "Measuring the library failed with exit code {code}. Use the command line to see "
+                "why."
+            )
             return selection.refuse(self, text, code=self._exit_code)
         with command.supervisor.Journal(result.with_name(JOURNAL)) as journal:
             paths = list(journal.entries)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The buttons that measure the selected objects, let their numbers follow changes, and remove stored results."""
+"""The buttons that measure the selected objects, let their numbers follow changes, and remove
+stored results.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,7 @@ AS_SET = "AS_SET"
 
 
 class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator):
-    """Compute the exact mass properties of the selected objects and store them as custom properties"""
+    """Compute exact mass properties of the selected objects and store them as custom properties"""
 
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
@@ -68,7 +70,9 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
     )
 
     def _begin(self, context: bpy.types.Context) -> int:
-        """Apply the settings of the redo panel and prepare the steps; return the number of selected objects."""
+        """Apply the settings of the redo panel and prepare the steps; return the number of selected
+        objects.
+        """
         copy_defaults(context.scene)
         if not (subjects := armatures.subjects(context.selected_objects)):
             raise reports.Refused("Nothing selected can be measured")
@@ -81,7 +85,9 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
         return len(objects)
 
     def _change_settings(self, obj: bpy.types.Object) -> None:
-        """Apply the settings of the redo panel; library overrides and linked objects keep theirs."""
+        """Apply the settings of the redo panel; library overrides and linked objects keep
+        theirs.
+        """
         if not obj.is_editable or obj.override_library is not None:
             return
         settings = obj.body_moments
@@ -109,11 +115,13 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
             yield done
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
-        """Store the results of all objects at the end, so that a canceled run leaves none behind."""
+        """Store the results of all objects at the end, so that a canceled run leaves none
+        behind.
+        """
         failed = session.store_measured(context, self._results)
         for armature in filter(armatures.stands_for_meshes, context.selected_objects):
             live.character.store_rest(context, armature)
-        refusals = {**self._refusals, **failed}
+        refusals = self._refusals | failed
         self._failures = [
             reports.failure(obj.name_full, refusals[obj])
             for obj in self._objects
@@ -155,8 +163,10 @@ class OBJECT_OT_body_moments_live(Operator):
     bl_idname = "object.body_moments_live"
     bl_label = "Live"
     bl_description = (
-        "Update the numbers of the selected objects while they are edited, sculpted, posed or animated, until the file "
-        "is closed. In Pose Mode, those of the meshes that the armature deforms. Press Measure to store them"
+        "Update the numbers of the selected objects while they are edited, sculpted, posed or "
+        "animated, until the file "
+        "is closed. In Pose Mode, those of the meshes that the armature deforms. Press Measure to "
+        "store them"
     )
     bl_options = {"INTERNAL"}
 
@@ -169,13 +179,13 @@ class OBJECT_OT_body_moments_live(Operator):
         objects = _subjects(context)
         if any(live.following.is_live(obj) for obj in armatures.subjects([context.object])):
             for obj in objects:
-                live.live.stop(obj)
+                live.measuring.stop(obj)
             selection.redraw(context)
             return {"FINISHED"}
         depsgraph = context.evaluated_depsgraph_get()
         refusals = []
         for obj in objects:
-            result = live.live.start(obj, depsgraph)
+            result = live.measuring.start(obj, depsgraph)
             if result.refusal is not None:
                 refusals.append(reports.failure(obj.name, result.refusal))
         if refusals:
@@ -185,7 +195,9 @@ class OBJECT_OT_body_moments_live(Operator):
 
 
 def _subjects(context: Context) -> list[Object]:
-    """Return the measurable objects among the active and selected ones, with the meshes of posed armatures."""
+    """Return the measurable objects among the active and selected ones, with the meshes of posed
+    armatures.
+    """
     objects = armatures.subjects([context.object, *context.view_layer.objects.selected])
     return [obj for obj in objects if measurable(obj)]
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments to a chosen order, section properties of what is flat, and the inertia about a reference."""
+"""Moments to a chosen order, section properties of what is flat, and the inertia about a
+reference.
+"""
 
 from __future__ import annotations
 
@@ -30,8 +32,10 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
     bl_idname = "object.body_moments_compute_moments"
     bl_label = "Compute Moments"
     bl_description = (
-        "Compute all moments of the active object's volume, surface and mass, or of the area of what is flat, up to "
-        "the chosen order. A million triangles take about 1 second at order 4 and 20 seconds at order 20"
+        "Compute all moments of the active object's volume, surface and mass, or of the area of "
+        "what is flat, up to "
+        "the chosen order. A million triangles take about 1 second at order 4 and 20 seconds at "
+        "order 20"
     )
     bl_options = {"REGISTER"}
 
@@ -49,7 +53,8 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
             return selection.refuse(self, reports.failure(obj.name, error))
         if computed is None:
             text = (
-                "{object}: a wire has no volume or surface. Set Kind to Solid or Shell; measure --order gives moments "
+                "{object}: a wire has no volume or surface. Set Kind to Solid or Shell; measure "
+                "--order gives moments "
                 "of length."
             )
             reports.report(self, reports.phrase(text, object=obj.name), level=Severity.WARNING)
@@ -68,7 +73,8 @@ class OBJECT_OT_body_moments_measure_section(Operator):
     bl_idname = "object.body_moments_measure_section"
     bl_label = "Measure Section"
     bl_description = (
-        "Compute the section properties of the selected faces in Edit Mode, or of the selected flat meshes, 2D "
+        "Compute the section properties of the selected faces in Edit Mode, or of the selected "
+        "flat meshes, 2D "
         "curves and texts, and store them on the objects"
     )
     bl_options = {"REGISTER", "UNDO"}
@@ -114,7 +120,9 @@ class OBJECT_OT_body_moments_measure_section(Operator):
 
 
 def _objects_with_sections(context: Context) -> list[Object]:
-    """Return edited meshes with selected faces (all if none has), else selected objects that may have a section."""
+    """Return edited meshes with selected faces (all if none has), else selected objects that may
+    have a section.
+    """
     if context.mode != "EDIT_MESH":
         return [obj for obj in context.view_layer.objects.selected if obj.type in SECTION_TYPES]
     edited = [
@@ -181,7 +189,7 @@ def reference_text(name: str, choice: ReferenceChoice, result: ReferredInertia) 
 
 
 class OBJECT_OT_body_moments_axis_from_selection(Operator):
-    """Take the axis from two selected vertices in Edit Mode, or from the origins of two selected objects"""
+    """Take the axis from two selected vertices in Edit Mode or from two objects' origins"""
 
     bl_idname = "object.body_moments_axis_from_selection"
     bl_label = "Axis from Selection"
@@ -201,7 +209,9 @@ class OBJECT_OT_body_moments_axis_from_selection(Operator):
 
 
 def _selected_points(context: Context) -> list[Vector]:
-    """Return world positions: of vertices as selected in Edit Mode, else of objects' origins, the active one last."""
+    """Return world positions: of vertices as selected in Edit Mode, else of objects' origins, the
+    active one last.
+    """
     if context.mode != "EDIT_MESH":
         objects = sorted(
             context.view_layer.objects.selected, key=lambda obj: (obj == context.object, obj.name)

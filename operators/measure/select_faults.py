@@ -39,7 +39,8 @@ class OBJECT_OT_body_moments_select_faults(Operator):
     bl_idname = "object.body_moments_select_faults"
     bl_label = "Select Defects"
     bl_description = (
-        "Measure the selected meshes and select their defects in Edit Mode: boundary and non-manifold edges, and "
+        "Measure the selected meshes and select their defects in Edit Mode: boundary and "
+        "non-manifold edges, and "
         "flipped, duplicate and zero-area faces. Objects without defects are deselected"
     )
     bl_options = {"REGISTER", "UNDO"}
@@ -84,7 +85,8 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             if wrong:
                 faults[obj] = wrong
 
-        # All objects are measured before any is stored: otherwise Blender would evaluate the scene for each of them.
+        # All objects are measured before any is stored: otherwise Blender would evaluate the scene
+        # for each of them.
         _, failures = selection.apply_to_all(objects, measure)
         done, unstored = selection.apply_to_all(list(measurements), store)
         failures += unstored

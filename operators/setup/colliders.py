@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Make Colliders, Remove Colliders, and Add Equal-Inertia Shape, whose shapes are colliders too.
 
-The origin of an equal-inertia shape is the center of mass and its axes are the principal ones, which Bullet assumes;
-and from a box Bullet computes exactly the inertia of that box. So a box with the object as its child falls as the
-object does.
+The origin of an equal-inertia shape is the center of mass and its axes are the principal ones,
+which Bullet assumes; and from a box Bullet computes exactly the inertia of that box. So a box with
+the object as its child falls as the object does.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ MAX_SHOWN_NAMES = 4
 
 
 class _Making(selection.OnSelectionInObjectMode, ModalSteps):
-    """Base of operators that make colliders: `_wanted` returns the fields of `Wanted`, for all that pass `_check`."""
+    """Base of operators that make colliders: `_wanted` returns the fields of `Wanted`."""
 
     PROGRESS = "Making colliders: {share:.0%}. Esc to cancel"
     CANCELED = "Making colliders canceled; nothing was changed"
@@ -105,7 +105,7 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
 
 
 class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
-    """Make or renew colliders of each selected object, as its children, and compare their physics with the exact one"""
+    """Make or renew each selected object's colliders, as children, and compare their physics"""
 
     bl_idname = "object.body_moments_make_colliders"
     bl_label = "Make Colliders"

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Materials for all selected objects at once, users' presets, and copies of settings from one object to others."""
+"""Materials for all selected objects at once, users' presets, and copies of settings from one
+object to others.
+"""
 
 import bpy
 from bl_operators.presets import AddPresetBase
@@ -30,7 +32,8 @@ class OBJECT_OT_body_moments_set_material(Operator):
     bl_idname = "object.body_moments_set_material"
     bl_label = "Set Material"
     bl_description = (
-        "Set the density of the selected objects to that of a material. With Density From set to Materials, it "
+        "Set the density of the selected objects to that of a material. With Density From set to "
+        "Materials, it "
         "applies to faces whose material has no density"
     )
     bl_options = {"REGISTER", "UNDO"}
@@ -120,7 +123,10 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
 
     bl_idname = "object.body_moments_copy_settings"
     bl_label = "Copy Settings to Selected"
-    bl_description = "Copy kind, material, density or mass, wall and overlaps from the active object to the other selected objects"
+    bl_description = (
+        "Copy kind, material, density or mass, wall and overlaps from the active object to the "
+        "other selected objects"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators of the buttons beside warnings: each applies a remedy, and most measure the objects again."""
+"""Operators of the buttons beside warnings: each applies a remedy, and most measure the objects
+again.
+"""
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
@@ -44,7 +46,7 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
 
 
 class _OnActive:
-    """Base of operators that change the active object's settings; refused if the object cannot hold settings."""
+    """Base of operators that change the active object's settings; refused without settings."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -150,7 +152,8 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
 
     remeasure: BoolProperty(
         name="Measure Again",
-        description="Measure the objects of the view layer that were measured, as all their numbers change",
+        description="Measure the objects of the view layer that were measured, as all their "
+        "numbers change",
         default=True,
     )
 

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Make Rigid Bodies, and Set Rigid Body Mass, in kilograms.
 
-Blender's own Calculate Mass weighs the collision shape, not the object; its result is shown beside the exact mass.
-Bullet, Blender's physics engine, takes the object's origin as the center of mass and a diagonal inertia along the
-object's axes; after Axes to Principal Axes both are true.
+Blender's own Calculate Mass weighs the collision shape, not the object; its result is shown beside
+the exact mass. Bullet, Blender's physics engine, takes the object's origin as the center of mass
+and a diagonal inertia along the object's axes; after Axes to Principal Axes both are true.
 """
 
 from typing import TYPE_CHECKING
@@ -14,12 +14,12 @@ from bpy.types import Context, Object, Operator
 
 from ...blender import scene, session
 from ...blender.read.tracking import tracking_paused
+from ...blender.scale import meters_per_unit
 from ...blender.scene.changes import require_storable_data
 from ...blender.scene.findings import RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
 from ...blender.write import reports
 from ...blender.write.translations import localized
 from ...blender.write.units import Units
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
 from ..findings import NOT_A_RIGID_BODY, RIGID_BODY_CENTER_ELSEWHERE
@@ -33,12 +33,13 @@ SHOWN = 12  # bodies in the redo panel
 
 
 class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Operator):
-    """Make the selected objects rigid bodies with their exact mass, center of mass and principal axes."""
+    """Make the selected objects rigid bodies with their exact mass, center and principal axes."""
 
     bl_idname = "object.body_moments_rigid_bodies"
     bl_label = "Make Rigid Bodies"
     bl_description = (
-        "Make the selected objects rigid bodies: mass from density and true volume, origin at the center of mass, axes "
+        "Make the selected objects rigid bodies: mass from density and true volume, origin at the "
+        "center of mass, axes "
         "along the principal axes. Nothing visible moves, and joints stay where they are"
     )
 
@@ -88,7 +89,8 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
     )
     compounds: BoolProperty(
         name="Compound Parents",
-        description="Make an object and the selected objects that are parented to it one body with their total mass",
+        description="Make an object and the selected objects that are parented to it one body with "
+        "their total mass",
         default=True,
     )
     comparison: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
@@ -137,7 +139,9 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
 
 
 def _compare_masses(context: Context, made: "RigidBodies") -> str:
-    """Return a line for each of the first bodies: its exact mass, and its mass by Calculate Mass."""
+    """Return a line for each of the first bodies: its exact mass, and its mass by Calculate
+    Mass.
+    """
     units = Units.from_settings(context.scene.unit_settings)
     lines = []
     for obj, one in list(made.measured.items())[:SHOWN]:
@@ -157,7 +161,8 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
     bl_idname = "object.body_moments_set_rigid_body_mass"
     bl_label = "Set Rigid Body Mass"
     bl_description = (
-        "Set the mass of rigid bodies to the measured mass in kilograms. The physics engine uses the origin as center "
+        "Set the mass of rigid bodies to the measured mass in kilograms. The physics engine uses "
+        "the origin as center "
         "of mass; use Axes to Principal Axes as well"
     )
     MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
@@ -169,7 +174,8 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
     axes: BoolProperty(
         name="Set Origins and Axes",
         description=(
-            "Move origins to the centers of mass and align the local axes with the principal axes, as the physics "
+            "Move origins to the centers of mass and align the local axes with the principal axes, "
+            "as the physics "
             "engine takes them to be. Nothing visible moves"
         ),
     )
@@ -240,11 +246,16 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
 
 
 def _display_scaled(context: Context, count: int) -> list[str]:
-    """Return the message that Blender shows masses multiplied by the cube of the unit scale, if it shows any."""
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    """Return the message that Blender shows masses multiplied by the cube of the unit scale, if it
+    shows any.
+    """
+    unit = meters_per_unit(context.scene)
     if not count or unit == 1.0 or context.scene.unit_settings.system == "NONE":
         return []
-    text = "Physics properties show masses times {factor:.6g} (unit scale cubed); the physics engine uses kilograms."
+    text = (
+        "Physics properties show masses times {factor:.6g} (unit scale cubed); the physics engine "
+        "uses kilograms."
+    )
     return [reports.phrase(text, factor=unit**3)]
 
 

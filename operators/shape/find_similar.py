@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Find Similar: the objects of the scene, or the bodies of a library, nearest in shape to the active one.
+"""Find Similar: the objects of the scene, or the bodies of a library, nearest in shape to the
+active one.
 
-Matches are kept with the scene, for the panel; objects are not changed except, on request, their selection.
+Matches are kept with the scene, for the panel; objects are not changed except, on request, their
+selection.
 """
 
 from collections import Counter
@@ -84,7 +86,9 @@ class _SearchMixin:
     def store_and_report(
         self, context: Context, matches: list["Match"], looked_at: str, failures: list[Finding]
     ) -> set[str]:
-        """Keep the nearest matches with the scene, and report the number of matches by similarity."""
+        """Keep the nearest matches with the scene, and report the number of matches by
+        similarity.
+        """
         search = context.scene.body_moments_search
         search.wanted = context.object.name
         search.looked_at = looked_at
@@ -114,7 +118,8 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
     bl_idname = "object.body_moments_find_similar"
     bl_label = "Find Similar"
     bl_description = (
-        "Compare the shapes of all visible objects with the active object, in any pose, size and triangulation, and "
+        "Compare the shapes of all visible objects with the active object, in any pose, size and "
+        "triangulation, and "
         "list copies, mirror images and similar shapes"
     )
     PROGRESS = "Comparing: {share:.0%}. Esc to cancel"
@@ -170,7 +175,8 @@ class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
     bl_idname = "object.body_moments_find_in_library"
     bl_label = "Find in Library"
     bl_description = (
-        "Compare the shape of the active object with those of a library, written by the command line with "
+        "Compare the shape of the active object with those of a library, written by the command "
+        "line with "
         "--signature --format jsonl"
     )
 

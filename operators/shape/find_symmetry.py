@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Find Symmetry: the rotation axes and mirror planes of the selected objects.
 
-They are found by the moments and confirmed on the surfaces, and kept with each object, in its own axes, for the panel.
+They are found by the moments and confirmed on the surfaces, and kept with each object, in its own
+axes, for the panel.
 """
 
 from collections.abc import Iterator
@@ -59,7 +60,8 @@ class BodyMomentsSymmetry(PropertyGroup):
     )
     tolerance: FloatProperty(
         name="Tolerance",
-        description="Largest distance of the surface from its images, relative to the radius of gyration",
+        description="Largest distance of the surface from its images, relative to the radius of "
+        "gyration",
     )
     of_display_mesh: BoolProperty(
         name="Of Display Mesh", description="The display mesh of a NURBS surface was compared"
@@ -74,7 +76,8 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
     bl_idname = "object.body_moments_find_symmetry"
     bl_label = "Find Symmetry"
     bl_description = (
-        "Find the rotation axes and mirror planes through the center of mass of the selected objects that moments "
+        "Find the rotation axes and mirror planes through the center of mass of the selected "
+        "objects that moments "
         "allow and the surface, or of flat shapes the outline, confirms"
     )
     PROGRESS = "Finding symmetry: {share:.0%}. Esc to cancel"
@@ -86,7 +89,8 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
         min=1e-6,
         max=0.1,
         precision=6,
-        description="Largest allowed distance of the surface from its images, relative to the radius of gyration",
+        description="Largest allowed distance of the surface from its images, relative to the "
+        "radius of gyration",
     )
 
     def _begin(self, context: Context) -> int:
@@ -104,7 +108,9 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
         return len(self._objects)
 
     def _finish(self, context: Context) -> set[str]:
-        """Store the symmetries of all objects at the end, so that a canceled search leaves none behind."""
+        """Store the symmetries of all objects at the end, so that a canceled search leaves none
+        behind.
+        """
         for obj, shape, found_symmetry, allowed in self._results:
             stored.results.store_symmetry(obj, shape, found_symmetry, allowed, self.tolerance)
         # Blender reports the stored symmetry as a change of the object.

@@ -9,6 +9,7 @@ from bpy.types import Context, Event, Operator
 
 from ...blender import scene, session
 from ...blender.read.tracking import tracking_paused
+from ...blender.scale import meters_per_unit
 from ...blender.write import reports
 from .. import selection
 
@@ -20,7 +21,7 @@ NOTHING = "There are no copies."
 
 
 class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
-    """Let equal meshes, moved, turned, mirrored or scaled, become one mesh that objects share; nothing moves"""
+    """Let equal meshes, moved, turned, mirrored or scaled, share one mesh; nothing moves"""
 
     bl_idname = "object.body_moments_link_copies"
     bl_label = "Link Copies"
@@ -35,7 +36,8 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
     )
     may_differ: EnumProperty(
         name="May Differ",
-        description="What the copies may have of their own; the shared mesh has that of the first one",
+        description="What the copies may have of their own; the shared mesh has that of the first "
+        "one",
         items=(
             ("UV", "UV Maps", "Copies get the UV maps of the shared mesh"),
             (
@@ -57,7 +59,9 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
     _found: tuple | None = None  # the settings of the last search, and its kinds of meshes
 
     def _kinds(self, context: Context) -> list["Copies"]:
-        """Return the kinds of meshes among the selected objects, or all visible ones if none is selected."""
+        """Return the kinds of meshes among the selected objects, or all visible ones if none is
+        selected.
+        """
         key = self.tolerance, frozenset(self.may_differ)
         if self._found is None or self._found[0] != key:
             chosen = self._objects or context.selected_objects or context.visible_objects
@@ -132,7 +136,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
             "{count} objects linked, {size} saved, vertices moved by up to {maximum:length}",
             count=len(linked.objects),
             size=_size(linked.saved),
-            maximum=linked.farthest * context.scene.unit_settings.scale_length,
+            maximum=linked.farthest * meters_per_unit(context.scene),
         )
         total = len(linked.objects) + len(left_out)
         return selection.summarize(

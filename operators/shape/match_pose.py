@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Match Pose: lay the other selected objects onto the active one by centers of mass and principal axes."""
+"""Match Pose: lay the other selected objects onto the active one by centers of mass and principal
+axes.
+"""
 
 from collections.abc import Generator, Iterator
 from typing import TYPE_CHECKING
@@ -25,8 +27,10 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
     bl_idname = "object.body_moments_match_pose"
     bl_label = "Match Pose"
     bl_description = (
-        "Move and rotate the other selected objects onto the active object by centers of mass and principal axes, and "
-        "report the distance between the surfaces. Symmetric objects take the nearest of their poses; mirror images "
+        "Move and rotate the other selected objects onto the active object by centers of mass and "
+        "principal axes, and "
+        "report the distance between the surfaces. Symmetric objects take the nearest of their "
+        "poses; mirror images "
         "are left unchanged"
     )
     PROGRESS = "Comparing: {share:.0%}. Esc to cancel"
@@ -77,7 +81,9 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
         yield from selection.iterate_objects(self._others, find, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
-        """Move the objects after all places are known, so that a canceled run leaves everything in place."""
+        """Move the objects after all places are known, so that a canceled run leaves everything in
+        place.
+        """
         if not self._size:
             return {"CANCELLED"}
         moved, distances = [], []

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Frames of bodies: given to objects as origins and axes, to the world, the 3D cursor, empties and orientations.
+"""Frames of bodies: given to objects as origins and axes, to the world, the 3D cursor, empties and
+orientations.
 
-Physics engines take an object's origin as its center of mass and a diagonal inertia along its axes. Blender's own
-operator for origins ignores modifiers and moves other users of the data. Blender makes orientations only from a 3D
-view; without one, as in background mode, that operator only warns. A node group shows the center at every frame.
+Physics engines take an object's origin as its center of mass and a diagonal inertia along its axes.
+Blender's own operator for origins ignores modifiers and moves other users of the data. Blender
+makes orientations only from a 3D view; without one, as in background mode, that operator only
+warns. A node group shows the center at every frame.
 """
 
 from collections.abc import Sequence
@@ -16,10 +18,10 @@ from mathutils import Matrix
 
 from ...blender import bodies, scene, session
 from ...blender.read.visibility import measurable
+from ...blender.scale import meters_per_unit
 from ...blender.scene.findings import OPEN_OBJECT
 from ...blender.write import reports
 from ...core import inertia
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, MeasureError, Severity
 from ...core.verdict.method import Procedure
 from .. import selection
@@ -27,7 +29,8 @@ from .. import selection
 STRICT_PROPERTY = BoolProperty(
     name="Zhang and Chen's Rule",
     description=(
-        "Take axes 1 and 2 in the direction of positive third moments, as in the paper. Objects for which "
+        "Take axes 1 and 2 in the direction of positive third moments, as in the paper. Objects "
+        "for which "
         "the rule is undefined, such as most symmetric ones, are left unchanged"
     ),
 )
@@ -40,9 +43,11 @@ def reframe_selected(
     done: tuple[str, str],
     strict: bool = False,
 ) -> set[str]:
-    """Give each selected object an origin at its center of mass while nothing visible moves, and report it.
+    """Give each selected object an origin at its center of mass while nothing visible moves, and
+    report it.
 
-    along_axes: also align its axes with the principal axes. done: the report, for one object and for `count` objects.
+    along_axes: also align its axes with the principal axes. done: the report, for one object and
+    for `count` objects.
     """
     objects = selection.selected_measurable(context)
     target_matrix = scene.matrix_along_axes if along_axes else scene.matrix_at_center
@@ -61,8 +66,10 @@ class OBJECT_OT_body_moments_origin_to_center(selection.OnSelectionInObjectMode,
     bl_idname = "object.body_moments_origin_to_center"
     bl_label = "Origin to Center of Mass"
     bl_description = (
-        "Move the origin to the exact center of mass of the evaluated object. Nothing visible moves: children and "
-        "other users of the data stay in place. Objects whose modifiers depend on the origin are left unchanged"
+        "Move the origin to the exact center of mass of the evaluated object. Nothing visible "
+        "moves: children and "
+        "other users of the data stay in place. Objects whose modifiers depend on the origin are "
+        "left unchanged"
     )
 
     def execute(self, context: Context) -> set[str]:
@@ -79,7 +86,8 @@ class OBJECT_OT_body_moments_axes_to_principal(selection.OnSelectionInObjectMode
     bl_idname = "object.body_moments_axes_to_principal"
     bl_label = "Axes to Principal Axes"
     bl_description = (
-        "Move the origin to the center of mass and align the local X, Y and Z axes with the principal axes, from the "
+        "Move the origin to the center of mass and align the local X, Y and Z axes with the "
+        "principal axes, from the "
         "smallest moment to the largest, with unit scale. Nothing visible moves"
     )
 
@@ -93,7 +101,8 @@ class OBJECT_OT_body_moments_axes_to_principal(selection.OnSelectionInObjectMode
         return reframe_selected(self, context, True, done, self.strict)
 
 
-# Targets of principal axes 1, 2 and 3. An odd order would mirror the body, so axis 3 is reversed in it.
+# Targets of principal axes 1, 2 and 3. An odd order would mirror the body, so axis 3 is reversed in
+# it.
 ORDERS = ("XYZ", "YZX", "ZXY", "XZY", "YXZ", "ZYX")
 
 
@@ -103,7 +112,8 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
     bl_idname = "object.body_moments_align_to_world"
     bl_label = "Align Object to World"
     bl_description = (
-        "Rotate the object so that its principal axes align with the world axes, about its center of mass or at the "
+        "Rotate the object so that its principal axes align with the world axes, about its center "
+        "of mass or at the "
         "world origin. Children follow"
     )
 
@@ -183,9 +193,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
             if len(bodies_measured) > 1:
                 total = inertia.combine([moments for moments, _ in bodies_measured])
             cursor = context.scene.cursor
-            cursor.location = total.center / shortest_decimal(
-                context.scene.unit_settings.scale_length
-            )
+            cursor.location = total.center / meters_per_unit(context.scene)
             if self.rotate:
                 turn_cursor(cursor, total.principal.axes.tolist())
                 findings = [total.principal.finding] if total.principal.finding is not None else []
@@ -216,7 +224,8 @@ class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operat
     bl_idname = "object.body_moments_add_empty"
     bl_label = "Add Empty at Principal Frame"
     bl_description = (
-        "Add an empty at the center of mass, along the principal axes, with arrows as long as the largest radius of "
+        "Add an empty at the center of mass, along the principal axes, with arrows as long as the "
+        "largest radius of "
         "gyration. An empty added before is moved"
     )
 
@@ -271,7 +280,8 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
 
     name: StringProperty(
         name="Name",
-        description="Name of the orientation. If empty, the object's name. An orientation of this name is replaced",
+        description="Name of the orientation. If empty, the object's name. An orientation of this "
+        "name is replaced",
     )
     use: BoolProperty(
         name="Use After Creation",
@@ -315,7 +325,9 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
 
 
 def _view_3d(context: Context) -> dict | None:
-    """Return a 3D view to create orientations from: the operator's own, or the first that is open."""
+    """Return a 3D view to create orientations from: the operator's own, or the first that is
+    open.
+    """
     windows = [context.window] if context.window else []
     windows += [window for window in context.window_manager.windows if window not in windows]
     for window in windows:
@@ -332,13 +344,15 @@ class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
     bl_idname = "object.body_moments_add_nodes"
     bl_label = "Center of Mass Node Group"
     bl_description = (
-        "Add the node group “Center of Mass” to the file, marked as an asset: it computes center, volume and mass in "
+        "Add the node group “Center of Mass” to the file, marked as an asset: it computes center, "
+        "volume and mass in "
         "geometry nodes, follows modifiers and animation, and works without the add-on"
     )
 
     marker: BoolProperty(
         name="Add Marker",
-        description="Add an object that shows the center of mass of the active object at every frame",
+        description="Add an object that shows the center of mass of the active object at every "
+        "frame",
         default=True,
     )
 

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sculpt Balance: move chosen vertices least so that the center of mass comes over a point, "make it stand".
+"""Sculpt Balance: move chosen vertices least so that the center of mass comes over a point, "make
+it stand".
 
-The vertices are the selected ones in Edit Mode, or a vertex group in Object Mode, as freely as their weights say;
-without groups the whole body leans.
+The vertices are the selected ones in Edit Mode, or a vertex group in Object Mode, as freely as
+their weights say; without groups the whole body leans.
 """
 
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
@@ -22,8 +23,10 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
     bl_idname = "object.body_moments_sculpt_balance"
     bl_label = "Sculpt Balance"
     bl_description = (
-        "Make it stand: move the selected vertices (in Object Mode those of a vertex group) as little as "
-        "possible, or lean an object without vertex groups, to bring the center of mass over a point"
+        "Make it stand: move the selected vertices (in Object Mode those of a vertex group) as "
+        "little as "
+        "possible, or lean an object without vertex groups, to bring the center of mass over a "
+        "point"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -62,7 +65,8 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
     group: StringProperty(
         name="Vertex Group",
         description=(
-            "Vertices that may move in Object Mode, in proportion to their weights. If empty, the active group; "
+            "Vertices that may move in Object Mode, in proportion to their weights. If empty, the "
+            "active group; "
             "an object without groups leans as a whole"
         ),
     )
@@ -103,9 +107,11 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
             session.check_stability(context, obj, [])
         texts = [
             reports.phrase(
-                "Moved {count} vertex by at most {distance:length}; the center of mass went from {start:point} to "
+                "Moved {count} vertex by at most {distance:length}; the center of mass went from "
+                "{start:point} to "
                 "{end:point}",
-                "Moved {count} vertices by at most {distance:length}; the center of mass went from {start:point} to "
+                "Moved {count} vertices by at most {distance:length}; the center of mass went from "
+                "{start:point} to "
                 "{end:point}",
                 **vars(balanced),
             )

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The overlay of the 3D Viewport: centers of mass, principal axes and other optional marks.
 
-Nothing is measured here: everything drawn comes from `blender/session/`. In background mode nothing is registered.
+Nothing is measured here: everything drawn comes from `blender/session/`. In background mode nothing
+is registered.
 """
 
 from ...core.lazy import lazy_names

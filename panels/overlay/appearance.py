@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Colors and sizes of the overlay.
 
-Each shape has a dark outline and a bright filling, so that it shows on every background. A verdict has a color, from
-the palette of Okabe and Ito (2008) that all kinds of color vision tell apart, and a form: the frame around the disc.
+Each shape has a dark outline and a bright filling, so that it shows on every background. A verdict
+has a color, from the palette of Okabe and Ito (2008) that all kinds of color vision tell apart, and
+a form: the frame around the disc.
 """
 
 import numpy as np

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Drawing in the 3D Viewport: a few batches for all bodies, remade only after a change.
 
-Lines and discs are drawn twice, to show how deep they lie: first through everything, lines faint and discs without
-their white quadrants, then in full if nothing is in front of them. The nearest discs come last. The drawing depends on
-the session's generation and the settings, discs also on the view: as long as these stay, a redraw makes no array.
+Lines and discs are drawn twice, to show how deep they lie: first through everything, lines faint
+and discs without their white quadrants, then in full if nothing is in front of them. The nearest
+discs come last. The drawing depends on the session's generation and the settings, discs also on the
+view: as long as these stay, a redraw makes no array.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 from numpy.typing import NDArray
 
-from ...blender.session.tracking import handlers
+from ...blender.scale import meters_per_unit
+from ...blender.session import memory
 from ...blender.settings.scene import BodyMomentsOverlaySettings
-from ...core.numerics.float32 import shortest_decimal
 from . import appearance as look
 from . import discs, lines
 from .bodies import Bodies, Entry, collect
@@ -41,10 +42,10 @@ Batch = gpu.types.GPUBatch
 
 @dataclass(eq=False)
 class _Drawn:
-    """The batches of a region; `key`: everything that they depend on besides the view, first the generation.
+    """The batches of a region; `key`: all that they depend on besides the view.
 
-    `segments`: (n, k, 2, 3) lines of the bodies, `entries` as arrays. While these are the same, their rows stay.
-    `active`: the row with labels, or -1.
+    The key begins with the generation. `segments`: (n, k, 2, 3) lines of the bodies, `entries` as
+    arrays. While these are the same, their rows stay. `active`: the row with labels, or -1.
     """
 
     key: tuple
@@ -95,9 +96,7 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
     rows = list(range(len(entries)))
     if before is not None and before.key[1:] == key[1:] and len(before.entries) == len(entries):
         rows = [row for row in rows if entries[row] is not before.entries[row]]
-    bodies = Bodies.of(
-        [entries[row] for row in rows], shortest_decimal(scene.unit_settings.scale_length)
-    )
+    bodies = Bodies.of([entries[row] for row in rows], meters_per_unit(scene))
     segments = lines.body_lines(bodies, settings)
     if before is not None and len(rows) < len(entries):
         before.bodies.put(rows, bodies)
@@ -116,7 +115,9 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
 
 
 def draw_texts(context: Context) -> None:
-    """Draw the texts of the details into a region, beside their places, and the numbers of the active body's axes."""
+    """Draw the texts of the details into a region, beside their places, and the numbers of the
+    active body's axes.
+    """
     drawn = _regions.get(context.region.as_pointer())
     scale = _scale()
     if drawn is None:
@@ -167,7 +168,7 @@ def _key(context: Context) -> tuple:
     """Return everything that the drawing depends on, besides the view."""
     settings = context.scene.body_moments.overlay
     return (
-        handlers.generation(),
+        memory.state.generation,
         context.scene.session_uid,
         context.view_layer.name,
         context.space_data.local_view is not None,
@@ -190,7 +191,9 @@ def _axis_colors() -> tuple[tuple[float, float, float], ...]:
 
 
 def _joined(parts: list[Colored]) -> dict[str, NDArray[np.float32]]:
-    """Return the vertices of parts: (k, c, 3) points of shapes with c corners, and (k, 4) colors; {} without any."""
+    """Return the vertices of parts: (k, c, 3) points of shapes with c corners, and (k, 4) colors;
+    {} without any.
+    """
     parts = [(shapes, colors) for shapes, colors in parts if len(shapes)]
     if not parts:
         return {}

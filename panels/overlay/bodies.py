@@ -30,7 +30,8 @@ MANY = 20  # from this number of bodies on, their sum is drawn, and only doubtfu
 class Bodies:
     """Displayed bodies: (n, 3) centers of mass, and (n, 3, 3) principal axes as columns.
 
-    `gyration`: (n, 3) radii of gyration about the axes. `verdicts`: (n,) indices into `appearance.VERDICTS`.
+    `gyration`: (n, 3) radii of gyration about the axes. `verdicts`: (n,) indices into
+    `appearance.VERDICTS`.
     """
 
     centers: NDArray[np.float64]
@@ -61,8 +62,9 @@ class Bodies:
 def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
     """Return the drawn bodies, and the index of the active one, or -1.
 
-    They are those of the objects, of selected pose bones, of the active object's collection and, if enabled, the whole
-    selection as one body. Of many objects, only the active one, the doubtful ones and the sum are drawn.
+    They are those of the objects, of selected pose bones, of the active object's collection and, if
+    enabled, the whole selection as one body. Of many objects, only the active one, the doubtful
+    ones and the sum are drawn.
     """
     scene = context.scene
     bones = context.selected_pose_bones or ()

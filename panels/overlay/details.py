@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Details of single objects: faults, support polygons and weights, as colored shapes and texts in the world."""
+"""Details of single objects: faults, support polygons and weights, as colored shapes and texts in
+the world.
+"""
 
 from __future__ import annotations
 
@@ -10,11 +12,11 @@ import numpy as np
 from bpy.types import Context, Object, Scene
 from numpy.typing import NDArray
 
+from ...blender.scale import meters_per_unit
 from ...blender.session import live
 from ...blender.session.live.character import Weight
 from ...blender.session.stored import balance_groups, faults, stability
 from ...blender.write import reports
-from ...core.numerics.float32 import shortest_decimal
 from ...core.rig.motion import ballistic_arc, find_flights
 from ...core.statics.support import Support
 from ..rig import standing
@@ -28,8 +30,9 @@ Colored = tuple[NDArray[np.float64], NDArray[np.float32]]
 
 @dataclass(frozen=True, eq=False)
 class Detail:
-    """Drawn shapes. segments: (k, 2, 3) points and (k, 4) colors. triangles: (l, 3, 3) points and (l, 4) colors.
+    """Drawn shapes.
 
+    segments: (k, 2, 3) points and (k, 4) colors. triangles: (l, 3, 3) points and (l, 4) colors.
     texts: a (3,) place, a text and its color each.
     """
 
@@ -71,7 +74,9 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
 
 
 def _path(path: balance_groups.Path) -> Detail:
-    """Return a line from frame to frame with a tick at each, orange if the center is outside the support polygon."""
+    """Return a line from frame to frame with a tick at each, orange if the center is outside the
+    support polygon.
+    """
     ticks = np.stack([path.centers, path.centers], axis=1)
     ticks[:, 1, 2] += 0.01 * float(np.ptp(path.centers, axis=0).max())
     inside = np.ones(len(ticks), bool) if path.inside is None else path.inside
@@ -91,7 +96,9 @@ def _path(path: balance_groups.Path) -> Detail:
 
 
 def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
-    """Return the arc of free fall beside each flight of a path, with a cross at take-off and at landing."""
+    """Return the arc of free fall beside each flight of a path, with a cross at take-off and at
+    landing.
+    """
     if path.contact is None or not scene.use_gravity:
         return []
     details = []
@@ -126,7 +133,7 @@ def _faults(obj: Object, found: faults.Faults) -> Detail:
 
 def _weight(context: Context, weight: Weight) -> list[Detail]:
     """Return a character's plumb line with its margin at the foot, and its support polygon."""
-    text, lengths, _ = standing(weight, shortest_decimal(context.scene.unit_settings.scale_length))
+    text, lengths, _ = standing(weight, meters_per_unit(context.scene))
     polygon = None if weight.support is None else support_detail(weight.support)
     color = look.TIPS if polygon is None else polygon.segments[1][0]
     plumb = _tinted(np.array([[weight.parts.center, weight.foot]]), color)
@@ -138,8 +145,12 @@ def _weight(context: Context, weight: Weight) -> list[Detail]:
 
 
 def support_detail(support: Support) -> Detail:
-    """Return the support polygon, filled if the body stands, and an arrow from the foot to the tipping edge."""
-    color = look.TIPS if not support.stands else look.EDGE if support.is_near_edge else look.SUPPORT
+    """Return the support polygon, filled if the body stands, and an arrow from the foot to the
+    tipping edge.
+    """
+    color = look.EDGE if support.is_near_edge else look.SUPPORT
+    if not support.stands:
+        color = look.TIPS
     corners, foot = support.polygon, support.foot
     outline = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     fan = np.stack(

@@ -17,14 +17,19 @@ MARGIN = 40.0  # pixels around the view in which discs are still made
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A projection of the world to the screen: (4, 4) world to view, (4, 4) view to clip space, (2,) size in pixels."""
+    """A projection of the world to the screen.
+
+    view: (4, 4) world to view. projection: (4, 4) view to clip space. size: (2,) pixels.
+    """
 
     view: NDArray[np.float64]
     projection: NDArray[np.float64]
     size: NDArray[np.float64]
 
     def depths(self, points: NDArray) -> NDArray[np.float64]:
-        """Return (n,) distances of (n, 3) points from the eye along the view, negative behind it in perspective."""
+        """Return (n,) distances of (n, 3) points from the eye along the view, negative behind it in
+        perspective.
+        """
         return -(points @ self.view[2, :3] + self.view[2, 3])
 
     def pixels(self, points: NDArray) -> NDArray[np.float64]:
@@ -38,15 +43,19 @@ class View:
         return (clip[:, :2] / scale[:, None] + 1.0) / 2.0 * self.size
 
     def pixel_sizes(self, points: NDArray) -> NDArray[np.float64]:
-        """Return (n, 2) lengths of a pixel at (n, 3) points, along the width and the height; 0 behind the eye."""
+        """Return (n, 2) lengths of a pixel at (n, 3) points, along the width and the height; 0
+        behind the eye.
+        """
         seen = points @ self.view[:3, :3].T + self.view[:3, 3]
         w = seen @ self.projection[3, :3] + self.projection[3, 3]
         return np.maximum(w, 0.0)[:, None] * 2.0 / (self.size * np.diagonal(self.projection)[:2])
 
     def place(self, anchors: NDArray, offsets: NDArray) -> NDArray[np.float64]:
-        """Return (n, k, 3) world points of shapes of constant screen size at (n, 3) anchors, in the offsets' type.
+        """Return (n, k, 3) world points of shapes of constant screen size at (n, 3) anchors, in the
+        offsets' type.
 
-        The (n, k, 2) offsets are pixels right and up; the points lie in the plane through the anchor facing the view.
+        The (n, k, 2) offsets are pixels right and up; the points lie in the plane through the
+        anchor facing the view.
         """
         lengths = self.pixel_sizes(anchors)[:, :, None] * self.view[:2, :3]
         right, up = offsets[..., 0], offsets[..., 1]
@@ -65,10 +74,12 @@ def disc_triangles(
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]] | None:
     """Make the discs at the centers.
 
-    No disc is larger than its body: the largest radius of gyration is at most the distance of the farthest point.
+    No disc is larger than its body: the largest radius of gyration is at most the distance of the
+    farthest point.
 
-    Return (k, 3) points, (2, k, 4) colors, hidden by something in front and visible, and (l, 3) triangles, the nearest
-    bodies last; None if no body is in view. scale: pixels of the screen per pixel of `appearance`.
+    Return (k, 3) points, (2, k, 4) colors, hidden by something in front and visible, and (l, 3)
+    triangles, the nearest bodies last; None if no body is in view. scale: pixels of the screen per
+    pixel of `appearance`.
     """
     sizes = view.pixel_sizes(bodies.centers).max(axis=1)
     reach = np.divide(

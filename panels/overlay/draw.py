@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The overlay's draw handler, which loads its engine and numpy when there is something to draw, and its switches.
+"""The overlay's draw handler, which loads its engine and numpy when there is something to draw, and
+its switches.
 
-The switches are a section of the Overlays popover, and the button in the panel's header. Like Blender's own overlay
-settings they make no undo step, and undo leaves them as they are: they are drawn from a mirror of the scene's settings
-in the window manager, whose changes Blender does not record.
+The switches are a section of the Overlays popover, and the button in the panel's header. Like
+Blender's own overlay settings they make no undo step, and undo leaves them as they are: they are
+drawn from a mirror of the scene's settings in the window manager, whose changes Blender does not
+record.
 """
 
 from __future__ import annotations
@@ -106,7 +108,8 @@ def draw() -> None:
 def drawn_objects(context: Context, show_all: bool) -> list[Object]:
     """Return the objects with numbers to draw in a view: visible and, if not all, selected.
 
-    In Pose Mode an armature represents its meshes. Characters that show their weight are drawn without selection, too.
+    In Pose Mode an armature represents its meshes. Characters that show their weight are drawn
+    without selection, too.
     """
     layer, space = context.view_layer, context.space_data
     chosen = dict.fromkeys(layer.objects if show_all else layer.objects.selected)
@@ -141,7 +144,9 @@ def header_switch(layout: UILayout, context: Context) -> None:
 
 
 def section(self: Panel | Menu, context: Context) -> None:
-    """Draw the overlay's settings, at the end of Blender's Object section of the Overlays popover."""
+    """Draw the overlay's settings, at the end of Blender's Object section of the Overlays
+    popover.
+    """
     settings = context.window_manager.body_moments_overlay
     layout = self.layout
     layout.separator()

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes of constant size on the screen, as triangles in pixels: the disc, with a frame for each verdict.
+"""Shapes of constant size on the screen, as triangles in pixels: the disc, with a frame for each
+verdict.
 
-All have equally many corners and triangles, the smaller ones filled up with empty triangles, so that any mixture of
-them is one array.
+All have equally many corners and triangles, the smaller ones filled up with empty triangles, so
+that any mixture of them is one array.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ Part = tuple[NDArray[np.float64], NDArray[np.int32]]  # (k, 2) corners in pixels
 class Glyphs:
     """Several glyphs of one kind.
 
-    `corners`: (n, k, 2) in pixels. `colors`: (2, n, k, 4) hidden by something in front, and visible.
-    `triangles`: (n, l, 3) corner indices, painted in this order.
+    `corners`: (n, k, 2) in pixels. `colors`: (2, n, k, 4) hidden by something in front, and
+    visible. `triangles`: (n, l, 3) corner indices, painted in this order.
     """
 
     corners: NDArray[np.float32]
@@ -54,7 +55,9 @@ def _fan(points: NDArray) -> Part:
 
 
 def _stroke(path: NDArray, width: float) -> Part:
-    """Return the triangles of a polyline of this width; each segment is longer by half the width at both ends."""
+    """Return the triangles of a polyline of this width; each segment is longer by half the width at
+    both ends.
+    """
     starts = path[:-1]
     ends = path[1:]
     along = ends - starts
@@ -74,7 +77,9 @@ def _stroke(path: NDArray, width: float) -> Part:
 
 
 def _colored(*layers: tuple[Part, NDArray, float]) -> GlyphShape:
-    """Join layers into one glyph; a layer is a part, its color, and its factor of opacity behind other objects."""
+    """Join layers into one glyph; a layer is a part, its color, and its factor of opacity behind
+    other objects.
+    """
     starts = np.cumsum([0, *(len(corners) for (corners, _), _, _ in layers)])
     colors = [np.stack([color * (1.0, 1.0, 1.0, hidden), color]) for _, color, hidden in layers]
     return (

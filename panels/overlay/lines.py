@@ -33,7 +33,9 @@ def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> NDArray[
 
 
 def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
-    """Return (n, 3, 2, 3) segments of the axes through each center, to both sides the largest radius of gyration."""
+    """Return (n, 3, 2, 3) segments of the axes through each center, to both sides the largest
+    radius of gyration.
+    """
     arms = axes.transpose(0, 2, 1) * gyration.max(axis=1)[:, None, None]
     return np.stack([centers[:, None] - arms, centers[:, None] + arms], axis=2)
 
@@ -62,7 +64,9 @@ def _spread(gyration: NDArray) -> NDArray[np.float64]:
 
 
 def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
-    """Return the edges of the box with the same mass and inertia: sides s_i² = 6 (I_j + I_k - I_i) / m."""
+    """Return the edges of the box with the same mass and inertia: sides s_i² = 6 (I_j + I_k - I_i)
+    / m.
+    """
     half = np.sqrt(6.0 * _spread(gyration)) / 2.0
     corners = centers[:, None] + np.einsum("nij,kj,nj->nki", axes, CORNERS, half)
     return corners[:, EDGES]

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Characters in Blender: a skin, an armature and weights, made of those of tests/core/characters.py."""
+"""Characters in Blender: a skin, an armature and weights, made of those of
+tests/core/characters.py.
+"""
 
 import bpy
 import numpy as np

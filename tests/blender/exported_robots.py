@@ -28,7 +28,9 @@ KHR = "KHR_physics_rigid_bodies"
 
 @dataclass
 class ExportedLink:
-    """A link in kg and meters: its inertial, and the corners (n, 3, 3) of its mesh's triangles, none without a mesh."""
+    """A link in kg and meters: its inertial, and the corners (n, 3, 3) of its mesh's triangles,
+    none without a mesh.
+    """
 
     mass: float
     center: np.ndarray
@@ -43,7 +45,9 @@ class ExportedLink:
 
 
 def assert_filled(link, density, rel=1e-5):
-    """The inertial is that of the mesh filled with this density: sums over tetrahedra from the origin."""
+    """The inertial is that of the mesh filled with this density: sums over tetrahedra from the
+    origin.
+    """
     a, b, c = link.corners.astype(np.float64).transpose(1, 0, 2)
     volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
     total, size = density * volumes.sum(), link.sides.max()
@@ -67,7 +71,9 @@ def assert_filled(link, density, rel=1e-5):
 
 
 def exported_links(path):
-    """Return the links of a file by name; of a format that the audit reads, it has to find nothing but notes."""
+    """Return the links of a file by name; of a format that the audit reads, it has to find nothing
+    but notes.
+    """
     data = path.read_bytes()
     if path.suffix in (".gltf", ".glb"):
         return _gltf_links(data)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A human figure, 1.75 m tall: one skin with automatic weights, and an armature whose feet inverse kinematics hold."""
+"""A human figure, 1.75 m tall: one skin with automatic weights, and an armature whose feet inverse
+kinematics hold.
+"""
 
 import bpy
 import numpy as np

@@ -17,7 +17,9 @@ def said(result):
 
 @contextmanager
 def refused(code, subject=None, **values):
-    """What is done here is refused with this code, about this object, with these values among others."""
+    """What is done here is refused with this code, about this object, with these values among
+    others.
+    """
     with pytest.raises(MeasureError) as caught:
         yield
     found = caught.value.finding

@@ -84,7 +84,9 @@ def measured(obj):
 
 
 def arrays(numbers):
-    """Displayed or stored numbers of a body as arrays: center, tensor, principal moments, axes as columns."""
+    """Displayed or stored numbers of a body as arrays: center, tensor, principal moments, axes as
+    columns.
+    """
     from body_moments.core.inertia.plain_body import tensor_rows
 
     return SimpleNamespace(

@@ -43,8 +43,9 @@ def read(folder, content, name="robot.xml"):
 
 
 def check(link, truth):
-    """truth: mass, center, tensor along the link's axes, or None; and shapes as (kind, size, position, rotation, role,
-    file)."""
+    """truth: mass, center, tensor along the link's axes, or None; and shapes as (kind, size,
+    position, rotation, role, file).
+    """
     assert not link.findings
     inertial, shapes = truth
     if inertial is None:

@@ -17,7 +17,9 @@ def surface(
     resolution=(3, 3),
     name="Surface",
 ):
-    """A surface object in the scene, active. points: (count_v, count_u, 3); the pairs are for u and v."""
+    """A surface object in the scene, active. points: (count_v, count_u, 3); the pairs are for u and
+    v.
+    """
     points = np.asarray(points, np.float32)
     rows, columns = points.shape[:2]
     data = bpy.data.curves.new(name, "SURFACE")

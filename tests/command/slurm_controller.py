@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Slurm of one node: controller, worker and authentication as processes of this test, in a folder of its own."""
+"""A Slurm of one node: controller, worker and authentication as processes of this test, in a folder
+of its own.
+"""
 
 import getpass
 import os
@@ -50,7 +52,8 @@ class NotStarted(Exception):
 
 @contextmanager
 def slurm(folder: Path) -> Iterator[dict[str, str]]:
-    """A controller that takes jobs within the block, and the environment in which the commands find it.
+    """A controller that takes jobs within the block, and the environment in which the commands find
+    it.
 
     folder: new, short enough for a socket's name. Raises NotStarted.
     """

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays and scans on the command line: the options of the contract, and records as objects have them."""
+"""Arrays and scans on the command line: the options of the contract, and records as objects have
+them.
+"""
 
 import gzip
 import json

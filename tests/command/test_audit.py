@@ -18,7 +18,8 @@ from body_moments.operators import batch
 
 SARIF_SCHEMA = Path(__file__).with_name("sarif-2.1.0.json.gz")
 BOX = (
-    '<link name="{}"><inertial><mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}" ixy="0" ixz="0" iyz="0"/>'
+    '<link name="{}"><inertial><mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}" ixy="0" '
+    'ixz="0" iyz="0"/>'
     '</inertial><collision><geometry><box size="2 2 2"/></geometry></collision></link>'
 )
 RIGHT = BOX.format("right", 8000, *["5333.3333"] * 3)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Assemblies and bones on the command line: in the document where a file has them, and stored with --write."""
+"""Assemblies and bones on the command line: in the document where a file has them, and stored with
+--write.
+"""
 
 import csv
 import io
@@ -105,7 +107,9 @@ def test_asset_assemblies_are_measured_once_for_metadata(tmp_path):
 
 
 def test_asset_metadata_is_in_the_asset_frame(tmp_path):
-    """And the file itself is saved where that is asked for, and where there is something to save."""
+    """And the file itself is saved where that is asked for, and where there is something to
+    save.
+    """
     box = files.add_box("Box", center=(0, 0, 0))
     box.location, box.rotation_euler = (1.0, 2.0, 3.0), (0.3, 0.2, 0.1)
     box.data.transform(mathutils.Matrix.Translation((0.5, 0.25, 0.125)))

@@ -36,7 +36,9 @@ def of_moments(entry, domain, key, name=None):
 
 
 def numbers_of_body(entry):
-    """Yield the path and name of each number, the bound of one record, and the size that a tolerance refers to."""
+    """Yield the path and name of each number, the bound of one record, and the size that a
+    tolerance refers to.
+    """
     share = bounds_of(entry, "volume") / entry["volume"]
     for name in ("volume", "area"):
         yield (name,), name, bounds_of(entry, name), entry[name]

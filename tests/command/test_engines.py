@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Engines of others that measure ranges of a list: the files in docs/engines, run by what they are written for."""
+"""Engines of others that measure ranges of a list: the files in docs/engines, run by what they are
+written for.
+"""
 
 import json
 import os
@@ -28,7 +30,9 @@ COUNT, PARTS = 7, 3
 
 @pytest.fixture
 def job(tmp_path):
-    """A list of seven files, of which one kills Blender, and a folder for results, with spaces in all names."""
+    """A list of seven files, of which one kills Blender, and a folder for results, with spaces in
+    all names.
+    """
     tmp_path = tmp_path / "a job"
     tmp_path.mkdir()
     folder = tmp_path / "files to measure"
@@ -207,7 +211,10 @@ class Task {
   addDependency(task) { this.needs.push(task.name); }
 }
 const sandbox = {
-  author: { Task: (name, kind) => new Task(name, kind), Command: (name, values) => ({name, ...values}) },
+  author: {
+    Task: (name, kind) => new Task(name, kind),
+    Command: (name, values) => ({name, ...values}),
+  },
   path: { join: paths.posix.join }, shellSplit: text => text.split(/ +/).filter(Boolean),
 };
 vm.createContext(sandbox);

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files opened by the command line: every format, its unit and axes, and broken files of all kinds."""
+"""Files opened by the command line: every format, its unit and axes, and broken files of all
+kinds.
+"""
 
 import gzip
 import json
@@ -303,7 +305,8 @@ def test_missing_library_is_an_error_beside_other_records(tmp_path):
 @needs_usd
 def test_missing_usd_reference_is_an_error_beside_records(tmp_path, capfd):
     text = files.usda_text(1.0) + '\ndef Xform "A" (prepend references = @./gone.usdc@</X>) {}\n'
-    text += 'def Xform "B" (payload = @./away.usd@) {}\ndef "C" (references = @./there.usda@</Nope>) {}\n'
+    text += 'def Xform "B" (payload = @./away.usd@) {}\n'
+    text += 'def "C" (references = @./there.usda@</Nope>) {}\n'
     text = text.replace("(\n", "(\n    subLayers = [@./layer.usda@]\n", 1)
     files.write_text(tmp_path / "there.usda", files.usda_text(1.0))
     found = document(files.write_text(tmp_path / "t.usda", text))

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Coordinates in files that are no finite numbers: Blender's importers put others there, and say nothing."""
+"""Coordinates in files that are no finite numbers: Blender's importers put others there, and say
+nothing.
+"""
 
 import base64
 import json
@@ -14,7 +16,7 @@ pytest.importorskip("bpy")
 import numpy as np
 from body_moments.command.files import finite
 from body_moments.command.files.importers import import_mesh
-from body_moments.core.streams.text_fields import NUMBER
+from body_moments.core.files.text_fields import NUMBER
 from body_moments.core.verdict.finding import FileError, finding
 
 from tests.blender import batch_files as files
@@ -89,7 +91,9 @@ AXES = [f"property float {axis}" for axis in "xyz"]
 
 
 def texts(word):
-    """A tetrahedron whose third corner has that word as its x, and the line of the word, by the name of a file."""
+    """A tetrahedron whose third corner has that word as its x, and the line of the word, by the
+    name of a file.
+    """
     corners = [list(map(str, corner)) for corner in files.CORNERS]
     corners[2][0] = word
     stl = files.stl_text(corners).replace("facet normal 0 0 0", "facet normal nan nan nan")

@@ -140,7 +140,9 @@ def test_a_body_has_no_flat_transform(tmp_path):
 
 
 def test_faces_that_cover_nothing_have_no_transform(tmp_path, reported):
-    """Two slivers that face each other: they are no larger than what rounding leaves, and no side of them is told."""
+    """Two slivers that face each other: they are no larger than what rounding leaves, and no side
+    of them is told.
+    """
     sheet([(1, 0), (2, 0), (1.5, 1e-7)], faces=[(0, 1, 2), (2, 1, 0)])
     path = tmp_path / "out.npz"
     with pytest.raises(RuntimeError):

@@ -141,7 +141,9 @@ WRONG_VALUES = (
 
 
 def test_no_damaged_document_ends_in_a_traceback(main, tmp_path, whole):
-    """Values of other types, removed and added entries, cut text: one command each, which names file and line."""
+    """Values of other types, removed and added entries, cut text: one command each, which names
+    file and line.
+    """
     chance, good, path = random.Random(7), tmp_path / "good", tmp_path / "bad"
     good.write_text(whole)
     commands = [("merge", path), ("to-csv", path), ("summary", path), ("report", path)]
@@ -301,7 +303,9 @@ def test_assemblies_bones_and_missing_moments_are_compared(main, tmp_path):
 
 
 def test_a_point_that_moved_by_as_much_as_a_center_is_uncertain(main, tmp_path):
-    """The bound of a tensor about a point holds what the center's bound makes of it: from both sides."""
+    """The bound of a tensor about a point holds what the center's bound makes of it: from both
+    sides.
+    """
     files.add_box("Box", (1000.0, 0.0, 0.0))
     first = document("--about", "world", "--density", "1")
     entry = json.loads(json.dumps(first["objects"][0]))
@@ -356,11 +360,14 @@ const names=()=>rows().map(row=>row.cells[2].textContent);
 const told=[document.title,rows().length];
 document.querySelectorAll("th button")[5].click();told.push(names());
 document.querySelectorAll("th button")[5].click();told.push(names());
-const text=document.getElementById("text");text.value="sphere";text.dispatchEvent(new Event("input"));
+const text=document.getElementById("text");
+text.value="sphere";text.dispatchEvent(new Event("input"));
 told.push(names());text.value="";text.dispatchEvent(new Event("input"));
-const status=document.getElementById("status");status.value="timeout";status.dispatchEvent(new Event("change"));
+const status=document.getElementById("status");
+status.value="timeout";status.dispatchEvent(new Event("change"));
 told.push(rows().length);told.push([...document.images].every(image=>image.naturalWidth>0));
-document.body.innerHTML="<pre></pre>";document.querySelector("pre").textContent=JSON.stringify(told);
+document.body.innerHTML="<pre></pre>
+";document.querySelector("pre").textContent=JSON.stringify(told);
 }
 </script>
 """
@@ -368,7 +375,9 @@ document.body.innerHTML="<pre></pre>";document.querySelector("pre").textContent=
 
 @pytest.mark.skipif(not CHROMIUM, reason="needs chromium")
 def test_the_report_sorts_and_filters_in_a_browser(tmp_path):
-    """The page's own policy lets no other script run, so the one that drives it is let in by taking the policy away."""
+    """The page's own policy lets no other script run, so the one that drives it is let in by taking
+    the policy away.
+    """
     path = page(tmp_path)
     words = [
         CHROMIUM,

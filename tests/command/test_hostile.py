@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hostile files, names and places: the exit code is the contract's, nobody sees a traceback, nothing is obeyed."""
+"""Hostile files, names and places: the exit code is the contract's, nobody sees a traceback,
+nothing is obeyed.
+"""
 
 import csv
 import io

@@ -23,7 +23,10 @@ STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) if os.name != "nt" els
 
 @pytest.fixture(autouse=True)
 def handlers():
-    """Restore the handlers after a test. Ctrl+C has its handler even in the background of a shell."""
+    """Restore the handlers after a test.
+
+    Ctrl+C has its handler even in the background of a shell.
+    """
     before = {number: signal.getsignal(number) for number in STOPPING}
     signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
@@ -75,7 +78,10 @@ def test_unwritable_result_fails_every_command(tmp_path, capsys):
     """Each gives 0 where there is room; a fault of the program is one all the same."""
     add_box("Other"), add_box("Box")
     result = tmp_path / "a.jsonl"
-    link = '<link name="a"><visual><geometry><box size="2 2 2"/></geometry></visual><inertial><mass value="8000"/>'
+    link = (
+        '<link name="a"><visual><geometry><box size="2 2 2"/></geometry></visual><inertial><mass '
+        'value="8000"/>'
+    )
     link += '<inertia ixx="5333.3333" iyy="5333.3333" izz="5333.3333"/></inertial></link>'
     (tmp_path / "a.urdf").write_text("<robot>{}</robot>".format(link))
     (tmp_path / "list").write_text("")

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files replaced by --output and --fourier: older results, other files with --force, never an input."""
+"""Files replaced by --output and --fourier: older results, other files with --force, never an
+input.
+"""
 
 import json
 import os

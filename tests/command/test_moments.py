@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of high order from the command line: instances, repaired surfaces, unions, shells and frames, against the
-closed form of the box."""
+"""Moments of high order from the command line: instances, repaired surfaces, unions, shells and
+frames, against the closed form of the box.
+"""
 
 import itertools
 import math

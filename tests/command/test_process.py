@@ -107,7 +107,10 @@ def test_the_script_leaves_no_folder_behind(folder, tmp_path):
 
 
 def test_a_program_that_has_imported_bpy_may_run_the_script(folder):
-    code = "import bpy, runpy, sys; sys.argv = sys.argv[1:]; runpy.run_path(sys.argv[0], run_name='__main__')"
+    code = (
+        "import bpy, runpy, sys; sys.argv = sys.argv[1:]; runpy.run_path(sys.argv[0], "
+        "run_name='__main__')"
+    )
     ended = process(
         sys.executable, "-c", code, SCRIPT, "measure", "--no-supervisor", "part.stl", cwd=folder
     )

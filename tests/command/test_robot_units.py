@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Robots in kilograms and meters, whatever the unit of the file or of the scene: masses, inertias, joints, meshes."""
+"""Robots in kilograms and meters, whatever the unit of the file or of the scene: masses, inertias,
+joints, meshes.
+"""
 
 import itertools
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--format urdf, sdf, mjcf, usd and gltf: the scene's objects as links, with the numbers of their records."""
+"""--format urdf, sdf, mjcf, usd and gltf: the scene's objects as links, with the numbers of their
+records.
+"""
 
 import json
 import os
@@ -34,7 +36,9 @@ Y_UP = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]])
 
 
 def arm(unit=1.0):
-    """A scene: an upper arm, under an empty; a forearm that is its child, scaled and mirrored; a tool apart."""
+    """A scene: an upper arm, under an empty; a forearm that is its child, scaled and mirrored; a
+    tool apart.
+    """
     bpy.context.scene.unit_settings.scale_length = unit
     frame = add(None, "Frame", (1, 0, 0), (0, 0, 0.5))
     upper = add(mesh_body("Upper"), "Upper", (5, 3, -2), (0.3, 0.4, 0.5))

@@ -95,7 +95,9 @@ def test_written_results_are_current_after_opening(tmp_path):
 
 @pytest.mark.parametrize("by_link", [False, True])
 def test_relative_paths_stay_as_they_are(tmp_path, by_link):
-    """Also where the file is opened by way of a link in another folder; and it stays the one that is open."""
+    """Also where the file is opened by way of a link in another folder; and it stays the one that
+    is open.
+    """
     path, opened = tmp_path / "part.blend", tmp_path / "links" / "linked.blend"
     files.add_box()
     image = bpy.data.images.new("Picture", 1, 1)

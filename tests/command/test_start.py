@@ -20,7 +20,10 @@ sys.modules.update(dict.fromkeys(sys.argv.pop(1).split(","), None))
 del sys.argv[0]
 runpy.run_path(sys.argv[0], run_name="__main__")
 """
-ROBOT = '<robot name="r"><link name="a"><visual><geometry><box size="2 2 2"/></geometry></visual></link></robot>'
+ROBOT = (
+    '<robot name="r"><link name="a"><visual><geometry><box size="2 2 '
+    '2"/></geometry></visual></link></robot>'
+)
 PLAIN, NUMERIC = "bpy,mathutils,numpy", "bpy,mathutils"
 
 

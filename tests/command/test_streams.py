@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes in blocks on the command line: the numbers of an import, and what is said of what was not looked for."""
+"""Meshes in blocks on the command line: the numbers of an import, and what is said of what was not
+looked for.
+"""
 
 import json
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs over many files in child processes: each file has one record, whatever it or a signal does to a child."""
+"""Runs over many files in child processes: each file has one record, whatever it or a signal does
+to a child.
+"""
 
 import json
 import os

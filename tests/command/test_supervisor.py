@@ -61,7 +61,8 @@ for line in sys.stdin:
     os.ftruncate(2, 0)
     status = "error" if kind == "bad" else "ok"
     empty = {"blender": "9.8.7", "frame": "world", "objects": [], "left_out": [], "errors": []}
-    document = json.dumps({"schema": "body-moments/1", "file": path, "status": status, **empty}).encode() + b"\n"
+    head = {"schema": "body-moments/1", "file": path, "status": status}
+    document = json.dumps({**head, **empty}).encode() + b"\n"
     if kind == "once" and not os.path.exists(path):
         open(path, "w").close()
         os.abort()
@@ -95,7 +96,9 @@ for line in sys.stdin:
         answer({"note": "half of it"})
     say("body_moments: {}: read\nchatter\n".format(path))
     head = {"faults": int(kind == "fault"), "state": {"size": 5, "mtime_ns": 7}}
-    answer(dict(head, reads={path + ".samples": {"size": 1, "mtime_ns": 2}}) if kind == "refers" else head, document)
+    if kind == "refers":
+        head = dict(head, reads={path + ".samples": {"size": 1, "mtime_ns": 2}})
+    answer(head, document)
 """
 
 
@@ -116,7 +119,9 @@ def fake(tmp_path, monkeypatch):
 
 @pytest.fixture
 def main(tmp_path, fake, capsys):
-    """`measure` with these words: exit code, documents by file, lines on the standard error, lines of the journal."""
+    """`measure` with these words: exit code, documents by file, lines on the standard error, lines
+    of the journal.
+    """
     (tmp_path / "out").mkdir()
 
     def run(*words, reads=True):
@@ -220,7 +225,10 @@ def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
 def test_child_over_its_time_or_memory_is_ended(
     name, status, words, reason, tmp_path, main, monkeypatch
 ):
-    """One at a time: what takes too much may take long, too, where memory is slow. What is late may clean up first."""
+    """One at a time: what takes too much may take long, too, where memory is slow.
+
+    What is late may clean up first.
+    """
     monkeypatch.setattr(processes, "_GRACE", 10.0)  # A busy machine may need as much.
     code, documents, said, journal = main(tmp_path / name, tmp_path / "ok", *words, "--jobs", "1")
     assert code == 1 and [one["status"] for one in documents] == [status, "ok"]
@@ -256,7 +264,8 @@ def test_recorded_file_is_not_measured_again(tmp_path, main, fake):
     assert again == documents and said[-1] == totals.format("2 files")
     assert (
         said[0]
-        == "body_moments: 3 of 5 files reused; to measure: 1 changed, 1 whose references have changed"
+        == "body_moments: 3 of 5 files reused; to measure: 1 changed, 1 whose references have "
+        "changed"
     )
     assert {one["path"] for one in fake("verb")[asked:]} == {str(paths[0]), str(paths[2])}
     assert len(journal) == 7
@@ -351,9 +360,8 @@ def test_a_line_behind_a_torn_one_is_whole(tmp_path):
 
 def test_run_ends_with_the_window_that_started_it():
     """A window that is killed, and no window."""
-    code = "import runpy; runpy.run_path({!r})['end_with_window'](); print(end='.', flush=True); {{}}".format(
-        lifeline.__file__
-    )
+    code = "import runpy; runpy.run_path({!r})['end_with_window'](); ".format(lifeline.__file__)
+    code += "print(end='.', flush=True); {}"
     run = [sys.executable, "-c", code.format("import time; time.sleep(600)")]
     window = "import subprocess, time; subprocess.Popen({!r}); time.sleep(600)".format(run)
     environment = {**os.environ, lifeline.WINDOW: "1"}

@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("bpy")
 
-from body_moments.core.scans.scan_files import Limits
+from body_moments.core.files.limits import Limits
 from body_moments.core.streams import threemf
 from body_moments.core.verdict.finding import FileError
 
@@ -22,7 +22,8 @@ CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 PRODUCTION = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
 RELATIONS = (
     '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
-    '<Relationship Id="r" Target="{}" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
+    '<Relationship Id="r" Target="{}" '
+    'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
 )
 MOVED = "1 0 0 0 1 0 0 0 1 10 20 30"
 TURNED = "0 2 0 -2 0 0 0 0 2 0 0 0"  # x to y, twice as large
@@ -35,7 +36,10 @@ def mesh(corners=CORNERS, faces=FACES):
 
 
 def model(resources, build, attributes="", head=""):
-    text = '<?xml version="1.0"?>{}<model xmlns="{}" xmlns:p="{}" {}><resources>{}</resources><build>{}</build></model>'
+    text = (
+        '<?xml version="1.0"?>{}<model xmlns="{}" xmlns:p="{}" '
+        "{}><resources>{}</resources><build>{}</build></model>"
+    )
     return text.format(head, CORE, PRODUCTION, attributes, resources, build)
 
 
@@ -66,7 +70,10 @@ def test_a_mesh_has_its_files_unit(tmp_path, unit):
 
 
 def test_components_and_the_build_place_meshes(tmp_path):
-    pair = '<object id="2"><components><component objectid="1"/><component objectid="1" transform="{}"/></components>'
+    pair = (
+        '<object id="2"><components><component objectid="1"/><component objectid="1" '
+        'transform="{}"/></components>'
+    )
     text = model(
         ONE + pair.format(TURNED) + "</object>",
         '<item objectid="2" transform="{}"/>'.format(MOVED),
@@ -125,7 +132,8 @@ WRONG = {
     "beams": model(
         ONE,
         ITEM,
-        'xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02" requiredextensions="b"',
+        'xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02" '
+        'requiredextensions="b"',
     ),
 }
 
@@ -147,9 +155,8 @@ def test_a_wrong_file_is_an_error_with_a_reason(tmp_path, name):
     [("vertex", 'x="1"'), ("triangle", 'v2="1"'), ("item", MOVED), ("component", MOVED)],
 )
 def test_word_for_a_number_is_named_with_its_element(tmp_path, element, field, word):
-    parts = '<object id="2"><components><component objectid="1" transform="{}"/></components></object>'.format(
-        MOVED
-    )
+    parts = '<object id="2"><components><component objectid="1" '
+    parts += 'transform="{}"/></components></object>'.format(MOVED)
     text = model(ONE + "\n" + parts, '\n<item objectid="2" transform="{}"/>'.format(MOVED))
     at = text.index(field, text.index("<" + element + " ") if element != "vertex" else 0)
     wrong = (
@@ -214,7 +221,10 @@ def test_limits_of_the_archive(tmp_path):
 
 
 def test_package_without_relations_has_its_model_in_place(tmp_path):
-    foreign = '<x:object xmlns:x="http://example.org/x" id="1"/><x:vertex xmlns:x="http://example.org/x" x="a"/>'
+    foreign = (
+        '<x:object xmlns:x="http://example.org/x" id="1"/><x:vertex xmlns:x="http://example.org/x" '
+        'x="a"/>'
+    )
     with zipfile.ZipFile(tmp_path / "a.3mf", "w") as archive:
         archive.writestr("3D/3dmodel.model", model(ONE + foreign, ITEM, 'unit="meter"'))
     assert close(measured(tmp_path / "a.3mf")["volume"], 1.0, 1e-12)

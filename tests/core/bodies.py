@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small bodies as (points, triangles), outward unless the name says otherwise, with their known measures."""
+"""Small bodies as (points, triangles), outward unless the name says otherwise, with their known
+measures.
+"""
 
 import math
 
@@ -91,7 +93,9 @@ def sphere(level=3):
 
 
 def ring(nu, nv, twist=False, major=1.0, minor=0.35):
-    """A closed strip of nu x nv quads as (points, quads): a torus; with `twist`, a Klein bottle (the figure-8 one)."""
+    """A closed strip of nu x nv quads as (points, quads): a torus; with `twist`, a Klein bottle
+    (the figure-8 one).
+    """
     u, v = np.meshgrid(
         np.arange(nu) * 2 * np.pi / nu, np.arange(nv) * 2 * np.pi / nv, indexing="ij"
     )
@@ -146,7 +150,9 @@ def surface(part, dtype=np.float64, **more):
 
 
 def mesh(points, faces, dtype=np.float64):
-    """A surface as a reader makes it from polygons: quads, fans for larger ones, the mesh's corners and their edges."""
+    """A surface as a reader makes it from polygons: quads, fans for larger ones, the mesh's corners
+    and their edges.
+    """
     edges, corner_edges = {}, []
     for face in faces:
         for a, b in zip(face, [*face[1:], face[0]]):

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Characters to cut into bones: closed skins with weights, made of cells of a grid and bent: nothing is flat."""
+"""Characters to cut into bones: closed skins with weights, made of cells of a grid and bent:
+nothing is flat.
+"""
 
 from dataclasses import dataclass
 
@@ -29,7 +31,9 @@ class Character:
 
     @property
     def triangles(self):
-        """Quads cut alike on both sides of x = 0: from the corner that comes first by (|x|, y, z)."""
+        """Quads cut alike on both sides of x = 0: from the corner that comes first by (|x|, y,
+        z).
+        """
         x, y, z = np.round(self.points[self.quads], 9).transpose(2, 0, 1)
         first = np.array([np.lexsort((c, b, a))[0] for a, b, c in zip(np.abs(x), y, z)])
         turned = np.take_along_axis(self.quads, (first[:, None] + np.arange(4)) % 4, axis=1)
@@ -53,7 +57,9 @@ class Character:
 
 
 def boxes_skin(boxes, cells=1):
-    """(points, quads) of the surface of a union of integer boxes ((low), (high)), that share no space."""
+    """(points, quads) of the surface of a union of integer boxes ((low), (high)), that share no
+    space.
+    """
     filled = {
         (x, y, z)
         for low, high in boxes
@@ -72,7 +78,9 @@ def boxes_skin(boxes, cells=1):
 
 
 def rigid_weights(points, quads, boxes):
-    """Weights that give each face the box it is a side of: a face's corners that lie on several boxes share."""
+    """Weights that give each face the box it is a side of: a face's corners that lie on several
+    boxes share.
+    """
     vertex, bone, weight = [], [], []
     for number, (low, high) in enumerate(boxes):
         inside = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))

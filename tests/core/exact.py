@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moments of polyhedra in rational arithmetic, and closed forms: truths without a tolerance.
 
-Floats are dyadic fractions, so the moments of a mesh of floats are rational numbers; they are found here with integers
-of any length. The formula is that of Sheynin and Tuzikov by its generating function 1 / ((1-a·t)(1-b·t)(1-c·t)), not
-the quadrature that the add-on uses.
+Floats are dyadic fractions, so the moments of a mesh of floats are rational numbers; they are found
+here with integers of any length. The formula is that of Sheynin and Tuzikov by its generating
+function 1 / ((1-a·t)(1-b·t)(1-c·t)), not the quadrature that the add-on uses.
 """
 
 from __future__ import annotations
@@ -26,11 +26,14 @@ MONOMIALS = monomials(3)
 def volume_moments(
     points, triangles, about=(0.0, 0.0, 0.0), order: int = 3, absolute: bool = False
 ) -> list[Fraction]:
-    """The moments ∫ x^p y^q z^r dV to an order about a point, of the cones from that point over the triangles.
+    """The moments ∫ x^p y^q z^r dV to an order about a point, of the cones from that point over the
+    triangles.
 
-    absolute: ∫ |x^p y^q z^r| |dV| instead, where no triangle crosses a coordinate plane (else more than that).
+    absolute: ∫ |x^p y^q z^r| |dV| instead, where no triangle crosses a coordinate plane (else more
+    than that).
 
-    points: n rows of 3 numbers, taken exactly. triangles: rows of 3 indices, outward faces counter-clockwise.
+    points: n rows of 3 numbers, taken exactly. triangles: rows of 3 indices, outward faces
+    counter-clockwise.
     """
     integers, scale = _integers(points, about)
     table = monomials(order)
@@ -117,7 +120,9 @@ def box_moments(low, high, order: int = 3) -> list[Fraction]:
 
 
 def corner_tetrahedron_moments(a, b, c, order: int = 3) -> list[Fraction]:
-    """The volume moments of the tetrahedron (0,0,0), (a,0,0), (0,b,0), (0,0,c): Dirichlet's integral."""
+    """The volume moments of the tetrahedron (0,0,0), (a,0,0), (0,b,0), (0,0,c): Dirichlet's
+    integral.
+    """
     a, b, c = Fraction(a), Fraction(b), Fraction(c)
     return [
         Fraction(factorial(p) * factorial(q) * factorial(r), factorial(p + q + r + 3))
@@ -146,7 +151,8 @@ def fan(polygons) -> list[tuple[int, int, int]]:
 def prism(
     outline, low, high, caps
 ) -> tuple[list[tuple[float, float, float]], list[tuple[int, ...]]]:
-    """A straight prism: the corners and the faces, polygons, of a counter-clockwise outline of (x, y).
+    """A straight prism: the corners and the faces, polygons, of a counter-clockwise outline of (x,
+    y).
 
     caps: the outline cut into convex polygons of its indices.
     """

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of polynomial B-spline patches in rational arithmetic, and patches whose bodies have closed forms.
+"""Moments of polynomial B-spline patches in rational arithmetic, and patches whose bodies have
+closed forms.
 
-The basis is built as polynomials by the recursion of Cox and de Boor, span by span, and the z-flux is integrated term
-by term: neither Gauss's rule nor the radial flux that the add-on uses.
+The basis is built as polynomials by the recursion of Cox and de Boor, span by span, and the z-flux
+is integrated term by term: neither Gauss's rule nor the radial flux that the add-on uses.
 """
 
 from __future__ import annotations
@@ -19,7 +20,9 @@ HALF = np.sqrt(0.5)
 
 
 def span_polynomials(space: SplineSpace, j: int) -> list[list[Fraction]]:
-    """The coefficients, lowest first, in the parameter itself, of the functions that act in span j."""
+    """The coefficients, lowest first, in the parameter itself, of the functions that act in
+    span j.
+    """
     knots = [Fraction(knot) for knot in space.knots]
     rows = {j: [Fraction(1)]}
     for order in range(2, space.order + 1):
@@ -109,7 +112,9 @@ def _integral(a: np.ndarray, s, t) -> Fraction:
 
 
 def circle() -> tuple[np.ndarray, np.ndarray]:
-    """(8, 2) and (8,): the unit circle as four quarters of order 3, for cyclic, Bézier and endpoint flags."""
+    """(8, 2) and (8,): the unit circle as four quarters of order 3, for cyclic, Bézier and endpoint
+    flags.
+    """
     corners = np.array(
         [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)], float
     )

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fourier transforms in 120 digits by mpmath: divided differences by their plain recursion, so that no case is special
-but phases that are equal to the last digit."""
+"""Fourier transforms in 120 digits by mpmath: divided differences by their plain recursion, so that
+no case is special but phases that are equal to the last digit.
+"""
 
 from __future__ import annotations
 

@@ -11,7 +11,9 @@ from body_moments.core.nurbs.splines import Patch
 
 
 class IgesFile:
-    """Entities are added one after the other; `add` returns the number by which others point to one."""
+    """Entities are added one after the other; `add` returns the number by which others point to
+    one.
+    """
 
     def __init__(self, unit: int | None = 6, unit_name: str = "M", scale: float = 1.0) -> None:
         self._unit, self._unit_name, self._scale = unit, unit_name, scale
@@ -149,7 +151,9 @@ def obj_text(patches, kind: str = "bspline", name: str | None = None) -> str:
 
 
 def unrolled(patch: Patch) -> Patch:
-    """The same surface without cyclic directions: control points repeated, for files that have no such flag."""
+    """The same surface without cyclic directions: control points repeated, for files that have no
+    such flag.
+    """
     points, weights, spaces = patch.points, patch.weights, []
     for axis, space in enumerate(patch.spaces):
         rows = np.arange(space.function_count) % space.count

@@ -35,8 +35,9 @@ def stl_text(part, name="part") -> bytes:
 
 
 def ply(points, faces, order="<", kind="f4", extra=False) -> bytes:
-    """order: "<", ">" or "" for text. faces: lists of vertices. extra: with properties and elements that say nothing of
-    the shape."""
+    """order: "<", ">" or "" for text. faces: lists of vertices. extra: with properties and elements
+    that say nothing of the shape.
+    """
     name = {"<": "binary_little_endian", ">": "binary_big_endian", "": "ascii"}[order]
     number = {"f4": "float", "f8": "double"}[kind]
     head = ["ply", "format {} 1.0".format(name), "comment a test"]

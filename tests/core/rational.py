@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Integrals of polynomials over simplices in rational arithmetic, by substitution and nothing else.
 
-A monomial is pulled back to the unit simplex as a polynomial in its barycentric coordinates, by multiplying linear
-forms out, and integrated by Dirichlet's ∫ t^k dt = k! / (|k| + d)!. No formula of the add-on's is used.
+A monomial is pulled back to the unit simplex as a polynomial in its barycentric coordinates, by
+multiplying linear forms out, and integrated by Dirichlet's ∫ t^k dt = k! / (|k| + d)!. No formula
+of the add-on's is used.
 """
 
 from collections import defaultdict

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volume moments of any order of a mesh, plainly: Sheynin and Tuzikov by the recursion of its generating function
-1 / ((1-a·t)(1-b·t)(1-c·t)), all triangles at once, about a point, by default the mean of the points."""
+"""Volume moments of any order of a mesh, plainly: Sheynin and Tuzikov by the recursion of its
+generating function 1 / ((1-a·t)(1-b·t)(1-c·t)), all triangles at once, about a point, by default
+the mean of the points.
+"""
 
 from math import factorial
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies of every kind of symmetry with their Schoenflies symbols, cut into triangles in several ways."""
+"""Bodies of every kind of symmetry with their Schoenflies symbols, cut into triangles in several
+ways.
+"""
 
 from itertools import combinations
 
@@ -43,8 +45,9 @@ def hull(points):
 
 
 def refined(part, seed=None):
-    """The same body with each triangle cut in three at an inner point, at random where a seed is given, and in
-    another order."""
+    """The same body with each triangle cut in three at an inner point, at random where a seed is
+    given, and in another order.
+    """
     points, triangles = part
     share = np.full((len(triangles), 3), 1 / 3)
     if seed is not None:
@@ -103,7 +106,8 @@ THREE_BOXES = bodies.joined(
     bodies.box((0, 1, 0), (1, 3, 1)),
     bodies.box((0, 0, 1), (1, 1, 2.5)),
 )
-# An S: two arms reach out to opposite sides. Half a turn about the stroke's normal, and no other, leaves it as it is.
+# An S: two arms reach out to opposite sides. Half a turn about the stroke's normal, and no other,
+# leaves it as it is.
 S_PRISM = bodies.joined(
     bodies.box((0, 0, 0), (1, 6, 1)),
     bodies.box((1, 5, 0), (3, 6, 1)),

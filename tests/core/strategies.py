@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random inputs of properties: the essential parts are drawn and shown on failure, the rest comes from a seed."""
+"""Random inputs of properties: the essential parts are drawn and shown on failure, the rest comes
+from a seed.
+"""
 
 import numpy as np
 from hypothesis import HealthCheck, settings
@@ -19,7 +21,9 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def holds(examples):
-    """So many examples, the same at every run, however long they take; fixtures choose the way, not the example."""
+    """So many examples, the same at every run, however long they take; fixtures choose the way, not
+    the example.
+    """
     return settings(
         max_examples=examples,
         deadline=None,

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arguments of the core's public functions: lists are as good as arrays, and all others are refused by name."""
+"""Arguments of the core's public functions: lists are as good as arrays, and all others are refused
+by name.
+"""
 
 import dataclasses
 import re

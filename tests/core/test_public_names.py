@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The public names of core/: each documented in numpydoc's form, with an example that runs; README's example runs."""
+"""The public names of core/: each documented in numpydoc's form, with an example that runs;
+README's example runs.
+"""
 
 import doctest
 import importlib
@@ -115,10 +117,13 @@ def test_the_example_of_a_public_name_runs(name):
 
 
 def run_with_package(code, *arguments):
-    """Run code in a new process where this folder is the package, without anything else of it imported."""
+    """Run code in a new process where this folder is the package, without anything else of it
+    imported.
+    """
     load = (
         "import importlib, importlib.util, sys\n"
-        "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + '/__init__.py', "
+        "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + "
+        "'/__init__.py', "
         "submodule_search_locations=[sys.argv[1]])\n"
         "sys.modules['body_moments'] = module = importlib.util.module_from_spec(spec)\n"
         "spec.loader.exec_module(module)\n"

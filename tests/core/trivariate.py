@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Trivariate splines in exact rational arithmetic, piece by piece and without any formula of the add-on's."""
+"""Trivariate splines in exact rational arithmetic, piece by piece and without any formula of the
+add-on's.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ from body_moments.core.moments.moments import monomials
 
 
 def pieces(knots: list[Fraction], i: int, k: int) -> dict[int, list[Fraction]]:
-    """B_{i,k} as polynomials: span -> coefficients in ascending powers of t, by the recursion on polynomials."""
+    """B_{i,k} as polynomials: span -> coefficients in ascending powers of t, by the recursion on
+    polynomials.
+    """
     if k == 1:
         return {i: [Fraction(1)]} if knots[i] < knots[i + 1] else {}
     total: dict[int, list[Fraction]] = {}

@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The numbers of the corpus, before and after a change.
 
-    python tests/corpus/compare.py --write OUT.json     measure the corpus and keep all numbers (.json)
-    python tests/corpus/compare.py REFERENCE.json       measure it and compare with them, bit for bit
+    python tests/corpus/compare.py --write OUT.json     measure the corpus and keep all numbers
+                                                        (.json)
+    python tests/corpus/compare.py REFERENCE.json       measure it and compare with them, bit for
+                                                        bit
 
-for a Python with the bpy module (.envs/blender-5.2/bin/python). The second prints every difference and their count, and
-ends with 1 if there is one. A file that ends in .txt holds the summary instead (summary.py), which is compared within
-its tolerances, on any machine. tests/corpus/test_corpus.py does so with the references that are kept here: that of
-Blender 5.2, and the lines of 4.5 that differ from it:
+for a Python with the bpy module (.envs/blender-5.2/bin/python). The second prints every difference
+and their count, and ends with 1 if there is one. A file that ends in .txt holds the summary instead
+(summary.py), which is compared within its tolerances, on any machine. tests/corpus/test_corpus.py
+does so with the references that are kept here: that of Blender 5.2, and the lines of 4.5 that
+differ from it:
 
     --write reference.txt, and with the other: --write reference-4.5.txt --beside reference.txt
 """
@@ -46,7 +49,9 @@ def load(path: Path) -> dict[str, object]:
 
 
 def save(path: Path, table: dict[str, object]) -> None:
-    """Write one entry a line, in the order of the keys; JSON has the shortest digits that give the same bits."""
+    """Write one entry a line, in the order of the keys; JSON has the shortest digits that give the
+    same bits.
+    """
     if path.suffix == ".txt":
         text = summary.write(table)
     else:
@@ -77,7 +82,9 @@ def leaves(value: object, path: str = "") -> Iterator[tuple[str, object]]:
 
 
 def differences(before: dict, after: dict) -> Iterator[tuple[str, object, object]]:
-    """Yield (place, before, after) of each leaf that differs by a bit, 0.0 and -0.0 too; new entries are none."""
+    """Yield (place, before, after) of each leaf that differs by a bit, 0.0 and -0.0 too; new
+    entries are none.
+    """
     for key in sorted(before):
         if key not in after:
             yield key, "…", MISSING
@@ -92,7 +99,10 @@ def differences(before: dict, after: dict) -> Iterator[tuple[str, object, object
 
 
 def _prepare() -> str:
-    """Load the add-on from this checkout as a module, with a new user folder. Return that folder."""
+    """Load the add-on from this checkout as a module, with a new user folder.
+
+    Return that folder.
+    """
     folder = tempfile.mkdtemp(prefix="body_moments_corpus_")
     for name in [
         name for name in os.environ if name.startswith(("BLENDER_USER_", "BLENDER_SYSTEM_"))

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The corpus is made and measured: scenes, arrays and mesh files, by the published command line and by operators.
+"""The corpus is made and measured: scenes, arrays and mesh files, by the published command line and
+by operators.
 
-`collect` returns one flat table, key -> entry, as JSON holds it. Keys: "RUN/FILE/OBJECT" for a record,
-"RUN/FILE total" and "RUN/FILE errors" for a document, "properties/SCENE/OBJECT" for what operators stored,
-"fourier/NAME" for a transform. Sentences and severities are left out: they may change. Findings keep their codes,
-counts and texts, but no values that round.
+`collect` returns one flat table, key -> entry, as JSON holds it. Keys: "RUN/FILE/OBJECT" for a
+record, "RUN/FILE total" and "RUN/FILE errors" for a document, "properties/SCENE/OBJECT" for what
+operators stored, "fourier/NAME" for a transform. Sentences and severities are left out: they may
+change. Findings keep their codes, counts and texts, but no values that round.
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ SENTENCES = {"notes", "warnings", "reason", "density_from", "left_out"}
 FULL = ("--order", "4", "--surface-moments", "--pose")
 PLAIN = [name for name in scenes.SCENES if name not in {*scenes.NAMED, "sections"}]
 UNITS = ["millimeters", "kilometers"]
-# Options of the command line and their scenes. Walls of real thickness have volume moments to order 3.
+# Options of the command line and their scenes. Walls of real thickness have volume moments to order
+# 3.
 RUNS = {
     "world": (FULL, [name for name in PLAIN if name not in {"shapes", "shells", *UNITS}]),
     "walls": (("--order", "3", "--pose"), ["shells", *UNITS]),
@@ -170,7 +172,9 @@ def _without_sentences(value):
 
 
 def _finding(found: dict) -> str:
-    """Return the code of a finding, its number of elements, and its values that are texts or whole numbers."""
+    """Return the code of a finding, its number of elements, and its values that are texts or whole
+    numbers.
+    """
     elements = len(found.get("elements", ()))
     words = [found["code"], *(["{:d}".format(elements)] if elements else [])]
     words += [

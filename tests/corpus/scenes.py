@@ -1,9 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The scenes of the corpus: each function fills the open, empty scene. Names of objects say what they are.
+"""The scenes of the corpus: each function fills the open, empty scene.
 
-Of the product, only the settings of objects and materials are used (`body_moments`), which README.md names. What
-Blender computes the points of may differ by an ulp of float32 from one processor to another: EVALUATED.
+Names of objects say what they are.
+
+Of the product, only the settings of objects and materials are used (`body_moments`), which
+README.md names. What Blender computes the points of may differ by an ulp of float32 from one
+processor to another: EVALUATED.
 """
 
 from itertools import cycle

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies as (points, faces): float64 arrays (n, 3) and lists of polygons, outward unless the name says otherwise.
+"""Bodies as (points, faces): float64 arrays (n, 3) and lists of polygons, outward unless the name
+says otherwise.
 
-Plain numpy with fixed seeds. Blender rounds the points to float32, which hides what the last bit of a sine may differ
-between machines.
+Plain numpy with fixed seeds. Blender rounds the points to float32, which hides what the last bit of
+a sine may differ between machines.
 """
 
 from itertools import combinations

@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Summaries of measured entries: few numbers, each with its tolerance, as one line of text an entry.
+"""Summaries of measured entries: few numbers, each with its tolerance, as one line of text an
+entry.
 
-A summary maps names to `Numbers` or to text (method, findings, counts). Long lists become one weighted sum: a change of
-any element changes the sum, and distinct weights notice two exchanged elements. The file holds as many digits as the
-tolerance needs.
+A summary maps names to `Numbers` or to text (method, findings, counts). Long lists become one
+weighted sum: a change of any element changes the sum, and distinct weights notice two exchanged
+elements. The file holds as many digits as the tolerance needs.
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ BOUND = 0.1  # the share of a reported error bound that a number may move by
 OF_BOUNDS = 0.2  # Bounds are sums of roundings, or differences of two rules that agree.
 OF_FLOAT32 = 1e-6  # Relative, for points that Blender computes.
 TURN = 1e-6  # in radians, of axes that the inertia determines
-# Zernike descriptors are differences of far larger numbers, and the chirality of a symmetric body is rounding.
+# Zernike descriptors are differences of far larger numbers, and the chirality of a symmetric body
+# is rounding.
 OF_SIGNATURE = {"zernike": 1e-7, "chirality": 1e-5}
 BOUNDED = ("volume", "area", "center_of_mass", "inertia")
 WORDS = ("type", "kind", "symmetry", "frame")
@@ -41,7 +43,9 @@ class Numbers(NamedTuple):
 
 
 def summarize(table: dict[str, object], loose: set[str]) -> dict[str, dict[str, object]]:
-    """Return the summary of each entry. `loose`: scenes and bodies with points that Blender computes.
+    """Return the summary of each entry.
+
+    `loose`: scenes and bodies with points that Blender computes.
 
     Stored properties repeat the record in the object frame: only their differences remain.
     """
@@ -59,7 +63,9 @@ def summarize(table: dict[str, object], loose: set[str]) -> dict[str, dict[str, 
 
 
 def _is_in(key: str, places: set[str]) -> bool:
-    """Return whether the entry belongs to one of the places: "SCENE", "SCENE/OBJECT" or "SCENE total"."""
+    """Return whether the entry belongs to one of the places: "SCENE", "SCENE/OBJECT" or "SCENE
+    total".
+    """
     place = key.partition("/")[2].replace(".blend", "", 1)
     return any(place == name or place.startswith((name + "/", name + " ")) for name in places)
 
@@ -67,7 +73,9 @@ def _is_in(key: str, places: set[str]) -> bool:
 def changes(
     before: dict[str, dict], after: dict[str, dict]
 ) -> Iterator[tuple[str, object, object]]:
-    """Yield (place, before, after) of each difference beyond the tolerances of `after`; new entries are none."""
+    """Yield (place, before, after) of each difference beyond the tolerances of `after`; new entries
+    are none.
+    """
     for key, old in before.items():
         new = after.get(key)
         if new is None:
@@ -133,7 +141,9 @@ def read(text: str) -> dict[str, dict]:
 
 
 def numbers_in(value: object) -> list[float]:
-    """Return the numbers of nested tables and lists in their order; a null counts as zero and a bool as a number."""
+    """Return the numbers of nested tables and lists in their order; a null counts as zero and a
+    bool as a number.
+    """
     if isinstance(value, (dict, list)):
         return [
             one
@@ -201,7 +211,9 @@ class _Entry:
         )
 
     def share(self) -> float:
-        """Return the share of itself by which the mass may differ, and quantities that grow with it."""
+        """Return the share of itself by which the mass may differ, and quantities that grow with
+        it.
+        """
         volume = abs(self.table.get("volume") or 0.0)
         return self.allowed("volume", volume) / volume if volume else self.relative
 
@@ -248,7 +260,9 @@ class _Entry:
         return found
 
     def bounds(self) -> dict[str, Numbers]:
-        """Return the bounds by rounding and by the input, those of bounded quantities before those of moments."""
+        """Return the bounds by rounding and by the input, those of bounded quantities before those
+        of moments.
+        """
         moments = self.table.get("moments") or {}
         sums = [
             weighted([part.get(name) or 0.0 for name in BOUNDED])
@@ -262,7 +276,8 @@ class _Entry:
     def moments(self) -> dict[str, Numbers]:
         """Return the weighted sum of the moments of each kind and order.
 
-        Left out: moments of mass that are the density times those of volume, and a volume or area that the record has.
+        Left out: moments of mass that are the density times those of volume, and a volume or area
+        that the record has.
         """
         moments, found = self.table.get("moments") or {}, {}
         for kind, entries in moments.items():

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers, methods, counts and findings of the corpus agree with the kept ones within their tolerances.
+"""Numbers, methods, counts and findings of the corpus agree with the kept ones within their
+tolerances.
 
-reference.txt was made with Blender 5.2; reference-4.5.txt holds the bodies that Blender 4.5 builds differently (texts,
-metaballs, Booleans). A change of numbers on purpose: make both again as compare.py says, and read their diff first.
+reference.txt was made with Blender 5.2; reference-4.5.txt holds the bodies that Blender 4.5 builds
+differently (texts, metaballs, Booleans). A change of numbers on purpose: make both again as
+compare.py says, and read their diff first.
 """
 
 import subprocess

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Balance Group: the path of a free flight is a parabola, that of several objects the sum of theirs; keys, signals."""
+"""Balance Group: the path of a free flight is a parabola, that of several objects the sum of
+theirs; keys, signals.
+"""
 
 import bpy
 import numpy as np
@@ -78,7 +80,9 @@ def test_the_path_of_a_free_flight_is_a_parabola(scene):
 
 
 def character():
-    """An armature with ten meshes: half of them deformed by its bones, half of them parented to them."""
+    """An armature with ten meshes: half of them deformed by its bones, half of them parented to
+    them.
+    """
     data = bpy.data.armatures.new("Rig")
     rig = objects.add(data, "Rig")
     bpy.ops.object.mode_set(mode="EDIT")
@@ -243,7 +247,9 @@ def test_body_that_becomes_flat_ends_balance_group(scene, reported, by):
 
 
 def test_signal_tells_center_beyond_support_polygon(scene, reported):
-    """A weight that slides over a foot from -2 to 2: over the foot as long as their common center is within ±1."""
+    """A weight that slides over a foot from -2 to 2: over the foot as long as their common center
+    is within ±1.
+    """
     foot = objects.add(box((2.0, 2.0, 0.1), (-1.0, -1.0, 0.0)), "Foot")
     weight = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, 0.0)), "Weight")
     for frame in range(1, 42):

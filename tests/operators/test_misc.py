@@ -333,7 +333,9 @@ def test_numbers_are_shown_in_the_scenes_units(system, length, mass, expected):
 
 
 def test_without_unit_system_masses_are_kilograms():
-    """Else a density beside a volume in the scene's units would seem to give another mass than the one shown."""
+    """Else a density beside a volume in the scene's units would seem to give another mass than the
+    one shown.
+    """
     from body_moments.blender.write.units import Units
 
     units = Units("NONE", "ADAPTIVE", "ADAPTIVE", 0.001)

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the redo panel does, for every operator that has one: undo, then the same action with other values.
+"""What the redo panel does, for every operator that has one: undo, then the same action with other
+values.
 
 The result is that of these values alone, and one undo brings everything back.
 """
@@ -180,7 +181,8 @@ def library(folder):
 
 def robot(folder):
     (folder / "robot.urdf").write_text(
-        '<robot name="r"><link name="base"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="9" ixy="0" '
+        '<robot name="r"><link name="base"><inertial><mass value="1"/><inertia ixx="1" iyy="1" '
+        'izz="9" ixy="0" '
         'ixz="0" iyz="0"/></inertial></link></robot>',
         encoding="utf-8",
     )
@@ -196,7 +198,8 @@ def surface(folder):
     file.write(folder / "surface.igs")
 
 
-# operator: what is there before, the values of the action, and those of the redo panel. {}: the folder
+# operator: what is there before, the values of the action, and those of the redo panel. {}: the
+# folder
 REDONE = {
     "import_scene.body_moments_audit": (
         robot,

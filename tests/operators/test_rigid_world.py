@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rigid bodies and joints where the scene has no rigid body world, or one whose collections are linked; and where the
-collection of what was made for an armature is not shown."""
+"""Rigid bodies and joints where the scene has no rigid body world, or one whose collections are
+linked; and where the collection of what was made for an armature is not shown.
+"""
 
 import bpy
 import pytest
@@ -19,7 +20,9 @@ OPERATORS = {  # and whether they add joints
 
 
 def state():
-    """Return the place of each object, whether it has a rigid body or a joint, and the members of collections."""
+    """Return the place of each object, whether it has a rigid body or a joint, and the members of
+    collections.
+    """
     return {
         obj.name: (
             obj.matrix_world.copy(),

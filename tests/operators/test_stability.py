@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Check Stability and Rest on Ground: margins and angles through Blender's matrices, poses, one undo step, refusals."""
+"""Check Stability and Rest on Ground: margins and angles through Blender's matrices, poses, one
+undo step, refusals.
+"""
 
 from itertools import product
 from math import atan2, degrees

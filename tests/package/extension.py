@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the extension, with the manual in it, with the validator that Blender itself ships, as plain Python.
+"""Builds the extension, with the manual in it, with the validator that Blender itself ships, as
+plain Python.
 
     python extension.py OUTPUT      validates the repository's root and builds its zip into OUTPUT
 
@@ -46,7 +47,9 @@ def validate(path: Path) -> subprocess.CompletedProcess:
 
 
 def build(source: Path, output: Path) -> Path:
-    """Build the zip of a source folder, with the manual in it, into an output folder and return its path."""
+    """Build the zip of a source folder, with the manual in it, into an output folder and return its
+    path.
+    """
     output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="body_moments_") as work:
         copy = Path(work) / "source"

@@ -40,7 +40,9 @@ def measure_a_cube() -> None:
 
 
 def note_commands() -> dict:
-    """Return the commands registered for `blender -c NAME` from now on, by name: the module cannot be started so."""
+    """Return the commands registered for `blender -c NAME` from now on, by name: the module cannot
+    be started so.
+    """
     import bpy
 
     noted, register = {}, bpy.utils.register_cli_command
@@ -54,7 +56,9 @@ def note_commands() -> dict:
 
 
 def measure_files(command) -> None:
-    """Call the command as Blender does, with a file that its children can measure and one that they cannot."""
+    """Call the command as Blender does, with a file that its children can measure and one that they
+    cannot.
+    """
     import bpy
 
     with tempfile.TemporaryDirectory() as folder:

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the manual of the extension's zip: `docs/` and the docstrings of `core/`, by Sphinx (docs/conf.py).
+"""Builds the manual of the extension's zip: `docs/` and the docstrings of `core/`, by Sphinx
+(docs/conf.py).
 
     python manual.py COPY      adds it to a copy of the add-on, whose README then leads into it
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Allowed imports between parts of the add-on, as docs/architecture.md draws them, read off the syntax trees."""
+"""Allowed imports between parts of the add-on, as docs/architecture.md draws them, read off the
+syntax trees.
+"""
 
 import ast
 import importlib.util
@@ -10,12 +12,13 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 # Each wing may import those before it and itself.
 WINGS = ("core", "blender", "command", "operators", "panels")
-# Each package of a wing may import those of the rows above its own and itself; those of one row do not know each other,
-# but for those of one row of the core.
+# Each package of a wing may import those of the rows above its own and itself; those of one row do
+# not know each other, but for those of one row of the core.
 ORDER = {
     "core": (
         ("lazy",),
-        ("numerics", "verdict", "whole_file"),
+        ("numerics", "verdict"),
+        ("files",),
         ("moments",),
         ("mesh", "inertia", "papers"),
         ("polyhedron", "shape", "scans"),
@@ -28,7 +31,8 @@ ORDER = {
         ("colliders",),
     ),
     "blender": (
-        ("registration", "settings", "write"),
+        ("registration", "scale"),
+        ("settings", "write"),
         ("read",),
         ("bodies",),
         ("scene",),
@@ -37,7 +41,8 @@ ORDER = {
 }
 MAY_KNOW_EACH_OTHER = ("mesh", "inertia", "papers")
 WITHOUT_WRITE = ("settings", "read", "bodies", "scene")  # These make findings and numbers only.
-# Blender is imported when it is needed: the package can be imported without it, and a script has to be ready first.
+# Blender is imported when it is needed: the package can be imported without it, and a script has to
+# be ready first.
 LATE = {"__init__.py", "core/verdict/finding.py", "operators/batch.py"}
 
 
@@ -52,7 +57,9 @@ MODULES = shipped()
 
 
 def imports(module: tuple[str, ...]) -> list[tuple[tuple[str, ...], int, bool, bool]]:
-    """Return a module's imports from the add-on: (module or package, line, at the top of the file, when it runs)."""
+    """Return a module's imports from the add-on: (module or package, line, at the top of the file,
+    when it runs).
+    """
     result = []
     package = module[:-1]
     tree = ast.parse(MODULES[module].read_text(encoding="utf-8"))

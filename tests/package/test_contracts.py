@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names that scripts, drivers and pipelines rely on, and the help of the command line, kept as text."""
+"""Names that scripts, drivers and pipelines rely on, and the help of the command line, kept as
+text.
+"""
 
 import ast
 import os

@@ -25,12 +25,15 @@ DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 PROGRAM = re.compile(r"^(\$ |… |blender -|python3? |mkdir |\.envs/)")
 # Beginnings of commands that are not run, and the reason.
 NOT_RUN = {
-    "python3 tests/project.py": "sets up environments from the network; its words are parsed instead",
+    "python3 tests/project.py": "sets up environments from the network; its words are parsed "
+    "instead",
     "python3 -m venv": "makes an environment for the commands below",
-    ".envs/mutants/bin/": "fetches packages from the network, and runs tests for a quarter of an hour",
+    ".envs/mutants/bin/": "fetches packages from the network, and runs tests for a quarter of an "
+    "hour",
 }
 USAGE = "[options]"
-# The module of Blender in the place of Blender: it takes the same words behind `-c body_moments`, or behind `--`.
+# The module of Blender in the place of Blender: it takes the same words behind `-c body_moments`,
+# or behind `--`.
 BLENDER = """\
 #!/bin/sh
 if [ "$1 $2 $3" = "-b -c body_moments" ]; then shift 3; exec "{python}" "{batch}" "$@"; fi
@@ -52,7 +55,9 @@ MJCF = """<mujoco><worldbody><body name="finger"><freejoint/>
 
 
 def commands_of(document: Path) -> list[str]:
-    """The commands in indented blocks, without remarks, in their order; `…` stands for a measuring Blender."""
+    """The commands in indented blocks, without remarks, in their order; `…` stands for a measuring
+    Blender.
+    """
     commands, fenced = [], False
     for line in document.read_text(encoding="utf-8").splitlines():
         fenced ^= line.startswith("```")
@@ -141,7 +146,10 @@ def made(tmp_path_factory):
         write_cube(folder / f"{name}.stl", size)
     save_cube(folder / "part.blend", "Part")
     save_cube(folder / "demo/bracket.blend", "Bracket")
-    header = "NRRD0004\ntype: float\ndimension: 3\nsizes: 4 4 4\nencoding: raw\nendian: little\nspacings: 1 1 1\n\n"
+    header = (
+        "NRRD0004\ntype: float\ndimension: 3\nsizes: 4 4 4\nencoding: raw\nendian: "
+        "little\nspacings: 1 1 1\n\n"
+    )
     (folder / "scan.nrrd").write_bytes(header.encode() + np.ones(64, "<f4").tobytes())
     (folder / "swing.py").write_text(blocks_of("tutorial-arm.md")[0])
     (folder / "arm.urdf").write_text(URDF)
@@ -161,7 +169,9 @@ def made(tmp_path_factory):
     "document", [path for path in DOCUMENTS if runnable_of(path)], ids=lambda path: path.name
 )
 def test_commands_of_document_run_as_printed(document, made, tmp_path):
-    """The commands of a page run in their order, in one folder: later ones use the files of earlier ones."""
+    """The commands of a page run in their order, in one folder: later ones use the files of earlier
+    ones.
+    """
     folder = tmp_path / "checkout"
     shutil.copytree(made, folder, symlinks=True)
     for command in runnable_of(document):
@@ -172,7 +182,9 @@ def test_commands_of_document_run_as_printed(document, made, tmp_path):
 
 
 def test_commands_of_all_pages_are_found():
-    """The pattern for commands must not go blind: the pages for pipelines have at least these many."""
+    """The pattern for commands must not go blind: the pages for pipelines have at least these
+    many.
+    """
     counts = {path.name: len(runnable_of(path)) for path in DOCUMENTS}
     least = {
         "README.md": 1,
@@ -218,7 +230,9 @@ def test_corner_of_the_hypercube_has_the_printed_moments(made, tmp_path):
 @pytest.mark.skipif(os.name == "nt", reason="needs a shell of POSIX")
 @pytest.mark.parametrize("simulator", ["mujoco", "pybullet", "newton"])
 def test_arm_of_the_tutorial_falls_as_printed(made, tmp_path, simulator):
-    """Pythons with simulators: this one, that of the tests of robots, and those that BODY_MOMENTS_SIMULATORS names."""
+    """Pythons with simulators: this one, that of the tests of robots, and those that
+    BODY_MOMENTS_SIMULATORS names.
+    """
     named = os.environ.get("BODY_MOMENTS_SIMULATORS", "").split(os.pathsep)
     pythons = [
         sys.executable,
@@ -250,7 +264,9 @@ def test_arm_of_the_tutorial_falls_as_printed(made, tmp_path, simulator):
 
 
 def test_python_for_blender_prints_the_cubes_moments(registered, capsys):
-    """The example of docs/python.md that needs Blender, under the name that the add-on has in the tests."""
+    """The example of docs/python.md that needs Blender, under the name that the add-on has in the
+    tests.
+    """
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.mesh.primitive_cube_add(size=2.0)
     text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Places that documents name: folders, files, and functions, classes and methods written as `path.py:name`."""
+"""Places that documents name: folders, files, and functions, classes and methods written as
+`path.py:name`.
+"""
 
 import ast
 import re

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The manual in the zip: links and search need no network, and every button and setting has its page."""
+"""The manual in the zip: links and search need no network, and every button and setting has its
+page.
+"""
 
 import importlib
 import re

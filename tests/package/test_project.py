@@ -14,12 +14,15 @@ import sys
 sys.path.insert(0, sys.argv[1])
 import project
 options = project.parse(sys.argv[2:])
-print(options.function.__name__, options.arguments, getattr(options, "subject", None), getattr(options, "k", None))
+values = (getattr(options, name, None) for name in ("subject", "k"))
+print(options.function.__name__, options.arguments, *values)
 """
 
 
 def parsed(*words: str) -> str:
-    """Return the parsed command line, from a process of its own: no other module has the name there."""
+    """Return the parsed command line, from a process of its own: no other module has the name
+    there.
+    """
     command = [sys.executable, "-c", PARSED, str(TESTS), *words]
     return subprocess.run(command, capture_output=True, encoding="utf-8", check=True).stdout.strip()
 

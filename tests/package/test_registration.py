@@ -12,7 +12,9 @@ body_moments = sys.modules["body_moments"]
 
 
 def footprint() -> dict[str, set | Counter]:
-    """Everything that an add-on can leave in Blender and that Blender lets us list, and how often."""
+    """Everything that an add-on can leave in Blender and that Blender lets us list, and how
+    often.
+    """
     types = {
         name: kind for name in dir(bpy.types) if isinstance(kind := getattr(bpy.types, name), type)
     }

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rules that the platform's reviewers and this project's layout set for the shipped source.
 
-They are read off the syntax tree of every shipped file, so that a rule is broken in a test, not in a review. What ruff
-knows too (prints, docstrings, calls of the system, sys.path) is in pyproject.toml.
+They are read off the syntax tree of every shipped file, so that a rule is broken in a test, not in
+a review. What ruff knows too (prints, docstrings, calls of the system, sys.path) is in
+pyproject.toml.
 """
 
 import ast
@@ -35,7 +36,8 @@ REFUSED = NETWORK | {
     *("multiprocessing", "pickle", "pip", "runpy", "site", "subprocess", "threading", "venv"),
 }
 REFUSED_NAMES = {"eval", "exec", "compile", "__import__", "bl_info"}
-# The supervisor alone starts processes, Blender with this add-on, so that no file can end the run over all of them.
+# The supervisor alone starts processes, Blender with this add-on, so that no file can end the run
+# over all of them.
 STARTS_PROCESSES = {
     "command/supervisor/" + name for name in ("processes.py", "pool.py", "whole_run.py")
 }
@@ -89,15 +91,18 @@ def test_only_packages_of_blender_are_imported():
 def test_the_supervisor_needs_neither_numpy_nor_blender():
     """It runs in any Python: what it and the modules that it uses import is the standard library's.
 
-    The add-on itself loads nothing heavy: Blender imports every one that is installed when it starts.
+    The add-on itself loads nothing heavy: Blender imports every one that is installed when it
+    starts.
     """
     code = (
         "import importlib.util, sys\n"
-        "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + '/__init__.py', "
+        "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + "
+        "'/__init__.py', "
         "submodule_search_locations=[sys.argv[1]])\n"
         "sys.modules['body_moments'] = module = importlib.util.module_from_spec(spec)\n"
         "spec.loader.exec_module(module)\n"
-        "assert not {'numpy', 'bpy', 'body_moments.core', 'body_moments.operators'} & set(sys.modules)\n"
+        "assert not {'numpy', 'bpy', 'body_moments.core', 'body_moments.operators'} & "
+        "set(sys.modules)\n"
         "import body_moments.command.measure.run_files\n"
         "assert not {'numpy', 'bpy', 'mathutils'} & set(sys.modules)\n"
     )

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Start of the add-on in a Blender that has not loaded numpy: registration and panels do without it."""
+"""Start of the add-on in a Blender that has not loaded numpy: registration and panels do without
+it.
+"""
 
 import subprocess
 import sys
@@ -38,7 +40,9 @@ for path in sys.argv[4:]:
     bpy.ops.wm.open_mainfile(filepath=path)
     layer = bpy.context.view_layer
     collections = [layer.layer_collection, *layer.layer_collection.children]
-    for layer.objects.active, layer.active_layer_collection in itertools.product(layer.objects, collections):
+    for active, collection in itertools.product(layer.objects, collections):
+        layer.objects.active = active
+        layer.active_layer_collection = collection
         drawn.update(every_panel())
 missing = set(sys.argv[2].splitlines()) - drawn
 assert not missing, (missing, drawn)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The wheel in an environment that has numpy alone, once the oldest numpy that it states and once the newest."""
+"""The wheel in an environment that has numpy alone, once the oldest numpy that it states and once
+the newest.
+"""
 
 import json
 import os
@@ -38,10 +40,12 @@ import body_moments
 assert not {"numpy", "bpy"} & set(sys.modules)
 import numpy as np
 points = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
-quads = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+quads = np.array(quads)
 triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 assert 'Moments' in dir(body_moments)
-assert abs(body_moments.mass_properties(points, triangles, density=2.0).mass_properties.mass - 2.0) < 1e-14
+body = body_moments.mass_properties(points, triangles, density=2.0)
+assert abs(body.mass_properties.mass - 2.0) < 1e-14
 """
 
 POINTS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], np.float32)
@@ -120,7 +124,9 @@ def test_the_command_tells_what_needs_blender(scripts, tmp_path):
 
 @pytest.mark.skipif(os.name == "nt", reason="the action's shell is bash")
 def test_action_fails_for_an_impossible_robot(scripts, tmp_path):
-    """Its commands as a runner starts them: in the workspace, with its variables and the defaults of the inputs."""
+    """Its commands as a runner starts them: in the workspace, with its variables and the defaults
+    of the inputs.
+    """
     action = (ROOT / "action.yml").read_text(encoding="utf-8")
     inputs = dict(
         re.findall(r"^  ([\w-]+):\n    description: .*\n    default: (.*)$", action, re.MULTILINE)
@@ -149,7 +155,9 @@ def test_action_fails_for_an_impossible_robot(scripts, tmp_path):
 
 
 def test_pre_commit_refuses_an_impossible_robot(scripts, tmp_path):
-    """pre-commit itself installs the hook from this repository, and runs it on files that are added."""
+    """pre-commit itself installs the hook from this repository, and runs it on files that are
+    added.
+    """
     run([scripts / "python", "-m", "pip", "install", "pre-commit"], check=True)
     run(["git", "init", "-q", tmp_path], check=True)
     for text, code in (

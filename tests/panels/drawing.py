@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A layout that records what panels draw, and what is read from the record.
 
-What is drawn must exist: functions, options, icons and attributes of layouts, properties, operators with their
-properties, menus.
+What is drawn must exist: functions, options, icons and attributes of layouts, properties, operators
+with their properties, menus.
 """
 
 from importlib import import_module
@@ -20,7 +20,8 @@ LAYOUTS = {"row", "column", "split", "box", "grid_flow", "menu_pie", "column_flo
 class Layout:
     """A layout that records what is drawn into it and into its inner layouts.
 
-    record: labels, settings, operators, menus and pointers, in their order. closed: names of panels that are closed.
+    record: labels, settings, operators, menus and pointers, in their order. closed: names of panels
+    that are closed.
     """
 
     def __init__(self, closed=(), record=None):
@@ -132,7 +133,8 @@ def sidebar_panel(name):
 
 
 def shown(closed=(), without=()):
-    """The record of the main panel and its sub-panels in Blender's own context, in their order, all open.
+    """The record of the main panel and its sub-panels in Blender's own context, in their order, all
+    open.
 
     without: names of sub-panels.
     """

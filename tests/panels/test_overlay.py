@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the overlay draws, as arrays: where it is, how large, in which form. tests/window looks at its pixels."""
+"""What the overlay draws, as arrays: where it is, how large, in which form. tests/window looks at
+its pixels.
+"""
 
 import numpy as np
 import pytest

@@ -51,7 +51,9 @@ def volume(folder):
 
 
 def page(record):
-    """Lines of text: neighboring labels on one line, however they were wrapped, and each control on its own."""
+    """Lines of text: neighboring labels on one line, however they were wrapped, and each control on
+    its own.
+    """
     lines, words = [], []
     for kind, name, *_ in [*record, ("end", "")]:
         if kind == "label":

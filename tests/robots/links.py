@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random bodies as links: boxes and balls, sheared and turned; thin plates, rods, all but equal moments."""
+"""Random bodies as links: boxes and balls, sheared and turned; thin plates, rods, all but equal
+moments.
+"""
 
 import numpy as np
 from body_moments.core.inertia.mass_properties import MassProperties
@@ -49,7 +51,9 @@ KINDS = ("plate", "rod", "square", "ball", "box", "sheared")
 
 
 def bodies(count, seed=17, chain=False, away=False):
-    """A robot of that many separate bodies, or of one chain with all kinds of joints, at the children or `away`."""
+    """A robot of that many separate bodies, or of one chain with all kinds of joints, at the
+    children or `away`.
+    """
     rng = np.random.default_rng(seed)
     links, joints = [], []
     for index in range(count):

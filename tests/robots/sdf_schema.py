@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The schema of SDFormat 1.9 for the written elements: attributes, children, counts and types.
 
-Restated from its descriptions (sdf/1.9/root, model, link, inertial, pose, collision, visual, geometry and joint), for
-machines without the parser itself, which test_sdf_parser.py asks.
+Restated from its descriptions (sdf/1.9/root, model, link, inertial, pose, collision, visual,
+geometry and joint), for machines without the parser itself, which test_sdf_parser.py asks.
 """
 
 import math

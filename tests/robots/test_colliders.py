@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Exported colliders in MuJoCo: its own mass, center and inertia of them are those that we state."""
+"""Exported colliders in MuJoCo: its own mass, center and inertia of them are those that we
+state.
+"""
 
 from dataclasses import replace
 from functools import cache
@@ -53,7 +55,9 @@ BODIES = (*sorted({*SHAPES} - SLOW), "Suzanne", *LINKS, *COLUMNS)
 
 @cache
 def surface_of(name):
-    """The surface of a body; stretched, turned and moved if it is neither a robot's link nor columns."""
+    """The surface of a body; stretched, turned and moved if it is neither a robot's link nor
+    columns.
+    """
     if name in LINKS:
         return read_mesh(Path(str(files("jvrc_description"))) / "meshes" / (name + "_S.dae"))[0]
     rng = np.random.default_rng(BODIES.index(name))

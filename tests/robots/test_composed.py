@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Descriptions of several files: stages that usd-core wrote, in text and binary, and files for xacro."""
+"""Descriptions of several files: stages that usd-core wrote, in text and binary, and files for
+xacro.
+"""
 
 import sys
 
@@ -11,10 +13,14 @@ from body_moments.core.verdict.finding import MeasureError
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
 RIGHT = 8000.0 * 4.0 / 6.0  # of a cube with sides of 2 m
-MACRO = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="cube" params="name i">
-<link name="${name}"><inertial><mass value="8000"/><inertia ixx="${i}" iyy="${i}" izz="${i}" ixy="0" ixz="0" iyz="0"/>
-</inertial><collision><geometry><box size="2 2 2"/></geometry></collision></link></xacro:macro></robot>"""
-ROBOT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:include filename="FILE"/>
+MACRO = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="cube"
+params="name i">
+<link name="${name}"><inertial><mass value="8000"/><inertia ixx="${i}" iyy="${i}" izz="${i}"
+ixy="0" ixz="0" iyz="0"/>
+</inertial><collision><geometry><box size="2 2 2"/></geometry></collision></link>
+</xacro:macro></robot>"""
+ROBOT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:include filename="FILE"/>
 <xacro:cube name="a" i="${8000*4/6}"/><xacro:cube name="b" i="${8000*4/6*1000}"/></robot>"""
 
 
@@ -123,7 +129,9 @@ def test_xacro_is_expanded_within_the_roots(tmp_path, monkeypatch):
 
 
 def test_faults_of_xacro_have_the_places_of_their_elements(tmp_path):
-    """In the file that was named, and in the macro of another one; each at the element that was expanded."""
+    """In the file that was named, and in the macro of another one; each at the element that was
+    expanded.
+    """
     pytest.importorskip("xacro")
     (tmp_path / "urdf").mkdir()
     inner = MACRO.replace("<inertial>", "\n <inertial>").replace(
@@ -136,7 +144,10 @@ def test_faults_of_xacro_have_the_places_of_their_elements(tmp_path):
     (tmp_path / "urdf" / "m.xacro").write_text(inner)
     (tmp_path / "b.stl").write_text("")  # It is beside the file that is named.
     path = tmp_path / "r.urdf.xacro"
-    own = '\n<link name="own">\n <inertial><mass value="nope"/></inertial></link>\n<xacro:if value="1">'
+    own = (
+        '\n<link name="own">\n <inertial><mass value="nope"/></inertial></link>\n<xacro:if '
+        'value="1">'
+    )
     own += '<link name="mass"><inertial>\n<mass value="-1"/></inertial></link></xacro:if></robot>'
     path.write_text(ROBOT.replace("FILE", "urdf/m.xacro").replace("</robot>", own))
     links = {
@@ -149,14 +160,14 @@ def test_faults_of_xacro_have_the_places_of_their_elements(tmp_path):
         for name, one in links.items()
     }
     assert places == {
-        "a": [("mesh_missing", 6, 3, macro)],
-        "b": [("mesh_unreadable", 6, 3, macro)],
-        "own": [("description_number", 4, 12, "")],
-        "mass": [("inertial_not_positive", 5, 39, "")] * 2,
+        "a": [("mesh_missing", 8, 3, macro)],
+        "b": [("mesh_unreadable", 8, 3, macro)],
+        "own": [("description_number", 5, 12, "")],
+        "mass": [("inertial_not_positive", 6, 39, "")] * 2,
     }
     assert {name: one.link.place for name, one in links.items()} == {
-        **{"a": (2, 1, macro), "b": (2, 1, macro)},
-        **{"own": (3, 1, ""), "mass": (5, 21, "")},
+        **{"a": (3, 1, macro), "b": (3, 1, macro)},
+        **{"own": (4, 1, ""), "mass": (6, 21, "")},
     }
 
 

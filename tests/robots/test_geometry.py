@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files with geometry, read back with it: meshes in MuJoCo, a layer over Blender's own in USD, motions in glTF."""
+"""Files with geometry, read back with it: meshes in MuJoCo, a layer over Blender's own in USD,
+motions in glTF.
+"""
 
 import base64
 import json
@@ -139,7 +141,9 @@ def test_gltf_motions_are_valid_and_give_the_body_back():
 
 @pytest.mark.parametrize("kind", ["box", "ellipsoid", "capsule"])
 def test_primitives_have_the_inertia_of_mujoco(kind):
-    """With the density that gives them the mass; a capsule keeps the least moment and the mean of the others."""
+    """With the density that gives them the mass; a capsule keeps the least moment and the mean of
+    the others.
+    """
     robot = bodies(60)
     links = [
         link for link in robot.links if link.inertial.moments[0] > 1e-4 * link.inertial.moments[2]
@@ -262,7 +266,9 @@ def test_gltf_robot_is_valid_and_stands_in_place(away):
 
 
 def check_joint(document, places, by_name, joint):
-    """Both frames are one, in the bodies that it joins; freedom is about the axes that the robot has."""
+    """Both frames are one, in the bodies that it joins; freedom is about the axes that the robot
+    has.
+    """
     own = document["nodes"][by_name[joint.name]]["extensions"][gltf.KHR]["joint"]
     jsonschema.validate(own, JOINT)
     assert by_name[joint.name] in document["nodes"][by_name[joint.parent]]["children"]
@@ -270,8 +276,14 @@ def check_joint(document, places, by_name, joint):
     (here, turn), (there, other) = places[by_name[joint.name]], places[own["connectedNode"]]
     assert np.abs(here - there).max() < 1e-12 and np.abs(turn - other).max() < 1e-12
     limits = document["extensions"][gltf.KHR]["physicsJoints"][own["joint"]]["limits"]
-    held = {(kind, axis) for limit in limits for kind in limit if kind[-4:] == "Axes" for axis in limit[kind]
-            if limit["min"] == limit["max"] == 0.0}  # fmt: skip
+    held = {
+        (kind, axis)
+        for limit in limits
+        if limit["min"] == limit["max"] == 0.0
+        for kind in limit
+        if kind[-4:] == "Axes"
+        for axis in limit[kind]
+    }
     assert len(held) == 6 - len(joint.free)
     position, child = places[by_name[joint.child]]
     assert np.abs(there - (position + child @ (Y_UP @ joint.pose.position))).max() < 1e-12

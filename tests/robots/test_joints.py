@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Joints away from the links' origins, fixed bases, and values of joints, in the programs that read the files.
+"""Joints away from the links' origins, fixed bases, and values of joints, in the programs that read
+the files.
 
-The truth is the product of exponentials: each joint turns and moves all that it holds about its place in the world.
+The truth is the product of exponentials: each joint turns and moves all that it holds about its
+place in the world.
 """
 
 import json
@@ -48,7 +50,9 @@ def rotation_about(axis, angle):
 
 
 def assembly(seed, size=1.0):
-    """A random tree of bodies with joints anywhere, some stated from the child's side, some of parents alone."""
+    """A random tree of bodies with joints anywhere, some stated from the child's side, some of
+    parents alone.
+    """
     rng = np.random.default_rng(seed)
     candidates, connections = [], []
     for index in range(int(rng.integers(2, 9))):

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nested and scaled frames of MJCF, attached models and inline meshes, as our reader and as MuJoCo have them."""
+"""Nested and scaled frames of MJCF, attached models and inline meshes, as our reader and as MuJoCo
+have them.
+"""
 
 import mujoco
 import numpy as np
@@ -128,15 +130,21 @@ def test_frames_are_those_of_mujoco(tmp_path, seed):
     check_links(path)
 
 
-CHILD = """<mujoco model="child"><compiler angle="radian" meshdir="meshes" eulerseq="XYZ" inertiafromgeom="false"/>
+CHILD = """<mujoco model="child"><compiler angle="radian" meshdir="meshes" eulerseq="XYZ"
+inertiafromgeom="false"/>
 <asset><mesh file="t.obj"/><model name="inner" file="more/inner.xml"/></asset>
-<default><geom size="7"/><default class="k"><geom size="3"/></default></default><include file="part.xml"/>
-<worldbody><geom size=".5" pos="0 0 9"/><frame name="fr" pos="10 0 0" scale="2" massscale="3"><body name="b" pos="1 2 3"
-euler="1 0 .5" childclass="k">{0}<geom/><frame euler="0 1 0"><geom pos="1 2 3"/><attach model="inner" prefix="i_"/>
-</frame><geom type="mesh" mesh="t" pos="5 5 5"/></body></frame><body name="out" childclass="k"><body name="deep">{0}
+<default><geom size="7"/><default class="k"><geom size="3"/></default></default>
+<include file="part.xml"/>
+<worldbody><geom size=".5" pos="0 0 9"/><frame name="fr" pos="10 0 0" scale="2" massscale="3">
+<body name="b" pos="1 2 3"
+euler="1 0 .5" childclass="k">{0}<geom/><frame euler="0 1 0"><geom pos="1 2 3"/>
+<attach model="inner" prefix="i_"/>
+</frame><geom type="mesh" mesh="t" pos="5 5 5"/></body></frame><body name="out" childclass="k">
+<body name="deep">{0}
 <geom/></body></body></worldbody></mujoco>"""
 INERTIAL = '<inertial mass="2" pos="1 0 0" euler="0 .3 0" diaginertia="1 2 2.5"/>'
-INNER = """<mujoco><worldbody><geom size="2" pos="4 4 4"/><body name="i" euler="90 0 0">{}<geom size="1"/></body>
+INNER = """<mujoco><worldbody><geom size="2" pos="4 4 4"/><body name="i" euler="90 0 0">
+{}<geom size="1"/></body>
 </worldbody></mujoco>"""
 MESH = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 PART = '<mujoco><worldbody><body name="part"><geom/></body></worldbody></mujoco>'
@@ -156,7 +164,9 @@ def write_child(folder):
 
 @pytest.mark.parametrize("chosen", ['body="b"', 'body="deep"', 'frame="fr"', ""])
 def test_attached_models_are_those_of_mujoco(tmp_path, chosen):
-    """Names have all prefixes; a body leaves its own frames behind, and models have their own settings and folders."""
+    """Names have all prefixes; a body leaves its own frames behind, and models have their own
+    settings and folders.
+    """
     path = write_child(tmp_path)
     asset = (
         '<asset><model name="m" file="child/c.xml"/></asset><default><geom size="11"/></default>'
@@ -235,10 +245,13 @@ def test_inline_mesh_has_the_inertia_of_mujoco(tmp_path, faces, more, frame):
     """Its own inertia, as MuJoCo computes it from single-precision vertices, has no finding."""
     mesh = '<asset><mesh name="m" vertex="{}" {} {}/></asset>'.format(STAR, faces, more)
     head = (
-        '<default><mesh inertia="exact"/><default class="big"><mesh scale="2 2 2"/></default></default>'
-        + mesh
+        '<default><mesh inertia="exact"/><default class="big"><mesh scale="2 2 '
+        '2"/></default></default>' + mesh
     )
-    body = '<body name="a">{}<frame {}><geom type="mesh" mesh="m" pos="3 2 1" euler="10 20 30"/></frame></body>'
+    body = (
+        '<body name="a">{}<frame {}><geom type="mesh" mesh="m" pos="3 2 1" euler="10 20 '
+        '30"/></frame></body>'
+    )
     path = tmp_path / "model.xml"
     path.write_text(
         "<mujoco>{}<worldbody>{}</worldbody></mujoco>".format(head, body.format("", frame))

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""SDF read back by the parser of Gazebo itself, libsdformat, where a machine has it with its headers and a compiler."""
+"""SDF read back by the parser of Gazebo itself, libsdformat, where a machine has it with its
+headers and a compiler.
+"""
 
 import shutil
 import subprocess
@@ -91,7 +93,9 @@ def test_gazebo_refuses_impossible_inertia(parse):
 
 
 def framed_model(rng, name, depth=0):
-    """A model whose links, joints, frames, inner models and shapes stand in random ones of its earlier frames."""
+    """A model whose links, joints, frames, inner models and shapes stand in random ones of its
+    earlier frames.
+    """
     known, parts, links = ["__model__"], [], []
 
     def pose():
@@ -145,7 +149,9 @@ ROLES = ("visual", "collision")
 
 @pytest.mark.parametrize("seed", range(12))
 def test_poses_in_frames_are_those_of_gazebo(parse, tmp_path, seed):
-    """In frames of the model, of joints, links and models within it, and after its joints' children."""
+    """In frames of the model, of joints, links and models within it, and after its joints'
+    children.
+    """
     path = tmp_path / "m.sdf"
     text = '<sdf version="1.9">{}</sdf>'.format(framed_model(np.random.default_rng(seed), "m"))
     path.write_text(text, encoding="utf-8")
@@ -163,8 +169,14 @@ def test_poses_in_frames_are_those_of_gazebo(parse, tmp_path, seed):
 @pytest.mark.parametrize("frame", ["none", "b", "world", "a::x", "m", "around"])
 def test_unknown_frame_of_sdf_is_a_finding_at_its_pose(parse, tmp_path, frame):
     """Gazebo knows none of them either: frames outside of the model, and frames in each other."""
-    around = '<frame name="around"><pose relative_to="more"/></frame><frame name="more"><pose relative_to="around"/></frame>'
-    shape = '\n<visual name="v"><pose relative_to="{}">0 0 0 0 0 0</pose><geometry><sphere/></geometry></visual>'
+    around = (
+        '<frame name="around"><pose relative_to="more"/></frame><frame name="more"><pose '
+        'relative_to="around"/></frame>'
+    )
+    shape = (
+        '\n<visual name="v"><pose relative_to="{}">0 0 0 0 0 '
+        "0</pose><geometry><sphere/></geometry></visual>"
+    )
     inner = '<model name="n">{}<link name="a">{}</link></model>'.format(around, shape.format(frame))
     text = '<sdf version="1.9"><model name="m">{}<link name="b"/></model></sdf>'.format(inner)
     path = tmp_path / "m.sdf"
@@ -178,7 +190,8 @@ def test_unknown_frame_of_sdf_is_a_finding_at_its_pose(parse, tmp_path, frame):
 
 def test_included_model_has_the_name_and_place_of_its_include(tmp_path):
     (tmp_path / "arm.sdf").write_text(
-        '<sdf version="1.9"><model name="arm"><pose>9 9 9 0 0 0</pose><frame name="f"><pose>0 2 0 0 0 0</pose></frame>'
+        '<sdf version="1.9"><model name="arm"><pose>9 9 9 0 0 0</pose><frame name="f"><pose>0 2 0 '
+        "0 0 0</pose></frame>"
         '<link name="a"><pose>1 0 0 0 0 0</pose></link></model></sdf>'
     )
     include = "<include><uri>arm.sdf</uri><name>left</name><pose>0 0 5 0 0 0</pose>{}</include>"

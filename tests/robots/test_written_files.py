@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files as they are written by default, with their meshes, opened by the programs that read them."""
+"""Files as they are written by default, with their meshes, opened by the programs that read
+them.
+"""
 
 from pathlib import Path
 
@@ -22,7 +24,9 @@ SHEET = (
 
 
 def arm():
-    """A robot and its links' surfaces: two joined links, a sheet apart, a link without faces; names with accents."""
+    """A robot and its links' surfaces: two joined links, a sheet apart, a link without faces; names
+    with accents.
+    """
     rng = np.random.default_rng(11)
     bodies = {
         "Rümpf 1": shaped(rng, "sheared"),

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs what takes long: every module of this folder that has `run(budget_seconds, seed)`, which returns a report.
+"""Runs what takes long: every module of this folder that has `run(budget_seconds, seed)`, which
+returns a report.
 
     python tests/soak [--minutes N] [--seed S] [NAME[:PART,…] …]
 

@@ -34,7 +34,10 @@ def run(*words, timeout=3600, **options) -> tuple[int, str]:
 
 
 def children(pid: int) -> list[int]:
-    """The processes that a process has started and that are still there. Linux alone knows them so."""
+    """The processes that a process has started and that are still there.
+
+    Linux alone knows them so.
+    """
     with suppress(OSError):
         return [
             int(word)
@@ -70,7 +73,9 @@ def documents(path: Path) -> list[dict]:
 
 
 def check_documents(found: list[dict], paths: list[Path]) -> Counter:
-    """Count the documents of each status; each file has exactly one document, in the order given."""
+    """Count the documents of each status; each file has exactly one document, in the order
+    given.
+    """
     assert [document["file"] for document in found] == [str(path) for path in paths]
     for document in found:
         assert (document["status"] == "ok") == (not document["errors"]), document["file"]

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Flipped bits in files whose format has checksums, through the real command: refused, or of no effect.
+"""Flipped bits in files whose format has checksums, through the real command: refused, or of no
+effect.
 
-A file that is measured all the same has the numbers of the whole one, to the bit. Formats without a checksum are in
-docs/limits.md.
+A file that is measured all the same has the numbers of the whole one, to the bit. Formats without a
+checksum are in docs/limits.md.
 """
 
 import gzip
@@ -58,7 +59,9 @@ def warnings(document: dict) -> set[str]:
 
 
 def run(budget_seconds: float, seed: int, count: int = DAMAGED) -> str:
-    """Rounds of damaged files of each format until the budget is spent; the report counts what came of them."""
+    """Rounds of damaged files of each format until the budget is spent; the report counts what came
+    of them.
+    """
     end, chance = time.monotonic() + budget_seconds, random.Random(seed)
     refused, reported, same, silent = Counter(), Counter(), Counter(), []
     with tempfile.TemporaryDirectory(prefix="body_moments_damage_") as name:

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hostile files through the real command: each has one record with a status that it may have, nothing is obeyed.
+"""Hostile files through the real command: each has one record with a status that it may have,
+nothing is obeyed.
 
-1,000 files and more where the budget allows it; then fuzzed ones with new seeds until it is used up.
+1,000 files and more where the budget allows it; then fuzzed ones with new seeds until it is used
+up.
 """
 
 import tempfile

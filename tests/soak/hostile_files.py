@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hostile files: sound ones of every format, damaged at random, and the ones that somebody has thought of.
+"""Hostile files: sound ones of every format, damaged at random, and the ones that somebody has
+thought of.
 
 Everything is made here, from a seed. Needs the bpy module.
 """
@@ -23,10 +24,15 @@ from body_moments.core.measurement import documents
 CORNERS = ((0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3))
 FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
 RELATIONS = (
-    '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r" '
-    'Target="/3D/a.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
+    "<Relationships "
+    'xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r" '
+    'Target="/3D/a.model" '
+    'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
 )
-MODEL = '<model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1"><mesh>'
+MODEL = (
+    '<model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object '
+    'id="1"><mesh>'
+)
 MODEL += "<vertices>{}</vertices><triangles>{}</triangles></mesh></object></resources>"
 MODEL += "<build><item objectid='1'/></build></model>"
 MODEL = MODEL.format(
@@ -95,7 +101,9 @@ def seeds(folder: Path) -> dict[str, bytes]:
 
 
 def damaged(data: bytes, suffix: str, chance: random.Random) -> bytes:
-    """The data with a few wounds: bits, missing and doubled pieces, numbers that are too large, a cut end."""
+    """The data with a few wounds: bits, missing and doubled pieces, numbers that are too large, a
+    cut end.
+    """
     found = bytearray(data)
     for _ in range(chance.choice((1, 1, 2, 4, 12))):
         place = chance.randrange(len(found)) if found else 0

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Children and supervisors are killed at random moments: no file is lost or counted twice, nothing stays behind.
+"""Children and supervisors are killed at random moments: no file is lost or counted twice, nothing
+stays behind.
 
 Needs Linux, whose /proc lists children.
 """
@@ -19,7 +20,9 @@ from tests.soak import commands
 def run(
     budget_seconds: float, seed: int, children: int = 20, supervisors: int = 5, files: int = 60
 ) -> str:
-    """One run with kills of children, and one whose supervisor is killed and goes on, until the budget is used up."""
+    """One run with kills of children, and one whose supervisor is killed and goes on, until the
+    budget is used up.
+    """
     end, chance, rounds = time.monotonic() + budget_seconds, random.Random(seed), 0
     while True:
         with tempfile.TemporaryDirectory(prefix="body_moments_kills_") as name:

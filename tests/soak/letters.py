@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Retrieval rate of letters that were moved, turned, scaled, drawn otherwise and made noisy.
 
-The letters are the 62 letters and digits of each font, all of them in one library. Those that are one shape up to turn
-and scale count as one class, as I and 1 of Blender's font; a mirror image is a class of its own.
+The letters are the 62 letters and digits of each font, all of them in one library. Those that are
+one shape up to turn and scale count as one class, as I and 1 of Blender's font; a mirror image is a
+class of its own.
 """
 
 from __future__ import annotations
@@ -89,7 +90,10 @@ def missed(letters, classes, noise: float, rng: np.random.Generator) -> Iterator
 
 
 def run(budget_seconds: float, seed: int) -> str:
-    """Repeat until the time is used up. Fail if less than 99 % are found at a noise of 0.01 % or less."""
+    """Repeat until the time is used up.
+
+    Fail if less than 99 % are found at a noise of 0.01 % or less.
+    """
     rng, end = np.random.default_rng(seed), time.monotonic() + budget_seconds
     letters, classes = library()
     count = len(set(classes.values()))

@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random sessions: what a person does to a scene, in any order, with undo and redo and changes that are not keyed.
+"""Random sessions: what a person does to a scene, in any order, with undo and redo and changes that
+are not keyed.
 
-After each step every number that is shown is that of its object, or is said to be out of date; nothing that was changed
-and not keyed is lost to an operator of ours; no handler fails. A step that a session's seed and number name is found
-again by running that seed.
+After each step every number that is shown is that of its object, or is said to be out of date;
+nothing that was changed and not keyed is lost to an operator of ours; no handler fails. A step that
+a session's seed and number name is found again by running that seed.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ import bpy
 import numpy as np
 from body_moments.blender.read.mesh import MAX_DIGESTED_FACES
 from body_moments.blender.session import displayed
-from body_moments.blender.session.live import following, live
+from body_moments.blender.session.live import following
+from body_moments.blender.session.live import measuring as live
 from body_moments.blender.session.tracking import handlers, staleness
 from body_moments.blender.write import properties
 from body_moments.core.verdict.finding import MeasureError

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random verdict trials: bodies broken in known ways, and what the label beside their numbers is worth.
+"""Random verdict trials: bodies broken in known ways, and what the label beside their numbers is
+worth.
 
 python tests/soak/verdict_trials.py [--trials N] [--seed S]     prints the table of docs/limits.md
 """

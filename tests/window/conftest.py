@@ -20,7 +20,8 @@ cube = bpy.data.objects["Cube"]
 cube.location = (1.0, 2.0, 3.0)
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
-# The armature `rig` of a human figure, active and selected, and its mesh `body`, alone in the scene.
+# The armature `rig` of a human figure, active and selected, and its mesh `body`, alone in the
+# scene.
 FIGURE = f"""
 import sys
 sys.path.insert(0, {str(ROOT)!r})
@@ -31,10 +32,12 @@ rig, body = figure()
 rig.data.display_type = "STICK"
 view = area.spaces.active.region_3d
 """
-# A person opens them with a click on their headers; here they are registered anew, as panels that start open.
+# A person opens them with a click on their headers; here they are registered anew, as panels that
+# start open.
 OPEN = """
 import bpy
-for cls in [cls for cls in bpy.types.Panel.__subclasses__() if cls.__name__.startswith("VIEW3D_PT_body_moments_")]:
+panels = bpy.types.Panel.__subclasses__()
+for cls in [cls for cls in panels if cls.__name__.startswith("VIEW3D_PT_body_moments_")]:
     if "DEFAULT_CLOSED" in getattr(cls, "bl_options", set()):
         bpy.utils.unregister_class(cls)
         cls.bl_options = cls.bl_options - {"DEFAULT_CLOSED"}
@@ -44,7 +47,9 @@ for cls in [cls for cls in bpy.types.Panel.__subclasses__() if cls.__name__.star
 
 @pytest.hookimpl(wrapper=True)
 def pytest_collection_modifyitems(items):
-    """A file is one session of a person: of a test that is selected, those before it in its file run too."""
+    """A file is one session of a person: of a test that is selected, those before it in its file
+    run too.
+    """
     everything = list(items)
     yield
     selected = {item.path: item for item in items}  # the last one of each file

@@ -145,7 +145,9 @@ class Window:
         subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, timeout=240)
 
     def move(self, x: float, y: float, *more) -> None:
-        """Put the pointer there; the small step before lets Blender notice where it is. more: words for xdotool."""
+        """Put the pointer there; the small step before lets Blender notice where it is. more: words
+        for xdotool.
+        """
         top = self.height - 1 - y
         self._xdotool(
             "mousemove", round(x) - 2, round(top), "mousemove", round(x), round(top), *more
@@ -205,15 +207,20 @@ class Window:
         self.click(*self.place(operator))
 
     def place(self, operator: str) -> tuple[float, float]:
-        """Return the place of an operator's button in the sidebar, after scrolling to it if need be."""
+        """Return the place of an operator's button in the sidebar, after scrolling to it if need
+        be.
+        """
         place = self.buttons.get(operator)
         if place is None or self._button_at(*place) != operator:
             place = self._find_button(operator)
         return place
 
     def choose(self, menu: str, operator: str) -> None:
-        """Open a menu at the pointer, as its key or header does, and click the entry of an operator."""
-        # A menu opens with the entry under the pointer that was chosen last: some others may be above it.
+        """Open a menu at the pointer, as its key or header does, and click the entry of an
+        operator.
+        """
+        # A menu opens with the entry under the pointer that was chosen last: some others may be
+        # above it.
         x, y, width, height = self.region("WINDOW")
         x, y = x + width * 0.3, y + height - 60
         self.move(x, y)
@@ -228,7 +235,8 @@ class Window:
         raise LookupError(f"no entry for {operator} in {menu}\n{self.output()}")
 
     def commands(self) -> list[str]:
-        """The commands of all buttons in the part of the sidebar that is seen, from top to bottom, with their values.
+        """The commands of all buttons in the part of the sidebar that is seen, from top to bottom,
+        with their values.
 
         What a row shows is what its button would copy.
         """
@@ -276,7 +284,9 @@ class Window:
     # eyes
 
     def picture(self, name: str, form: str = "webp") -> Path:
-        """A picture of the screen, drawn anew, kept in the folder of artefacts; a .png has every pixel as it is."""
+        """A picture of the screen, drawn anew, kept in the folder of artefacts; a .png has every
+        pixel as it is.
+        """
         self.redraw()
         path = self.artefacts / f"{name}.{form}"
         subprocess.run(

@@ -6,8 +6,8 @@
 
 The other half (harness.py) puts `N.request`, Python source that sets `result`, into the folder
 MAILBOX. A timer runs it between two events of the window, in the context of its first 3D View, and
-answers with `N.reply`, JSON. While a file browser takes the window, that is the area. The timer runs
-before the events that wait: a request is answered the second time that it is seen, after them.
+answers with `N.reply`, JSON. While a file browser takes the window, that is the area. The timer
+runs before the events that wait: a request is answered the second time that it is seen, after them.
 """
 
 import json

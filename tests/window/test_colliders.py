@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make Colliders by its button: progress and Esc, undo and redo, what the panel and the redo panel show."""
+"""Make Colliders by its button: progress and Esc, undo and redo, what the panel and the redo panel
+show.
+"""
 
 from tests.window.conftest import OPEN
 from tests.window.test_selection import CLOSE_OTHERS

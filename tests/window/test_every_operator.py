@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every operator pressed once by mouse, what the panel shows compared with what is stored, and refusals read.
+"""Every operator pressed once by mouse, what the panel shows compared with what is stored, and
+refusals read.
 
-The tests run in the order of the file and go on from one another, as a person does. Most buttons are far down in
-sub-panels, or in menus of Blender's own: each of these is the only entry of a menu of the test's own.
+The tests run in the order of the file and go on from one another, as a person does. Most buttons
+are far down in sub-panels, or in menus of Blender's own: each of these is the only entry of a menu
+of the test's own.
 """
 
 import ast
@@ -50,7 +52,9 @@ bpy.context.scene.body_moments.units_answered = True
 
 
 def click_material(window, name):
-    """Two clicks: the menu of materials, which is above the Measure button, and its entry; returns their count."""
+    """Two clicks: the menu of materials, which is above the Measure button, and its entry; returns
+    their count.
+    """
     x, y, width, height = window.region("UI")
     left, measure = window.place("object.body_moments_measure")
     window.click(x + (width - 28) * 0.6, measure + 22)
@@ -234,7 +238,8 @@ CLICKED = {
     "object.body_moments_sculpt_balance": (
         {},
         EDIT + "bpy.context.scene.cursor.location = (1.6, 2.0, 3.0)",
-        "bpy.context.window_manager.operators[-1].bl_idname == 'OBJECT_OT_body_moments_sculpt_balance'",
+        "bpy.context.window_manager.operators[-1].bl_idname == "
+        "'OBJECT_OT_body_moments_sculpt_balance'",
     ),
     "object.body_moments_select_refused": (
         {},
@@ -294,7 +299,8 @@ CLICKED = {
     "object.body_moments_align_to_world": (
         {},
         f"{PART}.rotation_euler = (0.3, 0.2, 0.1)",
-        f"max(abs(round(e) - e) for row in {PART}.matrix_world.to_3x3().normalized() for e in row) < 1e-4",
+        f"max(abs(round(e) - e) for row in {PART}.matrix_world.to_3x3().normalized()"
+        " for e in row) < 1e-4",
     ),
     "view3d.body_moments_cursor_to_center": (
         {},
@@ -310,35 +316,42 @@ CLICKED = {
     "object.body_moments_compute_moments": (
         {},
         "",
-        f"__import__('sys').modules['{PACKAGE}.blender.session.stored.moments'].computed_moments({PART}) is not None",
+        f"__import__('sys').modules['{PACKAGE}.blender.session.stored.moments']"
+        f".computed_moments({PART}) is not None",
     ),
     "object.body_moments_find_symmetry": ({}, "", f"{PART}.body_moments_symmetry.group == 'D2h'"),
     "object.body_moments_find_similar": (
         {},
-        "bpy.ops.object.duplicate()\nbpy.context.object.name = 'Twin'\nbpy.context.object.location.x += 9.0\n"
+        "bpy.ops.object.duplicate()\nbpy.context.object.name = "
+        "'Twin'\nbpy.context.object.location.x += 9.0\n"
         f"bpy.context.view_layer.objects.active = {PART}\n{PART}.select_set(True)",
         "len(bpy.context.scene.body_moments_search.found) == 1",
     ),
     "object.body_moments_match_pose": (
         {},
-        "bpy.ops.object.duplicate()\ntwin = bpy.context.object\ntwin.name = 'Twin'\ntwin.location.x += 9.0\n"
+        "bpy.ops.object.duplicate()\ntwin = bpy.context.object\ntwin.name = "
+        "'Twin'\ntwin.location.x += 9.0\n"
         f"{PART}.select_set(True)\nbpy.context.view_layer.objects.active = {PART}",
         f"(bpy.data.objects['Twin'].location - {PART}.location).length < 1e-4",
     ),
     "object.body_moments_link_copies": (
         {},
-        "bpy.ops.object.duplicate()\ntwin = bpy.context.object\ntwin.name = 'Twin'\ntwin.location.x += 9.0\n"
-        f"twin.data.transform(__import__('mathutils').Matrix.Translation((0.3, 0, 0)))\n{PART}.select_set(True)",
+        "bpy.ops.object.duplicate()\ntwin = bpy.context.object\ntwin.name = "
+        "'Twin'\ntwin.location.x += 9.0\n"
+        "twin.data.transform(__import__('mathutils').Matrix.Translation((0.3, 0, 0)))\n"
+        f"{PART}.select_set(True)",
         f"bpy.data.objects['Twin'].data == {PART}.data",
     ),
     "object.body_moments_copy_settings": (
         {},
-        f"bpy.ops.object.duplicate()\nbpy.context.object.name = 'Twin'\n{PART}.body_moments.density = 5.0\n"
+        "bpy.ops.object.duplicate()\nbpy.context.object.name = 'Twin'\n"
+        f"{PART}.body_moments.density = 5.0\n"
         f"{PART}.select_set(True)\nbpy.context.view_layer.objects.active = {PART}",
         "bpy.data.objects['Twin'].body_moments.density == 5.0",
     ),
 }
-# operator: the ending of the file that its browser is for, what is there before, what must have happened
+# operator: the ending of the file that its browser is for, what is there before, what must have
+# happened
 IN_BROWSER = {
     "export_scene.body_moments_urdf": ("urdf", MEASURED, "{path}.is_file()"),
     "export_scene.body_moments_sdf": ("sdf", MEASURED, "{path}.is_file()"),
@@ -429,7 +442,10 @@ def write_input(operator, path: Path) -> None:
         surface = "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nparm u 0 1\nparm v 0 1\nend\n"
         path.write_text(corners + surface, "utf-8")
     elif operator.endswith("audit"):
-        inertial = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+        inertial = (
+            '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" '
+            'iyz="0"/></inertial>'
+        )
         path.write_text(f'<robot name="r"><link name="l">{inertial}</link></robot>', "utf-8")
     elif operator.endswith("find_in_library"):
         path.write_text("", "utf-8")
@@ -444,7 +460,8 @@ CHECKBOX, TITLE, ROW = (
     56,
     23,
 )  # pixels from the pointer where F9 was pressed, and between settings
-# operator: which setting is clicked, what is there before, what is looked at, after the action, after the click
+# operator: which setting is clicked, what is there before, what is looked at, after the action,
+# after the click
 REDONE = {
     "object.body_moments_add_empty": (0, "", EMPTIES, [True], [False]),
     "object.body_moments_add_nodes": (

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The first ten minutes of the manual, step by step, with the picture of each step (see test_pictures.py)."""
+"""The first ten minutes of the manual, step by step, with the picture of each step (see
+test_pictures.py).
+"""
 
 import pytest
 

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live numbers by mouse and keys: they follow the control points of a NURBS object while they are dragged, lag behind
-strokes of a brush and say so, and go back with them."""
+"""Live numbers by mouse and keys: they follow the control points of a NURBS object while they are
+dragged, lag behind strokes of a brush and say so, and go back with them.
+"""
 
 import math
 
@@ -109,7 +110,9 @@ def test_numbers_follow_a_stroke_when_it_stops(window):
 
 
 def test_dynamic_topology_is_refused(window):
-    """The mesh that is drawn is then Sculpt Mode's own: numbers of the object's mesh are not those of what is seen."""
+    """The mesh that is drawn is then Sculpt Mode's own: numbers of the object's mesh are not those
+    of what is seen.
+    """
     window.ask(SPHERE_SCENE)
     window.open_tab("Moments")
     window.ask("bpy.ops.sculpt.dynamic_topology_toggle()")

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Work that takes long: the window lives on and shows how far it is, Esc leaves nothing half-written, and results come.
+"""Work that takes long: the window lives on and shows how far it is, Esc leaves nothing
+half-written, and results come.
 
 Measure Library from the menu, by mouse, then a thousand parts, then a Fourier transform.
 """
@@ -80,7 +81,9 @@ for obj in list(bpy.data.objects):
 for number in range({PART_COUNT}):
     mesh = bpy.data.meshes.new("Part")
     a, b, c = (random.uniform(0.5, 1.5) for _ in range(3))
-    corners = [(x * a, y * b, z * c + 0.1 * x * y) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    corners = [
+        (x * a, y * b, z * c + 0.1 * x * y) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)
+    ]
     sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     mesh.from_pydata(corners, [], sides)
     obj = bpy.data.objects.new("Part", mesh)
@@ -127,7 +130,8 @@ def test_esc_during_rigid_body_masses_changes_no_object(parts):
     window = parts
     window.point_at_view()
     window.ask(
-        "bpy.ops.object.body_moments_set_rigid_body_mass('INVOKE_DEFAULT', True, add=True, axes=True)"
+        "bpy.ops.object.body_moments_set_rigid_body_mass('INVOKE_DEFAULT', True, add=True, "
+        "axes=True)"
     )
     window.key("Escape")
     window.wait("not " + RUNNING, limit=200.0)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A floaty jump in the real window: its momentum from nothing is listed, and Put on Parabola takes it away."""
+"""A floaty jump in the real window: its momentum from nothing is listed, and Put on Parabola takes
+it away.
+"""
 
 import os
 
@@ -11,7 +13,8 @@ from tests.window.conftest import FIGURE, open_window
 JUMP = """
 root, hips, scene = rig.pose.bones["root"], rig.pose.bones["hips"], bpy.context.scene
 scene.frame_start, scene.frame_end = 1, 32
-for frame, place in ((1, (0, 0, 0)), (8, (0, 0, 0)), (16, (0, -0.9, 0.9)), (24, (0, -1.8, 0)), (32, (0, -1.8, 0))):
+places = {1: (0, 0, 0), 8: (0, 0, 0), 16: (0, -0.9, 0.9), 24: (0, -1.8, 0), 32: (0, -1.8, 0)}
+for frame, place in places.items():
     root.location = place
     root.keyframe_insert("location", frame=frame)
 lows, swings = (0, -0.25, 0, 0, 0, -0.25, 0), (-1.2, -1.0, -0.6, 0.7, -0.6, -1.0, -1.2)
@@ -83,7 +86,8 @@ def test_jump_is_filmed_floaty_and_falling(run_blender, cube_file, tmp_path):
     with open_window(run_blender, cube_file, tmp_path) as window:
         window.ask(FIGURE + JUMP)
         window.ask(
-            "view = area.spaces.active.region_3d\nview.view_location.y, view.view_distance = -0.65, 4.6"
+            "view = area.spaces.active.region_3d\nview.view_location.y, view.view_distance = "
+            "-0.65, 4.6"
         )
         window.ask("bpy.context.preferences.system.viewport_aa = '8'")
         window.open_tab("Moments")

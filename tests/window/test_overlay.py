@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The overlay's pixels in the window: the disc is at the projected center, says the verdict, follows a move in the same
-redraw, and is gone when it is switched off or the add-on is disabled.
+"""The overlay's pixels in the window: the disc is at the projected center, says the verdict,
+follows a move in the same redraw, and is gone when it is switched off or the add-on is disabled.
 
 The tests run in the order of the file and go on from one another.
 """
@@ -38,7 +38,8 @@ def white_pixels_of_disc(window, name):
     window.get("True")
     screen = window.pixels(name)
     x, y = window.ask(
-        "from bpy_extras.view3d_utils import location_3d_to_region_2d as project\nregion = regions['WINDOW']\n"
+        "from bpy_extras.view3d_utils import location_3d_to_region_2d as project\nregion = "
+        "regions['WINDOW']\n"
         "center = bpy.data.objects['Cube'].matrix_world.translation\n"
         "place = project(region, area.spaces.active.region_3d, center)\n"
         "result = [round(region.x + place.x), round(region.y + place.y)]"
@@ -93,22 +94,26 @@ def test_it_is_switched_off(window, switch):
 
 LEFT = f"""
 import sys
-kinds = (bpy.types.Panel, bpy.types.Menu, bpy.types.Operator, bpy.types.PropertyGroup, bpy.types.UIList)
+types = bpy.types
+kinds = (types.Panel, types.Menu, types.Operator, types.PropertyGroup, types.UIList)
 names = (getattr(bpy.types, name) for name in dir(bpy.types))
 menus = [getattr(getattr(cls, "draw", None), "_draw_funcs", None) or () for cls in names]
 lists = [getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers)]
-functions = [entry for entries in (*menus, *(one for one in lists if isinstance(one, list))) for entry in entries]
+lists = [*menus, *(one for one in lists if isinstance(one, list))]
+functions = [entry for entries in lists for entry in entries]
 left = [str(entry) for entry in functions if str(entry.__module__).startswith({PACKAGE!r})]
 left += [str(cls) for kind in kinds for cls in kind.__subclasses__()
          if cls.__module__.startswith({PACKAGE!r}) and getattr(cls, "is_registered", False)]
-owners = (bpy.types.Object, bpy.types.Scene, bpy.types.Collection, bpy.types.Material, bpy.types.PoseBone,
-          bpy.types.WindowManager)
+owners = (bpy.types.Object, bpy.types.Scene, bpy.types.Collection, bpy.types.Material,
+          bpy.types.PoseBone, bpy.types.WindowManager)
 left += [name for owner in owners for name in dir(owner) if "body_moments" in name]
 ours = [module for name, module in sys.modules.items() if name.startswith({PACKAGE!r})]
-members = [member for module in ours for member in vars(module).values() if type(member) is type(lambda: 0)]
+members = [member for module in ours for member in vars(module).values()
+           if type(member) is type(lambda: 0)]
 left += [str(member) for member in members if bpy.app.timers.is_registered(member)]
 keys = bpy.context.window_manager.keyconfigs
-left += [item.idname for keymap in keys.user.keymaps for item in keymap.keymap_items if "body_moments" in item.idname]
+left += [item.idname for keymap in keys.user.keymaps for item in keymap.keymap_items
+         if "body_moments" in item.idname]
 drawing = sys.modules.get("{PACKAGE}.panels.overlay.draw")
 left += [] if drawing is None or not drawing._handles else ["draw handler"]
 result = left

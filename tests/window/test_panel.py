@@ -10,7 +10,10 @@ import pytest
 CUBE = "bpy.data.objects['Cube']"
 PLACE = f"list({CUBE}.location)"
 PACKAGE = "bl_ext.user_default.body_moments"
-STALE = f"sys.modules['{PACKAGE}.blender.session.tracking.staleness'].stale_reason({CUBE}, bpy.context.scene)"
+STALE = (
+    f"sys.modules['{PACKAGE}.blender.session.tracking.staleness']"
+    f".stale_reason({CUBE}, bpy.context.scene)"
+)
 
 
 def test_the_sidebar_has_the_tab(window):

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The demo's bracket is measured and snapped as the manual tells it; pictures of the manual are taken on the way.
+"""The demo's bracket is measured and snapped as the manual tells it; pictures of the manual are
+taken on the way.
 
 They are left among the artefacts; the documents show copies of them (tests/window/pictures).
 """
@@ -62,7 +63,8 @@ def test_an_empty_shows_the_principal_frame(window):
 
 def test_a_nurbs_sphere_is_the_ball_that_it_is(window):
     window.ask(
-        "bpy.context.scene.unit_settings.scale_length = 1.0\nbpy.context.scene.unit_settings.length_unit = 'METERS'\n"
+        "bpy.context.scene.unit_settings.scale_length = "
+        "1.0\nbpy.context.scene.unit_settings.length_unit = 'METERS'\n"
         "for obj in list(bpy.data.objects):\n    bpy.data.objects.remove(obj)\n"
         "bpy.ops.surface.primitive_nurbs_surface_sphere_add()\nbpy.ops.view3d.view_selected()"
     )
@@ -83,7 +85,8 @@ def test_a_scan_is_imported_and_measured(window, tmp_path):
     np.save(tmp_path / "scan.npy", samples)
     window.ask(
         "bpy.data.objects.remove(bpy.context.object)\n"
-        f"bpy.ops.object.body_moments_import_scan('EXEC_DEFAULT', True, filepath={str(tmp_path / 'scan.npy')!r})\n"
+        "bpy.ops.object.body_moments_import_scan("
+        f"'EXEC_DEFAULT', True, filepath={str(tmp_path / 'scan.npy')!r})\n"
         "bpy.ops.view3d.view_selected()"
     )
     window.press("object.body_moments_measure")

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Preferences go into the scene when it is first used: elsewhere, with other preferences, the file gives the same."""
+"""Preferences go into the scene when it is first used: elsewhere, with other preferences, the file
+gives the same.
+"""
 
 import json
 
@@ -32,7 +34,8 @@ ELSEWHERE = """\
 import bpy, json
 chosen = bpy.context.preferences.addons["bl_ext.user_default.body_moments"].preferences
 chosen.default_material = "Copper"
-assert chosen.frame == "WORLD" and chosen.digits == 4 and chosen.show_overlay  # not those of the first run
+# not those of the first run
+assert chosen.frame == "WORLD" and chosen.digits == 4 and chosen.show_overlay
 bpy.ops.object.body_moments_measure()
 settings, cube = bpy.context.scene.body_moments, bpy.data.objects["Cube"]
 names = "frame density_unit digits digit_grouping default_material default_density".split()
@@ -43,7 +46,10 @@ print("SEEN", json.dumps([seen, settings.overlay.show, cube["body_mass"]]))
 
 @pytest.fixture(scope="module")
 def saved(run_blender, cube_file, tmp_path_factory):
-    """The file that was measured where the preferences were those above. They were not saved as preferences."""
+    """The file that was measured where the preferences were those above.
+
+    They were not saved as preferences.
+    """
     folder = tmp_path_factory.mktemp("preferences")
     script, file = folder / "measured.py", folder / "measured.blend"
     script.write_text(MEASURED, encoding="utf-8")

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A character and an assembly in the real window: buttons pressed by the mouse, what panels and overlay then show."""
+"""A character and an assembly in the real window: buttons pressed by the mouse, what panels and
+overlay then show.
+"""
 
 import pytest
 
@@ -23,7 +25,8 @@ for number in range(4):
     above = bone
 bpy.ops.object.mode_set(mode="OBJECT")
 mesh, made = bpy.data.meshes.new("Skin"), bmesh.new()
-bmesh.ops.create_cube(made, size=1.0, matrix=Matrix.Diagonal((1, 1, 4, 1)) @ Matrix.Translation((0, 0, 0.5)))
+tall = Matrix.Diagonal((1, 1, 4, 1)) @ Matrix.Translation((0, 0, 0.5))
+bmesh.ops.create_cube(made, size=1.0, matrix=tall)
 for level in (1, 2, 3):
     everything = [*made.verts, *made.edges, *made.faces]
     bmesh.ops.bisect_plane(made, geom=everything, plane_co=(0, 0, level), plane_no=(0, 0, 1))
@@ -63,7 +66,8 @@ def rig(window):
 
 def first_in_properties(tab):
     return (
-        f"next(one for one in window.screen.areas if one.type == 'PROPERTIES').spaces.active.context = {tab!r}\n"
+        "next(one for one in window.screen.areas"
+        f" if one.type == 'PROPERTIES').spaces.active.context = {tab!r}\n"
         f"cls = bpy.types.{tab}_PT_body_moments\n"
         "bpy.utils.unregister_class(cls)\n"
         "cls.bl_options, cls.bl_order = set(), -1\n"
@@ -81,7 +85,8 @@ def test_bones_are_measured_and_drawn_in_their_pose(rig):
     window.ask("bpy.context.scene.body_moments.overlay.show = True")
     window.ask("bpy.ops.object.mode_set(mode='POSE')\nbpy.ops.pose.select_all(action='SELECT')")
     window.ask(
-        "with bpy.context.temp_override(area=area, region=regions['WINDOW']):\n    bpy.ops.view3d.view_all()"
+        "with bpy.context.temp_override(area=area, region=regions['WINDOW']):\n    "
+        "bpy.ops.view3d.view_all()"
     )
     window.picture("rig-overlay")
     assert "Traceback" not in window.output()
@@ -101,7 +106,8 @@ def test_the_assembly_is_a_tree(rig):
     window = rig
     window.ask(
         "bpy.ops.object.mode_set(mode='OBJECT')\n"
-        "bpy.context.view_layer.active_layer_collection = bpy.context.view_layer.layer_collection.children['Character']"
+        "bpy.context.view_layer.active_layer_collection = "
+        "bpy.context.view_layer.layer_collection.children['Character']"
     )
     window.ask("bpy.ops.object.body_moments_measure_assembly('EXEC_DEFAULT', True)")
     assert (

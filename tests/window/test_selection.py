@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of measured objects in the window: a click on a line selects, one on a column sorts, a button copies."""
+"""The list of measured objects in the window: a click on a line selects, one on a column sorts, a
+button copies.
+"""
 
 import csv
 import io
@@ -32,7 +34,8 @@ for name in ("inertia", "density", "apply", "stability", "assembly", "advanced")
     cls = getattr(bpy.types, "VIEW3D_PT_body_moments_" + name, None)
     if cls is not None:
         panels = bpy.types.Panel.__subclasses__()
-        for child in [panel for panel in panels if getattr(panel, "bl_parent_id", "") == cls.__name__]:
+        name = cls.__name__
+        for child in [panel for panel in panels if getattr(panel, "bl_parent_id", "") == name]:
             bpy.utils.unregister_class(child)
         bpy.utils.unregister_class(cls)
 """
@@ -43,7 +46,8 @@ THREE = (
     + """
 for cls in bpy.types.Panel.__subclasses__():
     if cls.__name__ == "VIEW3D_PT_body_moments":
-        cls.draw = lambda self, context: None  # the rows above the list, which differ from object to object
+        # the rows above the list, which differ from object to object
+        cls.draw = lambda self, context: None
 """
 )
 FIRST_LINE, LINE_STEP = (
@@ -84,7 +88,8 @@ def test_a_click_on_a_line_selects_that_object(listed):
     ]
     found = []
     for line in range(3):
-        window.buttons.clear()  # the panel above the list changes with the active object, and moves it
+        # the panel above the list changes with the active object, and moves it
+        window.buttons.clear()
         x, y = center(window, "object.body_moments_copy")
         window.click(x, y + FIRST_OF_CLOSED - line * LINE_STEP)
         window.redraw()

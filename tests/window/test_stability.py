@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stability and balance by mouse and keys: the buttons of the sub-panel, undo, the dialog, Esc on the way.
+"""Stability and balance by mouse and keys: the buttons of the sub-panel, undo, the dialog, Esc on
+the way.
 
 The tests run in the order of the file and go on from one another.
 """
@@ -65,10 +66,12 @@ def test_button_lays_body_on_the_ground_and_undo_restores_it(window):
 
 def test_a_balance_group_is_followed_after_its_dialog(window):
     window.ask(
-        f"cube = {CUBE}\ncube.body_moments.density = 1000.0  # no note: the dialog's fields are not below the mouse\n"
+        # no note: the dialog's fields are not below the mouse
+        f"cube = {CUBE}\ncube.body_moments.density = 1000.0\n"
         "for frame in range(1, 31):\n    cube.location.x = 0.1 * frame\n"
         "    cube.keyframe_insert('location', frame=frame)\n"
-        "bpy.context.scene.frame_end = 30\nbpy.context.scene.frame_set(4)\nbpy.ops.ed.undo_push(message='Keys')"
+        "bpy.context.scene.frame_end = "
+        "30\nbpy.context.scene.frame_set(4)\nbpy.ops.ed.undo_push(message='Keys')"
     )
     window.press("object.body_moments_balance_group")
     window.key("Return")

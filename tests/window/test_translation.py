@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Languages of a real Blender: translations are read when one is chosen, and are gone with the add-on."""
+"""Languages of a real Blender: translations are read when one is chosen, and are gone with the
+add-on.
+"""
 
 import json
 
@@ -9,9 +11,13 @@ PACKAGE = "bl_ext.user_default.body_moments"
 SWITCH = """
 import addon_utils, bpy, json, sys
 opened = []
-sys.addaudithook(lambda event, arguments: event == "open" and str(arguments[0]).endswith(".po") and opened.append(1))
+def hook(event, arguments):
+    if event == "open" and str(arguments[0]).endswith(".po"):
+        opened.append(1)
+sys.addaudithook(hook)
 def show(step):
-    print(json.dumps([step, bpy.app.translations.pgettext_iface("Capped", "Body Moments"), len(opened)]))
+    word = bpy.app.translations.pgettext_iface("Capped", "Body Moments")
+    print(json.dumps([step, word, len(opened)]))
 addon_utils.disable("{package}")
 addon_utils.enable("{package}")
 show(bpy.context.preferences.view.language)

@@ -9,7 +9,8 @@ from tests.window.conftest import FIGURE, ROOT, open_window
 # Show one sub-panel open and the others closed: Blender keeps that by name, so they get new names.
 ONLY = """
 import bpy
-classes = [cls for cls in bpy.types.Panel.__subclasses__() if cls.__name__.startswith("VIEW3D_PT_body_moments_")]
+panels = bpy.types.Panel.__subclasses__()
+classes = [cls for cls in panels if cls.__name__.startswith("VIEW3D_PT_body_moments_")]
 names = {{}}
 for cls in reversed(classes):
     bpy.utils.unregister_class(cls)
@@ -36,7 +37,8 @@ FRAME = """
 bpy.ops.view3d.view_selected()
 view = area.spaces.active.region_3d
 view.view_distance *= {}
-view.view_location += view.view_rotation @ __import__("mathutils").Vector((0.2 * view.view_distance, 0, 0))
+from mathutils import Vector
+view.view_location += view.view_rotation @ Vector((0.2 * view.view_distance, 0, 0))
 """
 EXPORT_BRACKET = """
 import bpy
@@ -66,8 +68,11 @@ for _ in range(5):
         for side in (normal, -normal):
             half = piece.copy()
             everything = [*half.verts, *half.edges, *half.faces]
-            cut = bmesh.ops.bisect_plane(half, geom=everything, plane_co=middle, plane_no=side, clear_outer=True)
-            bmesh.ops.contextual_create(half, geom=[e for e in cut["geom_cut"] if isinstance(e, bmesh.types.BMEdge)])
+            cut = bmesh.ops.bisect_plane(
+                half, geom=everything, plane_co=middle, plane_no=side, clear_outer=True
+            )
+            edges = [e for e in cut["geom_cut"] if isinstance(e, bmesh.types.BMEdge)]
+            bmesh.ops.contextual_create(half, geom=edges)
             halves.append(half)
     pieces = halves
 for number, piece in enumerate(pieces):
@@ -247,7 +252,8 @@ def test_bones_of_a_figure_are_weighed(window):
 
 def test_copies_are_found_and_laid_onto_the_part(window):
     window.ask(
-        "bpy.context.preferences.addons['bl_ext.user_default.body_moments'].preferences.show_advanced = True"
+        "bpy.context.preferences.addons['bl_ext.user_default.body_moments']"
+        ".preferences.show_advanced = True"
     )
     begin(window, PARTS, "Advanced", "Shape", closer=1.1)
     window.press("object.body_moments_find_similar")

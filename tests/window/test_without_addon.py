@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The node group Center of Mass in a Blender that has never seen the add-on: modifiers and animation are followed."""
+"""The node group Center of Mass in a Blender that has never seen the add-on: modifiers and
+animation are followed.
+"""
 
 import json
 import subprocess
@@ -29,7 +31,9 @@ scene.collection.objects.link(part)
 part.body_moments.density = {DENSITY}
 part.scale = (1.0, 1.0, -2.0)
 array = part.modifiers.new("Array", "ARRAY")
-array.use_relative_offset, array.use_constant_offset, array.constant_offset_displace = False, True, (4.0, 0.0, 0.0)
+array.use_relative_offset = False
+array.use_constant_offset = True
+array.constant_offset_displace = (4.0, 0.0, 0.0)
 part.shape_key_add(name="Basis")
 taller = part.shape_key_add(name="Taller", from_mix=False)
 for point in taller.data:
@@ -83,7 +87,9 @@ print("SEEN", json.dumps(seen))
 
 @pytest.fixture(scope="module")
 def without_addon(run_blender, tmp_path_factory):
-    """Return the numbers of the file in a Blender with factory settings and an empty user folder."""
+    """Return the numbers of the file in a Blender with factory settings and an empty user
+    folder.
+    """
     folder = tmp_path_factory.mktemp("nodes")
     made, read, file = folder / "made.py", folder / "read.py", folder / "nodes.blend"
     made.write_text(MADE, encoding="utf-8")

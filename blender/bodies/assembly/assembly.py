@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Assemblies: each member is measured once, and their masses add up, with exact parallel-axis terms.
+"""Assemblies: each member is measured once, and their masses add up, with exact parallel-axis
+terms.
 
-A scaled instance multiplies masses by a power of its scale: 3 for solids, 2 for shells, 1 for wires, 0 for given
-masses. Mass moments are stored by this power, so that a collection instance is not measured again.
+A scaled instance multiplies masses by a power of its scale: 3 for solids, 2 for shells, 1 for
+wires, 0 for given masses. Mass moments are stored by this power, so that a collection instance is
+not measured again.
 """
 
 from __future__ import annotations
@@ -76,10 +78,10 @@ Results = dict[Object, Measured | Stacked | Finding]
 class MemberBody:
     """Moments of a member of an assembly, in SI units along the world's axes.
 
-    `masses`: mass moments to third order, by the power of an instance's scale (see the module); empty if no mass.
-    `volume`, m³, and `area`, m²: with their bounds.
-    `measured`: the result of an object, with its `measurement`; `refusal`: the reason why it could not be measured.
-    `parts`: the members of this member. `findings`: about this member alone, without its parts.
+    `masses`: mass moments to third order, by the power of an instance's scale (see the module);
+    empty if no mass. `volume`, m³, and `area`, m²: with their bounds. `measured`: the result of an
+    object, with its `measurement`; `refusal`: the reason why it could not be measured. `parts`: the
+    members of this member. `findings`: about this member alone, without its parts.
     """
 
     member: Member
@@ -115,7 +117,9 @@ class Assembly:
 def measure_assembly(
     root: Root, depsgraph: Depsgraph, options: MeasureOptions = AS_SET
 ) -> Assembly:
-    """Measure a collection, or an empty with its children, as one body; MeasureError if it has no mass."""
+    """Measure a collection, or an empty with its children, as one body; MeasureError if it has no
+    mass.
+    """
     member = members_of(root, depsgraph)
     results: Results = {}
     for _ in measure_members(member, depsgraph, results, options):
@@ -126,7 +130,9 @@ def measure_assembly(
 def measure_members(
     root: Member, depsgraph: Depsgraph, results: Results, options: MeasureOptions = AS_SET
 ) -> Generator[int, None, None]:
-    """Store the result or refusal of each object of an assembly in `results`; yield the number of results."""
+    """Store the result or refusal of each object of an assembly in `results`; yield the number of
+    results.
+    """
     objects = {
         member.data: None for member in root.walk() if member.is_measured or _is_sheared(member)
     }
@@ -207,7 +213,9 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
 
 
 def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
-    """Yield the findings about an assembly: first about the whole, then about its members, with their names."""
+    """Yield the findings about an assembly: first about the whole, then about its members, with
+    their names.
+    """
     yield from whole.findings
     members = list(whole.walk())
     refused = [part.member.name for part in members if part.refusal is not None]
@@ -267,7 +275,9 @@ def _object_body(member: Member, result: Measured | Stacked | Finding) -> Member
 def _sum(
     like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody, ...]
 ) -> MemberBody:
-    """Return a copy of `like` with `parts`, and the sums of the masses, volumes and areas of bodies with a mass."""
+    """Return a copy of `like` with `parts`, and the sums of the masses, volumes and areas of bodies
+    with a mass.
+    """
     bodies = [body for body in bodies if body.masses]
     masses: dict[int, list[Moments]] = {}
     for body in bodies:
@@ -283,7 +293,9 @@ def _sum(
 
 
 def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
-    """Return the body of a collection or an empty with children, with its given mass if the settings have one."""
+    """Return the body of a collection or an empty with children, with its given mass if the
+    settings have one.
+    """
     data = whole.member.data
     settings = settings_of(data)
     if settings.mass_from != "MASS":
@@ -306,14 +318,18 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
 
 
 def _is_sheared(member: Member) -> bool:
-    """Return whether an instance stretches its members unevenly, so that their areas have no common factor."""
+    """Return whether an instance stretches its members unevenly, so that their areas have no common
+    factor.
+    """
     return (
         member.matrix is not None and not are_similarities(np.array([member.matrix])[:, :3, :3])[0]
     )
 
 
 def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBody:
-    """Return the body of a collection instance: the moments of its members, mapped to its place, or a refusal."""
+    """Return the body of a collection instance: the moments of its members, mapped to its place, or
+    a refusal.
+    """
     member = whole.member
     assert member.matrix is not None
     matrix = to_si([member.matrix], unit)[0]

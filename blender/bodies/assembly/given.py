@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts with a given mass: their given center and inertia, and point masses, which have no geometry.
+"""Parts with a given mass: their given center and inertia, and point masses, which have no
+geometry.
 
-Given values replace a body's mass moments: mass, center and second moments. Volume and area stay as measured.
+Given values replace a body's mass moments: mass, center and second moments. Volume and area stay as
+measured.
 """
 
 from __future__ import annotations
@@ -36,7 +38,9 @@ GIVEN_RTOL = 1e-6  # slack for values typed with few digits, relative to the tra
 def given_moments(
     mass: float, given: GivenPart, rotation: NDArray, location: NDArray, geometry: Moments | None
 ) -> tuple[Moments, list[Finding]]:
-    """Return mass moments (SI, world, about the center) of a part with given mass, center and inertia, and findings."""
+    """Return mass moments (SI, world, about the center) of a part with given mass, center and
+    inertia, and findings.
+    """
     if not mass > 0.0:
         raise ReadError(ZERO_QUANTITY, quantity="mass")
     raw, rounding, inputs = np.zeros((3, COUNT))
@@ -70,7 +74,9 @@ def given_moments(
 
 
 def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
-    """Return the (3, 3) second moments of a body with this inertia tensor; ReadError if no body can have it."""
+    """Return the (3, 3) second moments of a body with this inertia tensor; ReadError if no body can
+    have it.
+    """
     second = np.trace(inertia) / 2.0 * np.eye(3) - inertia
     values, axes = np.linalg.eigh(second)
     if values[0] < -GIVEN_RTOL * np.trace(inertia) or not np.isfinite(values).all():
@@ -81,7 +87,9 @@ def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
 
 
 def with_given(body: Body, reading: Reading, request: Request) -> Body:
-    """Return the body with the center and inertia of its settings, or raise ReadError if they are impossible."""
+    """Return the body with the center and inertia of its settings, or raise ReadError if they are
+    impossible.
+    """
     if request.settings.mass is None or request.obj.body_moments.mass_from != "MASS":
         return body
     given = GivenPart.from_settings(request.obj.body_moments, request.settings.unit)
@@ -101,7 +109,9 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
 
 
 def _is_outside(point: NDArray, reading: Reading, unit: float) -> bool:
-    """Return whether a point is outside every box around a part of the reading; False if there are no parts."""
+    """Return whether a point is outside every box around a part of the reading; False if there are
+    no parts.
+    """
     for part in getattr(reading, "parts", ()):
         center, half = placed_boxes(part.surface.box, to_si(part.matrices, unit))
         if (np.abs(point - center) <= half * (1.0 + GIVEN_RTOL)).all(axis=1).any():
@@ -117,7 +127,9 @@ def read_point(request: Request) -> Reading | None:
 
 
 def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, Body]:
-    """Return the results of a part without geometry, and its body, or raise ReadError if it has no mass."""
+    """Return the results of a part without geometry, and its body, or raise ReadError if it has no
+    mass.
+    """
     properties = request.obj.body_moments
     settings = request.settings
     given = GivenPart.from_settings(properties, settings.unit)

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mass moments of a body whose density is a function of the place: a polynomial, or a Volume object's grid.
+"""The mass moments of a body whose density is a function of the place: a polynomial, or a Volume
+object's grid.
 
-No polynomial may be negative in the body. A solid and the Volume object that fills it keep their places.
+No polynomial may be negative in the body. A solid and the Volume object that fills it keep their
+places.
 """
 
 from __future__ import annotations
@@ -66,7 +68,8 @@ MAX_OUTSIDE_SHARE = 1e-9  # of the volume: a smaller share outside the grid is r
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A surface with (k, 4, 4) `matrices` to the world, and `fields` to the coordinates of the density, in meters.
+    """A surface with (k, 4, 4) `matrices` to the world, and `fields` to the coordinates of the
+    density, in meters.
 
     about: the point that an open surface is closed to.
     """
@@ -80,7 +83,9 @@ class _Piece:
 def polynomial_mass_result(
     reading: Reading, body: MeshBody, density: DensityField, settings: Settings, order: int
 ) -> tuple[list[Moments], list[Finding]]:
-    """Return the mass moments of all parts to an order (of a shell per meter of thickness), and the findings."""
+    """Return the mass moments of all parts to an order (of a shell per meter of thickness), and the
+    findings.
+    """
     polynomial = density.polynomial
     findings = []
     unit = settings.unit
@@ -129,7 +134,9 @@ def _solid_pieces(
 
 
 def _to_local(matrices: NDArray) -> NDArray[np.float64]:
-    """Return (k, 4, 4) maps from world coordinates, in meters, to coordinates along the axes of each place."""
+    """Return (k, 4, 4) maps from world coordinates, in meters, to coordinates along the axes of
+    each place.
+    """
     axes = polar_rotation(matrices)[0].transpose(0, 2, 1)
     return affine_matrices(axes, -(axes @ matrices[:, :3, 3, None])[..., 0])
 
@@ -150,7 +157,9 @@ def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Pi
 def _negative_density_note(
     density: DensityField, pieces: list[_Piece], shell: bool
 ) -> list[Finding]:
-    """Return a finding if the density may be negative in the body; raise ReadError if it is negative."""
+    """Return a finding if the density may be negative in the body; raise ReadError if it is
+    negative.
+    """
     polynomial = density.polynomial
     assert polynomial is not None
     corners = np.array(list(product((0.0, 1.0), repeat=3)))
@@ -185,7 +194,9 @@ def _negative_density_note(
 
 
 def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
-    """Return the solid with the density of the Volume object that its settings name, or raise MeasureError."""
+    """Return the solid with the density of the Volume object that its settings name, or raise
+    MeasureError.
+    """
     name = request.obj.name
     source = request.obj.body_moments.density_volume
     grid = GridOptions.from_settings(source.body_moments)
@@ -207,7 +218,9 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
 def voxel_filled_body(
     body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int
 ) -> MeshBody:
-    """Return the body of the object `name` with mass moments to an order, from the grid's densities inside it."""
+    """Return the body of the object `name` with mass moments to an order, from the grid's densities
+    inside it.
+    """
     names = {"grid": reading.grid, "object": reading.name}
     options.needs_even_samples(reading.grid)
     if body.method.procedure == Procedure.OPEN:
@@ -289,7 +302,9 @@ def _box_densities(
 
 
 def _input_error(body: MeshBody, mass: Moments) -> NDArray[np.float64]:
-    """Return the solid's input error, scaled by the ratio of largest moments or of totals, whichever is larger."""
+    """Return the solid's input error, scaled by the ratio of largest moments or of totals,
+    whichever is larger.
+    """
     solid = body.volume if mass.order <= body.volume.order else body.moments(mass.order, False)[0]
     solid = solid.about_point(mass.about).truncate(mass.order)
     scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)

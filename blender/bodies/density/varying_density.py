@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mass moments of a body of varying density, from materials, a polynomial, a vertex attribute or a Volume object.
+"""The mass moments of a body of varying density, from materials, a polynomial, a vertex attribute
+or a Volume object.
 
 Each surface is weighed once in its own coordinates, and its moments are mapped to its places.
 """
@@ -62,8 +63,9 @@ MAX_NAMED = 8  # materials in the note on the source of the density
 class _Weighed:
     """Mass of a part or body.
 
-    mass: moments in kg, SI units and world axes. source: a note on the source of the density. findings: about the
-    decisions. materials: full names of all materials met, with a density or without.
+    mass: moments in kg, SI units and world axes. source: a note on the source of the density.
+    findings: about the decisions. materials: full names of all materials met, with a density or
+    without.
     """
 
     mass: Moments
@@ -73,7 +75,9 @@ class _Weighed:
 
 
 def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
-    """Return the body with mass moments to the requested order, or raise MeasureError if a density is impossible."""
+    """Return the body with mass moments to the requested order, or raise MeasureError if a density
+    is impossible.
+    """
     find_extent(body, request.settings)  # raises MeasureError before anything is weighed
     order = request.settings.order
     if _field(request).kind == "volume":
@@ -111,7 +115,9 @@ def _weigh(reading: Reading, body: MeshBody, request: Request, order: int) -> _W
 
 
 def _field(request: Request) -> DensityField:
-    """Return the density of the requested body, which must not be uniform, as a function of place or face."""
+    """Return the density of the requested body, which must not be uniform, as a function of place
+    or face.
+    """
     assert request.density is not None
     return request.density
 
@@ -185,7 +191,9 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
 
 
 class _FaceDensities:
-    """The densities of all faces of a reading; `values` has (f,) densities of the mesh faces for each part."""
+    """The densities of all faces of a reading; `values` has (f,) densities of the mesh faces for
+    each part.
+    """
 
     def __init__(self, reading: Reading, default_density: float):
         self.default_density = default_density
@@ -224,7 +232,9 @@ class _FaceDensities:
         return tuple(material.name_full for material in self.materials)
 
     def missing_note(self) -> Iterator[Finding]:
-        """Yield a finding about faces without a material density, which have the object's density."""
+        """Yield a finding about faces without a material density, which have the object's
+        density.
+        """
         if not self.faces_without_density:
             return
         names = [material.name for material in self.materials if material_density(material) is None]
@@ -262,7 +272,9 @@ class _FaceDensities:
 def _solid_moments(
     solid: SolidIntegrals, volume: Moments, matrices: NDArray, values: NDArray, names: NDArray
 ) -> tuple[list[Moments], list[Finding]]:
-    """Return the moments ∫ρ dV of a surface's images by the densities of its faces, and findings about components."""
+    """Return the moments ∫ρ dV of a surface's images by the densities of its faces, and findings
+    about components.
+    """
     components = solid.parts()
     moments, findings = [], []
     has_foreign_material = is_slight = False
@@ -308,7 +320,9 @@ def _mixed_parts_notes(
 
 
 def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
-    """Return (n,) densities of a part's vertices; raise ReadError if a vertex with faces has a wrong value."""
+    """Return (n,) densities of a part's vertices; raise ReadError if a vertex with faces has a
+    wrong value.
+    """
     part = reading.parts[i]
     values = part.attributes.vertex_values
     used = np.unique(part.surface.all_triangles()[0])
@@ -322,7 +336,9 @@ def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
 def _sheet_moments(
     reading: Reading, i: int, values: NDArray, request: Request, order: int, by_vertex: bool = False
 ) -> Iterator[Moments]:
-    """Yield moments ∫ρ dA of a part's images; `values` are densities of mesh faces, or with `by_vertex` of vertices."""
+    """Yield moments ∫ρ dA of a part's images; `values` are densities of mesh faces, or with
+    `by_vertex` of vertices.
+    """
     part = reading.parts[i]
 
     def measured(surface: Surface) -> Moments:

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Flat shapes: selected faces, flat meshes, 2-D curves and text as regions of their own plane, seen from the front.
+"""Flat shapes: selected faces, flat meshes, 2-D curves and text as regions of their own plane, seen
+from the front.
 
-Faces point to the front; curves and text have it at their own +z. Only curves that Blender gives access to have exact
-moments. The region that closed curves bound is also measured as a sheet, from control points instead of polygons.
+Faces point to the front; curves and text have it at their own +z. Only curves that Blender gives
+access to have exact moments. The region that closed curves bound is also measured as a sheet, from
+control points instead of polygons.
 """
 
 from __future__ import annotations
@@ -29,7 +31,6 @@ from ....core.measurement.measurement import Body
 from ....core.moments.affine_maps import affine_matrices
 from ....core.moments.exponents import monomial_count, monomials
 from ....core.moments.moments import Measure, Moments
-from ....core.numerics.float32 import shortest_decimal
 from ....core.nurbs.curve_moments import length_moments, plane_moments
 from ....core.nurbs.flat_face import planar_region
 from ....core.nurbs.splines import Curve
@@ -41,6 +42,7 @@ from ...read.findings import FLAT_OF_TYPE, RENDER_DIFFERS, SECTION_EXTRUDED, SEC
 from ...read.objects import read_lines
 from ...read.section import SectionReading, read_outline_curves, read_section
 from ...read.visibility import shows_flat_region
+from ...scale import meters_per_unit
 from ..findings import (
     CURVE_FILL_MEASURED,
     OUTLINES_CROSS,
@@ -54,7 +56,8 @@ from ..request import Request
 from ..wire import DEGREE, curves_in_world
 
 FILL_AREA_RTOL = 1e-4  # if Blender's fill and the outlines differ by more, the fill is wrong
-# Codes of refusals: that an object is no body; and that it is not flat either, so that the first refusal is shown.
+# Codes of refusals: that an object is no body; and that it is not flat either, so that the first
+# refusal is shown.
 NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
 NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, FLAT_OF_TYPE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
@@ -66,13 +69,12 @@ MEASURED_AS = frozenset({"shell"})
 class FlatRegion:
     """A region of a plane, in SI units.
 
-    `name`, `type`: of the object; `description`: the part of it that was read.
-    `plane`: its plane, in the world. `spatial`: (n, 3) points in the world; `points`: (n, 2), the same in the plane.
+    `name`, `type`: of the object; `description`: the part of it that was read. `plane`: its plane,
+    in the world. `spatial`: (n, 3) points in the world; `points`: (n, 2), the same in the plane.
     `edges`: (m, 2) indices; seen from the front, the inside lies to the left of each edge.
     `stored`: largest effect of float32 on a point. `shared`: the length that edges share.
-    `drawn_area`: the area that Blender fills, for outlines.
-    `rotation`, `location`: the object's frame.
-    `curves`: the outlines in the plane's axes; empty if they are not known.
+    `drawn_area`: the area that Blender fills, for outlines. `rotation`, `location`: the object's
+    frame. `curves`: the outlines in the plane's axes; empty if they are not known.
     """
 
     name: str
@@ -101,7 +103,9 @@ class FlatRegion:
         return self.points[np.unique(self.edges)]
 
     def moments(self, order: int) -> Moments:
-        """Return the moments ∫ x^p y^q dA about the centroid, along the plane's axes, or raise MeasureError."""
+        """Return the moments ∫ x^p y^q dA about the centroid, along the plane's axes, or raise
+        MeasureError.
+        """
         with np.errstate(over="ignore", invalid="ignore"):
             if self.curves:
                 moments = _curve_moments(self.curves, order, self.rounded, self.stored)
@@ -123,9 +127,11 @@ def flat_region(
     exact: bool = True,
     unit: float | None = None,
 ) -> FlatRegion:
-    """Return an object, or its selected faces, as a region of a plane, in SI units; MeasureError if it is not one."""
+    """Return an object, or its selected faces, as a region of a plane, in SI units; MeasureError if
+    it is not one.
+    """
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
-    unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    unit = unit or meters_per_unit(depsgraph.scene)
     with name_subject(obj.name):
         found = _region_of(reading, obj.type, unit)
         outlines = _curves(obj, depsgraph, reading, found.plane, unit) if exact else None
@@ -138,14 +144,18 @@ def flat_region(
 
 
 def section_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredSection:
-    """Return an object's section (SI, world axes), a description of the measured part, and the findings."""
+    """Return an object's section (SI, world axes), a description of the measured part, and the
+    findings.
+    """
     found = flat_region(obj, depsgraph, exact=False)
     section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
     return section, found.description, (*found.findings, *area_findings(found, section.area))
 
 
 def clearer_refusal(no_body: MeasureError, not_flat: MeasureError) -> MeasureError:
-    """Return the more helpful of two refusals: that the object is no body, or that it is no flat shape."""
+    """Return the more helpful of two refusals: that the object is no body, or that it is no flat
+    shape.
+    """
     is_nearly_flat = no_body.finding.code in NO_BODY and not_flat.finding.code not in NOT_FLAT
     return not_flat if is_nearly_flat else no_body
 
@@ -191,7 +201,9 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
 
 
 def area_findings(found: FlatRegion, area: float) -> list[Finding]:
-    """Return findings that need a region's area: points off the plane, and faces that Blender fills wrongly."""
+    """Return findings that need a region's area: points off the plane, and faces that Blender fills
+    wrongly.
+    """
     findings = []
     off = found.plane.out_of_plane
     if off > 4.0 * found.stored:
@@ -209,7 +221,9 @@ def _curves(
     plane: Plane,
     unit: float,
 ) -> tuple[tuple[Curve, ...], float] | None:
-    """Return the outlines along the plane's axes and their float32 error, or None if only the polygons are usable."""
+    """Return the outlines along the plane's axes and their float32 error, or None if only the
+    polygons are usable.
+    """
     if reading.loops is None:
         return None
     try:
@@ -252,8 +266,8 @@ def _curve_moments(curves: tuple[Curve, ...], order: int, rounded: float, stored
 class RegionReading(Reading):
     """A curve object, and the region that its curves bound.
 
-    `boundary`: in the world, m; holes run against the outline. `normal`: (3,) normal of the curves' plane.
-    `stored`: largest effect of float32 on the points, m.
+    `boundary`: in the world, m; holes run against the outline. `normal`: (3,) normal of the curves'
+    plane. `stored`: largest effect of float32 on the points, m.
     """
 
     boundary: tuple[Curve, ...] = ()
@@ -278,7 +292,9 @@ class RegionBody(Body):
 
 
 def read(request: Request) -> RegionReading | None:
-    """Return the flat region that a curve object bounds as a thin shell of one density, or None for other objects."""
+    """Return the flat region that a curve object bounds as a thin shell of one density, or None for
+    other objects.
+    """
     obj, options = request.obj, request.settings
     if obj.type != "CURVE" or options.wall != "thin":
         return None

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The shape of a flat object, seen from its front and never turned over: signature, symmetry, fit on another one."""
+"""The shape of a flat object, seen from its front and never turned over: signature, symmetry, fit
+on another one.
+"""
 
 from __future__ import annotations
 
@@ -45,7 +47,9 @@ POSE_ORDER = 12  # for moments of shapes that are laid onto each other
 
 @dataclass(frozen=True, eq=False)
 class FlatShape:
-    """A flat object, in SI units: moments about the centroid, in the plane's axes, and the reading's fingerprint."""
+    """A flat object, in SI units: moments about the centroid, in the plane's axes, and the
+    reading's fingerprint.
+    """
 
     region: FlatRegion
     moments: Moments
@@ -85,12 +89,15 @@ class FlatShape:
         return float(np.hypot(*self.corners.T).max())
 
     def zernike(self, radius: float) -> NDArray[np.complex128]:
-        """Return the Zernike moments to POSE_ORDER in a disc of this radius about the centroid, by `disc_zernike`."""
+        """Return the Zernike moments to POSE_ORDER in a disc of this radius about the centroid, by
+        `disc_zernike`.
+        """
         return disc_zernike(self.moments.truncate(POSE_ORDER), radius)
 
     def signature(self, order: int = MAX_ORDER_BY_MOMENTS) -> Signature:
         """Return the shape's signature, with Zernike descriptors to an order."""
-        # Scaled to about unit size, because high powers of a length soon exceed the range of numbers.
+        # Scaled to about unit size, because high powers of a length soon exceed the range of
+        # numbers.
         scale = 2.0 ** np.frexp(self.radius)[1]
         moments = self.moments.truncate(min(order, MAX_ORDER_BY_MOMENTS))
         degree = monomials(moments.order).sum(axis=1)
@@ -99,7 +106,9 @@ class FlatShape:
         return replace(found, size=found.size * scale)
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield a wall along the outline, one `size` high on both sides, as far from points as the outline."""
+        """Yield a wall along the outline, one `size` high on both sides, as far from points as the
+        outline.
+        """
         ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
         count = len(ends)
         height = self.size
@@ -116,14 +125,18 @@ class FlatShape:
         yield Surface.from_triangles(points, triangles)
 
     def match(self, target: FlatShape, residual: Residual) -> RigidMatch:
-        """Return the motion that lays this shape onto another one, front on front; `residual` as for `match_flat`."""
+        """Return the motion that lays this shape onto another one, front on front; `residual` as
+        for `match_flat`.
+        """
         ratio = target.size / self.size  # turns are found between different sizes, too
         radius = max(target.radius, ratio * self.radius)
         turned = self.zernike(radius / ratio), target.zernike(radius)
         return match_flat(*turned, (self.axes, target.axes), residual, target.size)
 
     def find_symmetries(self, tolerance: float) -> tuple[Symmetry, Symmetry]:
-        """Return the symmetry of the outline and that of the moments; `tolerance` is relative to the size."""
+        """Return the symmetry of the outline and that of the moments; `tolerance` is relative to
+        the size.
+        """
         zernike = self.zernike(self.radius)
         near = tolerance * self.size
         skin = OutlineDistance(self)
@@ -157,7 +170,9 @@ def distance_from(shape: Shape | FlatShape) -> SurfaceDistance:
 def flat_shape_of(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float | None = None
 ) -> FlatShape:
-    """Return a flat object's shape, or raise MeasureError if it is not flat, or its outlines cross."""
+    """Return a flat object's shape, or raise MeasureError if it is not flat, or its outlines
+    cross.
+    """
     region = flat_region(
         obj, depsgraph, selected=False, resolution=OUTLINE_RESOLUTION, exact=False, unit=unit
     )
@@ -177,7 +192,9 @@ BodyShape = TypeVar("BodyShape")
 def comparable_shape_of(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, flat: bool = False
 ) -> Shape | FlatShape:
-    """Return the shape of an object's body, else its flat shape; with `flat`, the flat shape is tried first."""
+    """Return the shape of an object's body, else its flat shape; with `flat`, the flat shape is
+    tried first.
+    """
     return body_or_flat(obj, depsgraph, partial(surface_shape_of, depsgraph=depsgraph), flat)
 
 
@@ -187,7 +204,9 @@ def body_or_flat(
     of_body: Callable[[bpy.types.Object], BodyShape],
     flat: bool,
 ) -> BodyShape | FlatShape:
-    """Return `of_body(obj)`, or the flat shape if the object is no body; with `flat`, the flat shape is tried first."""
+    """Return `of_body(obj)`, or the flat shape if the object is no body; with `flat`, the flat
+    shape is tried first.
+    """
     if flat:
         with suppress(MeasureError):
             return flat_shape_of(obj, depsgraph)

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The shape of an object, independent of its place: its pose, its symmetry, its signature.
 
-All three need moments of higher order than a measurement has. The body is the same: the solid, or a shell's sheet.
+All three need moments of higher order than a measurement has. The body is the same: the solid, or a
+shell's sheet.
 """
 
 from __future__ import annotations
@@ -78,7 +79,9 @@ SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape o
 
 @dataclass(frozen=True)
 class Shape:
-    """The shape of a measured object, in SI units and world axes, described by moments of higher order."""
+    """The shape of a measured object, in SI units and world axes, described by moments of higher
+    order.
+    """
 
     measurement: Measurement
     body: Body
@@ -97,7 +100,9 @@ class Shape:
 
     @property
     def is_display_mesh(self) -> bool:
-        """True if the pieces are the display mesh of a smooth body, whose moments differ a little."""
+        """True if the pieces are the display mesh of a smooth body, whose moments differ a
+        little.
+        """
         return self.measurement.method.source == Source.NURBS
 
     @property
@@ -112,7 +117,9 @@ class Shape:
 
     @cached_property
     def moments(self) -> Moments:
-        """Moments about the center, to the order that a pose needs; ReadError if they exceed the range of numbers."""
+        """Moments about the center, to the order that a pose needs; ReadError if they exceed the
+        range of numbers.
+        """
         with np.errstate(over="ignore", invalid="ignore"):
             volume, area = self.body.moments(MAX_ORDER, self._sheets)
         found = volume if area is None else area
@@ -122,7 +129,9 @@ class Shape:
         return with_input_error(found, known).about_center()
 
     def piece_moments(self) -> Moments:
-        """Return moments like `moments`, but of the polygons, which replace a smooth surface in comparisons."""
+        """Return moments like `moments`, but of the polygons, which replace a smooth surface in
+        comparisons.
+        """
         if not self.is_display_mesh:
             return self.moments
         volume, area = polyhedron_moments(
@@ -144,7 +153,9 @@ class Shape:
         return self.body.surfaces(self._sheets)
 
     def pose(self) -> dict[str, Any]:
-        """Return the pose for a record (`docs/shape.md`), with harmonics to order 30 if the body may be round."""
+        """Return the pose for a record (`docs/shape.md`), with harmonics to order 30 if the body
+        may be round.
+        """
         body = self.measurement.mass_properties
         constant = self.body.mass is None
         axes = body.principal.axes
@@ -189,8 +200,9 @@ class Shape:
     def _point_group(self) -> dict[str, Any]:
         """Return the body's point group, and the order of the moments that show it.
 
-        The corners of the surface decide. If the moments are those of a body of revolution or of a ball, the body
-        counts as such if its surface is near one, and no axis has a lower order than harmonics show.
+        The corners of the surface decide. If the moments are those of a body of revolution or of a
+        ball, the body counts as such if its surface is near one, and no axis has a lower order than
+        harmonics show.
         """
         axial = self._harmonics if self._is_polygonal else None
         found = symmetry(self.moments, axial=axial)
@@ -213,7 +225,9 @@ class Shape:
         return self._known_harmonics[0].in_frame(frame)
 
     def _confirmed_group(self, found: Symmetry) -> str | None:
-        """Return the group that the surface has, or the groups that it may have; None if coordinates are too coarse."""
+        """Return the group that the surface has, or the groups that it may have; None if
+        coordinates are too coarse.
+        """
         moved = (
             max(float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces())
             / self.size
@@ -230,7 +244,8 @@ class Shape:
         names = [each.group for each in finite]
         if is_round:
             order = max([n for each in finite[:1] for _, n in each.axes], default=0)
-            # An axis of a higher order than harmonics show, or facets that are no misfit, count as round.
+            # An axis of a higher order than harmonics show, or facets that are no misfit, count as
+            # round.
             known = order > MAX_AXIAL_ORDER or placed.is_round(found, near)
             names = [found.group] if known else [*names, found.group]
         elif not finite:  # as many corners at one distance as a ball has
@@ -252,10 +267,13 @@ class Shape:
         return self.body.has_surface
 
     def signature(self, order: int = MAX_ORDER_BY_MOMENTS) -> Signature:
-        """Return Zernike descriptors of polygons to `order`, by quadrature above 20 and if raw moments lose digits."""
+        """Return Zernike descriptors of polygons to `order`, by quadrature above 20 and if raw
+        moments lose digits.
+        """
         points = self.points_about_center()
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
-        # About the center and at about unit size, because high powers of a length soon exceed the range of numbers.
+        # About the center and at about unit size, because high powers of a length soon exceed the
+        # range of numbers.
         scale = 2.0 ** frexp(radius)[1]  # a power of two rounds nothing
         radius /= scale
         sheets = self._sheets
@@ -285,11 +303,15 @@ class Shape:
         return replace(result, size=scale * result.size)
 
     def match(self, target: Shape, residual: Residual) -> RigidMatch:
-        """Return the motion that lays this shape onto another one; `residual` as for `core.shape.match`."""
+        """Return the motion that lays this shape onto another one; `residual` as for
+        `core.shape.match`.
+        """
         return match(self.moments, target.moments, residual, target.size)
 
     def find_symmetries(self, tolerance: float) -> tuple[Symmetry, Symmetry]:
-        """Return the symmetry of the surface and that of the moments; `tolerance` is relative to the size."""
+        """Return the symmetry of the surface and that of the moments; `tolerance` is relative to
+        the size.
+        """
         # The tolerance for moments is the same as for the surface.
         allowed = symmetry(self.piece_moments(), max(NOISE_LEVEL, tolerance))
         placed = self._placed_triangles(tolerance, tolerance)
@@ -326,12 +348,16 @@ class NoShapeError(ReadError):
 
 
 def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
-    """Measure an object in threads and return its shape, or raise MeasureError if it has no shape or no polygons."""
+    """Measure an object in threads and return its shape, or raise MeasureError if it has no shape
+    or no polygons.
+    """
     return surface_shape(measure_body(obj, depsgraph, SURFACE_OPTIONS))
 
 
 def surface_shape(measured: Measured) -> Shape:
-    """Return the shape of a body that was measured with SURFACE_OPTIONS, which must have polygons."""
+    """Return the shape of a body that was measured with SURFACE_OPTIONS, which must have
+    polygons.
+    """
     shape = _shape_of_measured(measured, SURFACE_OPTIONS.threads)
     if not shape.has_surface:
         raise NoShapeError(SIGNATURE_NEEDS_POLYGONS, shape.measurement)
@@ -341,7 +367,9 @@ def surface_shape(measured: Measured) -> Shape:
 def shape_of(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None
 ) -> Shape:
-    """Measure an object for its shape, or raise MeasureError; NoShapeError if it can be measured but has no shape."""
+    """Measure an object for its shape, or raise MeasureError; NoShapeError if it can be measured
+    but has no shape.
+    """
     options = replace(options or MeasureOptions(), pose=True)
     return _shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
 
@@ -365,7 +393,9 @@ def _shape_of_measured(measured: Measured, threads: int) -> Shape:
 def signed_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, order: int
 ) -> Callable[[bpy.types.Object], Signature | Shape]:
-    """Return a function from an object to its signature, or to its `Shape` if it was measured outside a stack."""
+    """Return a function from an object to its signature, or to its `Shape` if it was measured
+    outside a stack.
+    """
     measured = measured_in_turn(objects, depsgraph, SURFACE_OPTIONS)
     known: dict[MeasuredStack, list[Signature | None]] = {}
 
@@ -382,7 +412,9 @@ def signed_in_turn(
 
 
 def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]:
-    """Return the signatures of a stack's members; None for repaired, distant and ill-conditioned members."""
+    """Return the signatures of a stack's members; None for repaired, distant and ill-conditioned
+    members.
+    """
     found: list[Signature | None] = [None] * len(stack.members)
     linear = np.array([member.matrix[:3, :3] for member in stack.members])
     is_even = are_similarities(linear)
@@ -428,7 +460,9 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
 def _signatures(
     stack: TriangleStack, rows: NDArray[np.intp], maps: NDArray, centers: NDArray, order: int
 ) -> tuple[list[Signature], NDArray[np.float64]]:
-    """Return the signatures of linearly mapped surfaces, each scaled to about unit size, and the (k,) scales."""
+    """Return the signatures of linearly mapped surfaces, each scaled to about unit size, and the
+    (k,) scales.
+    """
     points = []
     triangles = []
     first = 0

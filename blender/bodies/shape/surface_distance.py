@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from ..flat.flat_shape import FlatShape
     from .shape import Shape
 
-# Relative to the size: distances between these two are wrong for thin triangles in single precision.
+# Relative to the size: distances between these two are wrong for thin triangles in single
+# precision.
 EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
 SURFACE_SAMPLES = 1500  # points of a surface whose distances from another surface are found
 POINTS_PER_BATCH = 64  # points whose distances are found at once
@@ -28,8 +29,8 @@ POINTS_PER_BATCH = 64  # points whose distances are found at once
 class SurfaceDistance:
     """Distances of points from a shape's surface.
 
-    Lengths in meters, world axes. Blender's tree of triangles keeps float32 coordinates, so its points are about the
-    center and in units of the size.
+    Lengths in meters, world axes. Blender's tree of triangles keeps float32 coordinates, so its
+    points are about the center and in units of the size.
     """
 
     def __init__(self, shape: Shape | FlatShape):
@@ -50,7 +51,9 @@ class SurfaceDistance:
         )
 
     def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
-        """Return (n,) distances of (n, 3) points, in single precision if clearly above or below the limit `within`."""
+        """Return (n,) distances of (n, 3) points, in single precision if clearly above or below the
+        limit `within`.
+        """
         scaled = (points - self._center) / self._scale
         nearest = self._tree.find_nearest
         queries = scaled.tolist()
@@ -95,7 +98,8 @@ def register_surfaces(
     target_skin: SurfaceDistance,
     scale: float = 1.0,
 ) -> RigidMatch:
-    """Return the motion that lays a scaled shape (`Shape` or `FlatShape`) onto another one of its kind.
+    """Return the motion that lays a scaled shape (`Shape` or `FlatShape`) onto another one of its
+    kind.
 
     It minimizes the distances of their surfaces.
     """

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many objects at once: solids that show one mesh each are measured as stacks, all others by `measure_body`.
+"""Many objects at once: solids that show one mesh each are measured as stacks, all others by
+`measure_body`.
 
 Both ways give the same numbers. Large solids and varying densities join no stack.
 """
@@ -31,7 +32,9 @@ def measure_many(
     depsgraph: bpy.types.Depsgraph,
     options: MeasureOptions = AS_SET,
 ) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
-    """Measure original objects in batches; yield pairs of an object and its measurement or exception, in order."""
+    """Measure original objects in batches; yield pairs of an object and its measurement or
+    exception, in order.
+    """
     pending: list[tuple[bpy.types.Object, StackMember | None]] = []
     collector = _Collector(depsgraph, options)
     for obj in objects:
@@ -49,7 +52,9 @@ def measured_in_turn(
     depsgraph: bpy.types.Depsgraph,
     options: MeasureOptions = AS_SET,
 ) -> Callable[[bpy.types.Object], Measured | Stacked]:
-    """Return a function from each object, in the given order, to its measurement; it measures ahead in batches."""
+    """Return a function from each object, in the given order, to its measurement; it measures ahead
+    in batches.
+    """
     waiting: dict[bpy.types.Object, Outcome] = {}
     slices = measure_many(objects, depsgraph, options)
 
@@ -172,7 +177,9 @@ class _Collector:
         return shape
 
     def measure(self) -> dict[int, Stacked]:
-        """Return the stacked measurements by member number; none if the stack fails and all must be measured alone."""
+        """Return the stacked measurements by member number; none if the stack fails and all must be
+        measured alone.
+        """
         try:
             stack = measure_members(self.members, self.shapes) if self.members else None
         except Exception as error:

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The measurements of many objects, each a solid of one shape in one place, computed together.
 
-Small shapes that are closed or can be capped are measured together, all others are repaired and measured alone.
+Small shapes that are closed or can be capped are measured together, all others are repaired and
+measured alone.
 """
 
 from __future__ import annotations
@@ -50,8 +51,8 @@ METHODS = {verdict: Method(verdict) for verdict in Procedure}
 class MeshShape:
     """A mesh in its own coordinates, and its measurement.
 
-    `row`: index in the stacks of moments; `solids`: the stack in which the mesh was measured, at the same row.
-    `alone`: the integrals of a mesh that was measured by itself.
+    `row`: index in the stacks of moments; `solids`: the stack in which the mesh was measured, at
+    the same row. `alone`: the integrals of a mesh that was measured by itself.
     """
 
     surface: Surface
@@ -81,7 +82,9 @@ class MeshShape:
         return surface_digest(self.surface) if self.face_count <= MAX_DIGESTED_FACES else None
 
     def sixth_order(self) -> Moments:
-        """Return the volume's moments to the order that axes need, for a mesh that was measured alone."""
+        """Return the volume's moments to the order that axes need, for a mesh that was measured
+        alone.
+        """
         solid = self.alone
         assert solid is not None
         found = polyhedron_moments(
@@ -91,7 +94,9 @@ class MeshShape:
 
 
 def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
-    """Measure shapes in their own coordinates; return volumes to third order and areas, stacked by `row`."""
+    """Measure shapes in their own coordinates; return volumes to third order and areas, stacked by
+    `row`.
+    """
     stackable = can_be_stacked([shape.surface for shape in shapes])
     small = [shape for shape, is_stackable in zip(shapes, stackable) if is_stackable]
     stacks: list[tuple[Moments, Moments]] = []
@@ -140,7 +145,8 @@ class StackMember:
 
 @dataclass(frozen=True, eq=False)
 class MeasuredStack:
-    """The measurements of many objects, in SI units and world axes; arrays have one row for each object.
+    """The measurements of many objects, in SI units and world axes; arrays have one row for each
+    object.
 
     `from_mass`: true if the density, kg/m³, follows from a given mass.
     `stretch`: ratio of the object's volume to its shape's.
@@ -176,7 +182,9 @@ class MeasuredStack:
 
     @cached_property
     def error_bounds(self) -> NDArray[np.float64]:
-        """(n, 2, 4) bounds by rounding, then by float32 coordinates, of volume, area, center and inertia."""
+        """(n, 2, 4) bounds by rounding, then by float32 coordinates, of volume, area, center and
+        inertia.
+        """
         volume = self.volume
         area = self.area
         properties = self.mass_properties
@@ -250,7 +258,9 @@ class Stacked:
 
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
-    """Return the stack of the members with certain volume and mass, or None; all members have the same unit."""
+    """Return the stack of the members with certain volume and mass, or None; all members have the
+    same unit.
+    """
     unit = members[0].settings.unit
     axes = members[0].settings.axes
     own, own_area = measure_shapes(shapes)
@@ -335,7 +345,9 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
 
 
 def _findings(member: StackMember, bounds: tuple[Finding, ...]) -> tuple[Finding, ...]:
-    """Return the findings about the member's shape and `bounds`, with the object's accepted ones marked."""
+    """Return the findings about the member's shape and `bounds`, with the object's accepted ones
+    marked.
+    """
     found = member.shape.findings + bounds
     return with_acceptance(found, accepted_codes(member.obj)) if found else ()
 
@@ -345,7 +357,9 @@ def _chosen(members: list[StackMember], which: NDArray) -> list[StackMember]:
 
 
 def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Moments:
-    """Return the areas mapped by the members' matrices; surfaces are measured again if a matrix is no similarity."""
+    """Return the areas mapped by the members' matrices; surfaces are measured again if a matrix is
+    no similarity.
+    """
     even = are_similarities(matrices[:, :3, :3])
     if even.all():
         return image(area, matrices)

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Balance Pose: the least move of a bone that brings the center of mass over the support.
 
-The armature is evaluated at every trial, so that constraints, drivers and inverse kinematics count as they are. A trial
-is good if the contacts stay; legs that would be stretched get a lower hip, by the least height.
+The armature is evaluated at every trial, so that constraints, drivers and inverse kinematics count
+as they are. A trial is good if the contacts stay; legs that would be stretched get a lower hip, by
+the least height.
 """
 
 from __future__ import annotations
@@ -15,10 +16,10 @@ from bpy.types import Context, Object, PoseBone
 from mathutils import Quaternion, Vector
 from numpy.typing import NDArray
 
-from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.support import ground_axes
 from ...core.verdict.finding import EditRefusedError
 from ..read.tracking import tracking_paused
+from ..scale import meters_per_unit
 from ..write.reports import Refused
 from .findings import NO_SUCH_NAME
 from .live import character
@@ -28,7 +29,8 @@ from .live.character import Character, Weight, bone_matrices
 NUDGE = 1e-3
 REACHED = 1e-5  # distance from the target
 STAYED = 5e-5  # move of a contact
-SLIP = 0.05  # contacts that move this far with a bone, relative to its or the center's move, hang on it
+# contacts that move this far with a bone, relative to its or the center's move, hang on it
+SLIP = 0.05
 # moves of the center that are smaller, by a bone's move or turn, are no use
 LEAST_SHIFT = 0.05
 LEAST_TURN = 0.02
@@ -37,19 +39,31 @@ TORN = 0.05  # share of the mass above a bone that its location may leave behind
 MAX_TRIALS = 60
 
 UNMOVABLE = (
-    "No bone that may move leaves the contacts in place. Unlock the hips, remove drivers, give the legs inverse "
+    "No bone that may move leaves the contacts in place. Unlock the hips, remove drivers, give the "
+    "legs inverse "
     "kinematics, or choose another bone."
 )
 TOO_FAR = (
     "“{bone}” cannot bring the center nearer than {gap:length} to its target. Choose another bone."
 )
-STRETCHED = "Balancing with “{bone}” would move the contacts by {slip:length}. Lower the hips, or choose another bone."
-IN_AIR = "Nothing touches the ground: the lowest point is {height:length} above it. Lower the pose, or set Ground."
-NO_CONTACT = "No mesh of “{armature}” can touch the ground. Show its meshes, or turn off Contact of bones without any."
+STRETCHED = (
+    "Balancing with “{bone}” would move the contacts by {slip:length}. Lower the hips, or choose "
+    "another bone."
+)
+IN_AIR = (
+    "Nothing touches the ground: the lowest point is {height:length} above it. Lower the pose, or "
+    "set Ground."
+)
+NO_CONTACT = (
+    "No mesh of “{armature}” can touch the ground. Show its meshes, or turn off Contact of bones "
+    "without any."
+)
 
 
 class _Handle:
-    """Three channels of a bone that are changed on trial: its location, or its rotation about its own axes."""
+    """Three channels of a bone that are changed on trial: its location, or its rotation about its
+    own axes.
+    """
 
     def __init__(self, bone: PoseBone, turns: bool):
         self.bone, self.turns = bone, turns
@@ -81,7 +95,8 @@ class _Handle:
 class _Search:
     """The search for one character.
 
-    noise: float32 rounding of places in the world, which inverse kinematics see. failure: of the first suitable bone.
+    noise: float32 rounding of places in the world, which inverse kinematics see. failure: of the
+    first suitable bone.
     """
 
     def __init__(
@@ -96,7 +111,7 @@ class _Search:
         self.context = context
         self.armature = armature
         self.known = known
-        self.unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        self.unit = meters_per_unit(context.scene)
         self.failure = Refused(UNMOVABLE)
         self.axes = ground_axes(-weight.support.up)
         self.target = weight.support.target(margin)
@@ -114,7 +129,9 @@ class _Search:
         return (self.target - center) @ self.axes[:, :2]
 
     def look(self, handle: _Handle, change: NDArray) -> tuple[NDArray, NDArray, float]:
-        """Evaluate a change: return the (3,) center, the bone's head, and the farthest move of a contact's bone."""
+        """Evaluate a change: return the (3,) center, the bone's head, and the farthest move of a
+        contact's bone.
+        """
         handle.put(change)
         self.context.view_layer.update()
         depsgraph = self.context.evaluated_depsgraph_get()
@@ -190,12 +207,14 @@ class _Search:
 def balance_pose(
     context: Context, armature: Object, name: str, margin: float | None
 ) -> dict[str, str | float]:
-    """Move a bone of a posed character so that it is balanced, or leave it and raise Refused or MeasureError.
+    """Move a bone of a posed character so that it is balanced, or leave it and raise Refused or
+    MeasureError.
 
-    name: of the bone, "" for the active bone or another suitable one. margin: in Blender's units, None for the middle.
-    Return the bone, the remaining gap and the margin, m; nothing if the character is balanced already.
+    name: of the bone, "" for the active bone or another suitable one. margin: in Blender's units,
+    None for the middle. Return the bone, the remaining gap and the margin, m; nothing if the
+    character is balanced already.
     """
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     character.require_gravity(context.scene)
     if name and name not in armature.pose.bones:
         raise EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
@@ -226,7 +245,9 @@ def balance_pose(
 
 
 def _handles(context: Context, armature: Object, known: Character, name: str) -> Iterator[_Handle]:
-    """Yield the channels to try from the root on: locations of bones that no heavy part is above, then rotations."""
+    """Yield the channels to try from the root on: locations of bones that no heavy part is above,
+    then rotations.
+    """
     chosen = context.active_pose_bone
     masses = dict(zip(known.names, known.masses))
     bones = [bone for bone in context.visible_pose_bones or () if bone.id_data == armature]

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Characters over frames: their momenta, and keys that put them on a parabola or keep their spin.
 
-The keys go to the carrier of the whole character: its root bone, or the armature object. A small move is tried first,
-and every part must follow. So the pose stays as it is, and the center goes to its intended place.
+The keys go to the carrier of the whole character: its root bone, or the armature object. A small
+move is tried first, and every part must follow. So the pose stays as it is, and the center goes to
+its intended place.
 """
 
 from __future__ import annotations
@@ -18,12 +19,12 @@ from mathutils import Euler, Quaternion
 from numpy.typing import NDArray
 
 from ...core.bodies.reading import float64_matrix
-from ...core.numerics.float32 import shortest_decimal
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.rig import motion
 from ...core.verdict.finding import EditRefusedError
 from ..read.rig import require_armature
 from ..read.tracking import tracking_paused
+from ..scale import meters_per_unit
 from ..scene import fcurves
 from ..scene.changes import require_editable
 from ..scene.transforms import TransformChannels
@@ -44,25 +45,33 @@ NOT_FREE = (
     "“{name}” cannot be keyed: its {channel:word} is {state:word}. Free it, or choose another bone."
 )
 NOT_CARRIED = (
-    "No bone carries the whole character: “{part}” does not follow “{name}”. Choose the bone that all others hang on, "
+    "No bone carries the whole character: “{part}” does not follow “{name}”. Choose the bone that "
+    "all others hang on, "
     "or parent the targets of its constraints to one."
 )
-HELD_IN_PART = "“{names}” is held at some of the frames only. Choose frames at which the same objects are held."
+HELD_IN_PART = (
+    "“{names}” is held at some of the frames only. Choose frames at which the same objects are "
+    "held."
+)
 LAYERED_TIMES = (
     "A layer cannot move the landing. Turn off As Layer and empty the NLA, or keep the times."
 )
 MODIFIED_TIMES = (
-    "“{curve}” has F-curve modifiers, which cannot move with the landing. Bake its channel in the Graph Editor, or "
+    "“{curve}” has F-curve modifiers, which cannot move with the landing. Bake its channel in the "
+    "Graph Editor, or "
     "keep the times."
 )
 NO_FLIGHT = (
-    "“{name}” does not leave the ground and land again in frames {start} to {end}. Turn off Find by Contacts and type "
+    "“{name}” does not leave the ground and land again in frames {start} to {end}. Turn off Find "
+    "by Contacts and type "
     "Take-off and Landing, or set Ground."
 )
 
 
 class CharacterMotion(BalanceGroup):
-    """A character that is followed over frames, on the ground that Show Weight shows or finds at the first of them."""
+    """A character that is followed over frames, on the ground that Show Weight shows or finds at
+    the first of them.
+    """
 
     def __init__(self, context: Context, frames: range):
         scene = context.scene
@@ -77,7 +86,7 @@ class CharacterMotion(BalanceGroup):
         finally:
             scene.frame_set(before, subframe=subframe)
         self._context = context
-        self.unit = shortest_decimal(scene.unit_settings.scale_length)
+        self.unit = meters_per_unit(scene)
         self.armature, self.frames = armature, frames
         self.step = scene.render.fps_base / scene.render.fps
         self.objects, self.feet = [armature], [armature]
@@ -117,7 +126,9 @@ class CharacterMotion(BalanceGroup):
         return np.array([support is not None for support in self.supports])
 
     def find_carrier(self, context: Context, name: str, turns: bool, as_layer: bool) -> None:
-        """Find the carrier of all parts: the named bone, else the root, else the object; Refused if there is none."""
+        """Find the carrier of all parts: the named bone, else the root, else the object; Refused if
+        there is none.
+        """
         self.is_layered = as_layer or fcurves.has_strips(self.armature)
         bones = self.armature.pose.bones
         part = ""
@@ -149,7 +160,8 @@ class CharacterMotion(BalanceGroup):
     ) -> Iterator[int]:
         """Find a flight if none is given, and follow it at the original times of its poses.
 
-        keep_height: the flight lasts as long as its height demands. before, after: numbers of frames also followed.
+        keep_height: the flight lasts as long as its height demands. before, after: numbers of
+        frames also followed.
         """
         if keep_height and self.is_layered:
             raise Refused(LAYERED_TIMES)
@@ -183,7 +195,9 @@ class CharacterMotion(BalanceGroup):
             yield from (len(frames) for _ in self.follow(scene, self.times))
 
     def _find_flight(self, current: int) -> tuple[int, int]:
-        """Return take-off and landing of the flight at the current frame, else of the longest one."""
+        """Return take-off and landing of the flight at the current frame, else of the longest
+        one.
+        """
         touching, frames = self.touching, self.frames
         found = [flight for flight in motion.find_flights(touching) if touching[list(flight)].all()]
         if not found:
@@ -195,7 +209,9 @@ class CharacterMotion(BalanceGroup):
         return frames[first], frames[last]
 
     def _moves(self, turns: bool) -> NDArray[np.float64]:
-        """Return (f, 4, 4) moves onto the arc between the ends, or turns of constant spin, blended around it."""
+        """Return (f, 4, 4) moves onto the arc between the ends, or turns of constant spin, blended
+        around it.
+        """
         centers = np.array(self.centers)
         moves = np.tile(np.eye(4), (len(self.centers), 1, 1))
         if not turns:
@@ -246,7 +262,9 @@ class CharacterMotion(BalanceGroup):
         return off * self.unit if off > FOLLOWS * self.known.size else 0.0
 
     def bake(self, context: Context, curves: bool) -> tuple[Object, int]:
-        """Key the path on an empty, with curves of the momenta; return it and the number of unexplained spans."""
+        """Key the path on an empty, with curves of the momenta; return it and the number of
+        unexplained spans.
+        """
         character.keep(self.armature, *self._found)
         course = self.course
         touching = self.touching
@@ -286,7 +304,8 @@ class CharacterMotion(BalanceGroup):
 class Carrier:
     """A root bone or an armature object whose location and rotation carry all parts of a character.
 
-    frames: at each frame so far, its (4, 4) matrices in the world and of its channels, and the channels' values.
+    frames: at each frame so far, its (4, 4) matrices in the world and of its channels, and the
+    channels' values.
     """
 
     armature: Object
@@ -376,7 +395,9 @@ class Carrier:
         return before.names[int(off.argmax())] if off.max() > FOLLOWS else ""
 
     def moved(self, moves: Sequence[NDArray] | NDArray) -> dict[str, NDArray]:
-        """Return (f, k) values of the channels for a (4, 4) move in the world at each frame read."""
+        """Return (f, k) values of the channels for a (4, 4) move in the world at each frame
+        read.
+        """
         values: dict[str, list] = {"location": [], self.rotation: []}
         mode = self.owner.rotation_mode
         last = None
@@ -397,7 +418,9 @@ class Carrier:
         return {name: np.array(rows) for name, rows in values.items()}
 
     def key(self, moves: NDArray, times: Sequence[float], turns: bool, as_layer: bool) -> None:
-        """Key (f, 4, 4) moves at whole frames from the first of (f,) times of poses on; later keys may move."""
+        """Key (f, 4, 4) moves at whole frames from the first of (f,) times of poses on; later keys
+        may move.
+        """
         armature = self.armature
         first = round(times[0])
         last = round(times[-1])

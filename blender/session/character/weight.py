@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Posed characters, as evaluated: mass, center and inertia of every part, and the contacts with the ground.
+"""Posed characters, as evaluated: mass, center and inertia of every part, and the contacts with the
+ground.
 
-The parts are those of Measure Bones. Each keeps its mass, and its moments follow the matrix of its bone. Objects that a
-constraint holds to a bone are parts, too, at their own place. All lengths are in Blender's units, in the world.
+The parts are those of Measure Bones. Each keeps its mass, and its moments follow the matrix of its
+bone. Objects that a constraint holds to a bone are parts, too, at their own place. All lengths are
+in Blender's units, in the world.
 """
 
 from __future__ import annotations
@@ -26,13 +28,13 @@ from ...bodies.rig import Rig, measure_rig
 from ...read.bones import RestBones
 from ...read.mesh import vertex_points
 from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
+from ...scale import meters_per_unit
 from ...scene.rigid_world import down
 from ...write import properties
 from ...write.reports import Refused
-from .. import stored
+from .. import memory, stored
 from ..tracking import handlers
 from ..tracking.armatures import deformed_meshes
-from ..tracking.cache import SessionCache, current_value
 from ..tracking.staleness import stale_reason
 from .motion import Motion
 
@@ -41,15 +43,19 @@ OUTLINE = 1e-4  # tolerance of the support polygon's corners, relative to its ex
 # in place of a vertex's bone: not looked up yet; no weight
 UNKNOWN = -2
 NO_BONE = -1
-NO_GRAVITY = "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > Gravity."
+NO_GRAVITY = (
+    "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > "
+    "Gravity."
+)
 
 
 @dataclass(frozen=True, eq=False)
 class Parts:
     """The p parts of one or several characters.
 
-    names: of bones and held objects. masses: (p,) kg, 0 if they cannot be measured. centers: (p, 3). spreads: (p, 3, 3)
-    integrals of r rᵀ dm about each part's center. matrices: (p, 4, 4) of bones and objects in the world.
+    names: of bones and held objects. masses: (p,) kg, 0 if they cannot be measured. centers: (p,
+    3). spreads: (p, 3, 3) integrals of r rᵀ dm about each part's center. matrices: (p, 4, 4) of
+    bones and objects in the world.
     """
 
     names: tuple[str, ...]
@@ -89,8 +95,9 @@ class Parts:
 class Contacts:
     """Contacts of a character with the ground.
 
-    points: (k, 3). bones: (k,) indices of pose bones, -1 for points without one. names: of the bones that carry.
-    lifted: of bones that should carry but do not. height: of the lowest point above the ground; None without points.
+    points: (k, 3). bones: (k,) indices of pose bones, -1 for points without one. names: of the
+    bones that carry. lifted: of bones that should carry but do not. height: of the lowest point
+    above the ground; None without points.
     """
 
     points: NDArray[np.float64]
@@ -104,8 +111,9 @@ class Contacts:
 class Weight:
     """A character as it is posed: its parts and contacts.
 
-    support: the support below its center, None if nothing touches. foot: (3,) point of the ground below the center.
-    body: the total as plain numbers, SI in the world, with the volume and bounds of the rest pose.
+    support: the support below its center, None if nothing touches. foot: (3,) point of the ground
+    below the center. body: the total as plain numbers, SI in the world, with the volume and bounds
+    of the rest pose.
     """
 
     parts: Parts
@@ -119,8 +127,8 @@ class Weight:
 class Character:
     """A measured character, whose parts follow its pose.
 
-    names: (p) of the bones with parts. masses: (p,) kg. centers: (p, 3), spreads: (p, 3, 3) in the bones' own spaces.
-    size: largest extent of these bones at rest.
+    names: (p) of the bones with parts. masses: (p,) kg. centers: (p, 3), spreads: (p, 3, 3) in the
+    bones' own spaces. size: largest extent of these bones at rest.
     """
 
     names: tuple[str, ...]
@@ -137,7 +145,9 @@ class Character:
     def from_bodies(
         cls, armature: Object, bodies: Mapping[str, PlainBody | None], unit: float
     ) -> Character | None:
-        """Return the character with these bodies of bones, in rest frames and SI units; None if there is no mass."""
+        """Return the character with these bodies of bones, in rest frames and SI units; None if
+        there is no mass.
+        """
         bodies = {
             name: body for name, body in bodies.items() if body is not None and body.mass > 0.0
         }
@@ -191,7 +201,9 @@ class Character:
         )
 
     def _factors(self, armature: Object) -> NDArray[np.float64]:
-        """Return (p,) factors to the total mass; 1 for bones with their own mass, if it leaves mass for the others."""
+        """Return (p,) factors to the total mass; 1 for bones with their own mass, if it leaves mass
+        for the others.
+        """
         total = shortest_decimal(armature.body_moments_weight.mass)
         bones = armature.pose.bones
         shares = np.array([bones[name].body_moments.mass_from != "MASS" for name in self.names])
@@ -201,8 +213,10 @@ class Character:
         return np.full(len(shares), total / self.masses.sum() if total else 1.0)
 
     def _held_part(self, obj: Object, depsgraph: Depsgraph) -> Parts:
-        """Return a held object as a part at its own place, without mass if it cannot be measured."""
-        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        """Return a held object as a part at its own place, without mass if it cannot be
+        measured.
+        """
+        unit = meters_per_unit(depsgraph.scene)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         mass = np.zeros(1)
         center = matrix[:3, 3]
@@ -217,7 +231,9 @@ class Character:
     def stand(
         self, armature: Object, depsgraph: Depsgraph, ground: float
     ) -> tuple[Parts, Contacts, Support | None]:
-        """Return the parts as evaluated, their contacts with the ground, and the support, None if nothing touches."""
+        """Return the parts as evaluated, their contacts with the ground, and the support, None if
+        nothing touches.
+        """
         parts = self.pose(armature, depsgraph)
         contacts = self.contacts(armature, depsgraph, ground)
         if not len(contacts.points):
@@ -229,7 +245,9 @@ class Character:
         )
 
     def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float) -> Contacts:
-        """Return the points that touch the ground, at this height against gravity from the world's origin."""
+        """Return the points that touch the ground, at this height against gravity from the world's
+        origin.
+        """
         names = [bone.name for bone in armature.pose.bones]
         named = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
         may_touch = np.array(
@@ -263,7 +281,9 @@ class Character:
         depsgraph: Depsgraph,
         rows: NDArray | None = None,
     ) -> NDArray[np.intp]:
-        """Return the bone of most weight for each vertex of an object, as indices; rows: vertices, by default all."""
+        """Return the bone of most weight for each vertex of an object, as indices; rows: vertices,
+        by default all.
+        """
         mesh = obj.evaluated_get(depsgraph).data
         count = len(mesh.vertices)
         rows = np.arange(count) if rows is None else rows
@@ -284,14 +304,10 @@ class Character:
         return known[rows]
 
 
-_characters: SessionCache[tuple[str, Character | None]] = (
-    SessionCache()
-)  # with the stamp of the results
-_weights: SessionCache[tuple[tuple, Weight | None]] = SessionCache()
-
-
 def measure(context: Context, armature: Object) -> Rig:
-    """Measure the bones; raise MeasureError if there are no parts, or no vertex of the meshes has a weight."""
+    """Measure the bones; raise MeasureError if there are no parts, or no vertex of the meshes has a
+    weight.
+    """
     rig = measure_rig(context, armature)
     bare = [found for found in rig.measurement.findings if found.code == UNWEIGHTED_VERTICES]
     meshes = skinned_objects(armature, rig.objects)
@@ -313,14 +329,16 @@ def character(armature: Object, unit: float) -> Character | None:
         )
 
     bones = armature.pose.bones
-    return current_value(_characters, armature, properties.fingerprint(armature), read)
+    return memory.current_value(memory.characters, armature, properties.fingerprint(armature), read)
 
 
 def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
-    """Return a character as the dependency graph shows it, None if its bones have not been measured."""
+    """Return a character as the dependency graph shows it, None if its bones have not been
+    measured.
+    """
 
     def stand() -> Weight | None:
-        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        unit = meters_per_unit(depsgraph.scene)
         known = character(armature, unit)
         if known is None or any(
             name not in armature.pose.bones for name in known.names
@@ -343,8 +361,8 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
         )
         return Weight(parts, contacts, support, foot, body)
 
-    return current_value(
-        _weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand
+    return memory.current_value(
+        memory.weights, armature, (memory.state.generation, depsgraph.scene.session_uid), stand
     )
 
 
@@ -355,9 +373,12 @@ def require_gravity(scene: Scene) -> None:
 
 
 def find(context: Context, armature: Object) -> tuple[Character, float, Rig | None]:
-    """Return a character, its ground, and a new Rig. Measure and find the ground only if necessary."""
+    """Return a character, its ground, and a new Rig.
+
+    Measure and find the ground only if necessary.
+    """
     settings = armature.body_moments_weight
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     if not settings.show:
         require_gravity(context.scene)
     rig = _measure_outdated(context, armature)
@@ -378,7 +399,9 @@ def _measure_outdated(context: Context, armature: Object) -> Rig | None:
 
 
 def store_rest(context: Context, armature: Object) -> None:
-    """Measure the bones if necessary and possible, and store them: a posed character has its mass at rest."""
+    """Measure the bones if necessary and possible, and store them: a posed character has its mass
+    at rest.
+    """
     with suppress(MeasureError):
         rig = _measure_outdated(context, armature)
         if rig is not None:
@@ -393,7 +416,7 @@ def keep(armature: Object, known: Character, ground: float, rig: Rig | None) -> 
     try:
         stored.results.store_rig(rig)
     except EditRefusedError:
-        _characters[armature] = properties.fingerprint(armature), known
+        memory.characters[armature] = properties.fingerprint(armature), known
         handlers.count_change(armature)
 
 
@@ -405,9 +428,11 @@ def prepare(context: Context, armature: Object) -> Rig | None:
 
 
 def _find_ground(context: Context, armature: Object, known: Character) -> float:
-    """Return the height of a character's ground: the world's origin, or its lowest point at rest or as posed.
+    """Return the height of a character's ground: the world's origin, or its lowest point at rest or
+    as posed.
 
-    The higher of the first two that is not above the posed character counts, else the posed lowest point.
+    The higher of the first two that is not above the posed character counts, else the posed lowest
+    point.
     """
     with rest_pose(context, armature) as depsgraph:
         rest = known.contacts(armature, depsgraph, 0.0).height
@@ -420,7 +445,9 @@ def _find_ground(context: Context, armature: Object, known: Character) -> float:
 
 
 def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str | None]]:
-    """Return (object, bone) of the meshes that may touch the ground, outside Edit Mode; None for skinned meshes."""
+    """Return (object, bone) of the meshes that may touch the ground, outside Edit Mode; None for
+    skinned meshes.
+    """
     skinned = deformed_meshes(armature)
     hanging = [*hanging_objects(armature, skinned), *held_objects(armature, depsgraph)]
     several = [

@@ -1,38 +1,43 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects with Live on, and their current numbers: `live` measures them, and the panels ask here."""
+"""Objects with Live on and their current numbers: `measuring` makes them, the panels ask here."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, NamedTuple
 
 from bpy.types import Object
 
 from ....core import measurement as measuring
-from .. import live
-from ..tracking.cache import SessionCache
+from .. import memory
 from ..tracking.stamps import Kind, Stamp
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ....core.measurement.measurement import Measurement
+    from ....core.nurbs.tracked_solid import TrackedSolid
     from ....core.verdict.finding import Finding
-    from .live import Followed
+    from .measuring import MovingSurface
 
 
 class Lag(StrEnum):
     """Lag of live numbers behind the displayed object."""
 
     NONE = ""
-    FIRST_ORDER = "first order"  # volume, mass and center are current, the inertia is scaled from the last measurement
+    # volume, mass and center are current, the inertia is scaled from the last measurement
+    FIRST_ORDER = "first order"
     BEHIND = "behind"
 
 
 class LiveResult(NamedTuple):
     """An object's current numbers.
 
-    measurement: None if it was refused. refusal: the reason for that. seconds: duration of the measurement. settings:
-    the digest of the object's settings.
+    measurement: None if it was refused. refusal: the reason for that. seconds: duration of the
+    measurement. settings: the digest of the object's settings.
     """
 
     measurement: Measurement | None
@@ -41,33 +46,49 @@ class LiveResult(NamedTuple):
     settings: str
 
 
-followed: SessionCache[Followed] = SessionCache()
+@dataclass(eq=False)
+class Followed:
+    """An object with Live on.
+
+    matrix, transform, number: at the measurement, matrix_world, transform key and number of the
+    last update. tracked: the body, if edits are followed rather than measured anew. surface: the
+    faces, if a light pass can follow them. first_order: volume and center in the object's
+    coordinates by the last light pass. pass_seconds: its duration. shows_others: whether the object
+    shows instances. is_pending: whether the object changed since the measurement.
+    """
+
+    result: LiveResult | None = None
+    matrix: NDArray[np.float64] | None = None
+    transform: str = ""
+    number: int = 0
+    tracked: TrackedSolid | None = None
+    surface: MovingSurface | None = None
+    first_order: tuple[float, NDArray[np.float64]] | None = None
+    pass_seconds: float = 0.0
+    shows_others: bool = False
+    is_pending: bool = False
 
 
 def is_live(obj: Object) -> bool:
     """Return whether Live is on for the object."""
-    return obj in followed
+    return obj in memory.followed
 
 
 def current_numbers(obj: Object) -> LiveResult | None:
-    """Return the result of an object's last live measurement, or None if there is none or Live is off."""
-    current = followed.get(obj)
+    """Return the result of an object's last live measurement, or None if there is none or Live is
+    off.
+    """
+    current = memory.followed.get(obj)
     return None if current is None else current.result
 
 
 def stamp_of(obj: Object) -> Stamp | None:
-    """Return a stamp of the settings of live numbers, as Blender does not report every change of a setting."""
+    """Return a stamp of the settings of live numbers, as Blender does not report every change of a
+    setting.
+    """
     now = current_numbers(obj)
     return (
         None
         if now is None
         else Stamp(Kind.SETTINGS, measuring.settings.VERSION, settings=now.settings)
     )
-
-
-def lag(obj: Object) -> Lag:
-    """Return the lag of an object's live numbers behind the displayed object."""
-    current = followed.get(obj)
-    if current is None or not (current.is_pending or live.live.is_of_another_scale(obj, current)):
-        return Lag.NONE
-    return Lag.BEHIND if current.first_order is None else Lag.FIRST_ORDER

@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Masses and centers of objects from frame to frame: measured again only if the geometry has changed.
+"""Masses and centers of objects from frame to frame: measured again only if the geometry has
+changed.
 
-An object that only moves is measured once, and its moments are mapped by its matrices. A mesh mixed from shape keys is
-sampled once, and its volume and center are polynomials of the key values while Blender cuts its faces into the same
-triangles; after other cuts it is measured.
+An object that only moves is measured once, and its moments are mapped by its matrices. A mesh mixed
+from shape keys is sampled once, and its volume and center are polynomials of the key values while
+Blender cuts its faces into the same triangles; after other cuts it is measured.
 """
 
 from __future__ import annotations
@@ -19,13 +20,13 @@ from ....core.bodies.reading import float64_matrix, to_si
 from ....core.mesh.hulls import ConvexHull
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Measure, Moments
-from ....core.numerics.float32 import shortest_decimal
 from ....core.statics.mixes import Mixes, fit_mixes, sample_count
 from ....core.verdict.finding import EditRefusedError
 from ....core.verdict.method import Method, Procedure
 from ...bodies.measure_object import measure_body
 from ...bodies.mesh import object_hull
 from ...read.objects import read_object
+from ...scale import meters_per_unit
 from ...scene.findings import OPEN_OBJECT
 from ...settings.options import object_settings
 from ..tracking import updates
@@ -37,9 +38,10 @@ MAX_SAMPLES = 200  # for a shape-key mix: with more keys each frame is measured
 class _Followed:
     """The measurement of a followed object.
 
-    change: number of the geometry's last update at the measurement, -1 before the first. moments: of the mass, in the
-    object's coordinates in SI units. given_mass: in kg, if the mass is given. mixes: volume and center as polynomials
-    of the values of the shape keys `keys`, for faces cut into `triangles`; density: the density for them.
+    change: number of the geometry's last update at the measurement, -1 before the first. moments:
+    of the mass, in the object's coordinates in SI units. given_mass: in kg, if the mass is given.
+    mixes: volume and center as polynomials of the values of the shape keys `keys`, for faces cut
+    into `triangles`; density: the density for them.
     """
 
     change: int = -1
@@ -69,8 +71,10 @@ class Motion:
     def mass_and_center(
         self, obj: Object, depsgraph: Depsgraph
     ) -> tuple[float, NDArray[np.float64]]:
-        """Return an object's mass, kg, and (3,) center, Blender's units; MeasureError if there is no certain one."""
-        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        """Return an object's mass, kg, and (3,) center, Blender's units; MeasureError if there is
+        no certain one.
+        """
+        unit = meters_per_unit(depsgraph.scene)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._entry(obj)
         if followed.change == -1 and followed.mixes is None:
@@ -82,8 +86,10 @@ class Motion:
         return moments.total, moments.center / unit
 
     def mass_moments(self, obj: Object, depsgraph: Depsgraph) -> Moments:
-        """Return the moments of an object's mass to second order, in the world and SI units, or raise MeasureError."""
-        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        """Return the moments of an object's mass to second order, in the world and SI units, or
+        raise MeasureError.
+        """
+        unit = meters_per_unit(depsgraph.scene)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._entry(obj)
         change = updates.last_change_of_geometry(obj)
@@ -105,7 +111,9 @@ class Motion:
         return self._followed.setdefault(obj.session_uid, _Followed())
 
     def hull_points(self, obj: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:
-        """Return the corners of an object's convex hull, (k, 3) in Blender's units and the world."""
+        """Return the corners of an object's convex hull, (k, 3) in Blender's units and the
+        world.
+        """
         followed = self._entry(obj)
         change = updates.last_change_of_geometry(obj)
         if followed.hull is None or followed.hull[0] != change:
@@ -114,7 +122,9 @@ class Motion:
         return followed.hull[1].points @ matrix[:3, :3].T + matrix[:3, 3]
 
     def _shape_keys(self, obj: Object, depsgraph: Depsgraph, followed: _Followed) -> None:
-        """Fit `mixes` to an object that shows nothing but a mix of shape keys, if that is possible."""
+        """Fit `mixes` to an object that shows nothing but a mix of shape keys, if that is
+        possible.
+        """
         keys = _mixed_keys(obj)
         if not keys or sample_count(len(keys)) > min(self.frames, MAX_SAMPLES):
             return
@@ -137,7 +147,9 @@ class Motion:
 
 
 def _mixed_keys(obj: Object) -> tuple[str, ...]:
-    """Return the names of the shape keys that may change the mesh, or none if anything else may change it, too."""
+    """Return the names of the shape keys that may change the mesh, or none if anything else may
+    change it, too.
+    """
     settings = obj.body_moments
     if obj.type != "MESH" or obj.data.shape_keys is None or not obj.data.shape_keys.use_relative:
         return ()
@@ -172,7 +184,9 @@ def _coordinates(data) -> NDArray[np.float64]:
 def _mixed(
     obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
 ) -> tuple[float, NDArray[np.float64]] | None:
-    """Return mass and center by the mix of shape keys; None if triangles changed, or the mesh is flat or inside out."""
+    """Return mass and center by the mix of shape keys; None if triangles changed, or the mesh is
+    flat or inside out.
+    """
     assert followed.mixes is not None and followed.triangles is not None
     triangles, _ = read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()
     if not np.array_equal(triangles, followed.triangles):
@@ -189,7 +203,9 @@ def _mixed(
 def _measured(
     obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
 ) -> Moments:
-    """Measure an object, keep its moments if its matrices can map them, and return them in the world."""
+    """Measure an object, keep its moments if its matrices can map them, and return them in the
+    world.
+    """
     measurement = measure_body(obj, depsgraph).measurement
     if measurement.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT, subject=obj.name)
@@ -204,7 +220,9 @@ def _measured(
 
 
 def _can_map(moments: Moments, matrix: NDArray) -> bool:
-    """Return whether a matrix can map the moments: it is not singular, and a similarity for areas and lengths."""
+    """Return whether a matrix can map the moments: it is not singular, and a similarity for areas
+    and lengths.
+    """
     if are_singular(matrix[None, :3, :3])[0]:
         return False
     return moments.measure in (Measure.VOLUME, Measure.MASS) or bool(

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stored results of an assembly: on it, on its assemblies and measured objects; its tree and bill of masses."""
+"""The stored results of an assembly: on it, on its assemblies and measured objects; its tree and
+bill of masses.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,6 @@ from ....core.inertia.plain_body import TENSOR, PlainBody, add_bodies
 from ....core.measurement.builder import find_properties
 from ....core.measurement.documents import table
 from ....core.measurement.settings import digest
-from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity, finding
 from ....core.verdict.sentences import of_severity, sentence
@@ -35,11 +36,13 @@ from ...read.assembly import (
     members_of,
     settings_of,
 )
+from ...scale import meters_per_unit
 from ...write import properties
 from ..tracking import handlers, staleness, stamps
 from . import reference, results
 
-SAME_RTOL = 1e-5  # relative to mass and radius of gyration: other coordinates of the same body may change as much
+# relative to mass and radius of gyration: other coordinates of the same body may change as much
+SAME_RTOL = 1e-5
 COLUMNS = (
     *("level", "name", "type", "counted", "method", "mass", "share", "density", "volume", "area"),
     *(f"center_of_mass_{axis}" for axis in "xyz"),
@@ -56,10 +59,12 @@ COLUMNS = (
 
 
 def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
-    """Store the results of an assembly and its members; return names of members that cannot hold them, and reasons."""
+    """Store the results of an assembly and its members; return names of members that cannot hold
+    them, and reasons.
+    """
     scene = context.scene
     depsgraph = context.evaluated_depsgraph_get()
-    unit = shortest_decimal(scene.unit_settings.scale_length)
+    unit = meters_per_unit(scene)
     root = assembly.root.member.data
     about = reference.stored_choice(root)
     properties.store(root, assembly.measurement)
@@ -89,7 +94,9 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
 
 
 def clear(root: Root) -> bool:
-    """Remove the results of an assembly; return whether there were any; EditRefusedError if it cannot be changed."""
+    """Remove the results of an assembly; return whether there were any; EditRefusedError if it
+    cannot be changed.
+    """
     properties.require_storable(root)
     settings_of(root).rows.clear()
     return properties.clear(root)
@@ -97,10 +104,12 @@ def clear(root: Root) -> bool:
 
 @contextmanager
 def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[None]:
-    """Keep assemblies up to date while a block gives members other frames, or stores other masses of them.
+    """Keep assemblies up to date while a block gives members other frames, or stores other masses
+    of them.
 
-    A total that is the plain sum of its members follows their masses. An assembly keeps its old stamp if a member's
-    results are out of date, or if instances or given masses are in its total. member: the only one that changes.
+    A total that is the plain sum of its members follows their masses. An assembly keeps its old
+    stamp if a member's results are out of date, or if instances or given masses are in its total.
+    member: the only one that changes.
     """
     scene = context.scene
     depsgraph = context.view_layer.depsgraph
@@ -139,7 +148,7 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
             _follow_defaults(root, now)
         elif _is_sum(root, bodies) and (total := add_bodies([*now.values()])) is not None:
             matrix = getattr(root, "matrix_world", Matrix())
-            unit = shortest_decimal(scene.unit_settings.scale_length)
+            unit = meters_per_unit(scene)
             properties.store_body(root, total.in_object(matrix, unit), text)
             _scale_rows(
                 root, {obj.name: now[obj].mass - bodies[obj].mass for obj in now}, total.mass
@@ -171,12 +180,14 @@ def _is_sum(root: Root, bodies: dict[Object, PlainBody]) -> bool:
     own = properties.stored(root)
     if total is None or own is None:
         return False
-    unit = shortest_decimal(bpy.context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(bpy.context.scene)
     return _is_same(total, own.in_world(getattr(root, "matrix_world", Matrix()), unit))
 
 
 def _scale_rows(root: Root, gains: dict[str, float], mass: float) -> None:
-    """Add the gains of objects, by name, to their rows and to those of the assemblies that they are in."""
+    """Add the gains of objects, by name, to their rows and to those of the assemblies that they are
+    in.
+    """
     above: list[PropertyGroup] = []
     for row in settings_of(root).rows:
         above = [*(upper for upper in above if upper.depth < row.depth), row]
@@ -189,7 +200,7 @@ def _scale_rows(root: Root, gains: dict[str, float], mass: float) -> None:
 
 def _member_bodies(root: Member) -> dict[Object, PlainBody]:
     """Return each member's stored results in the world."""
-    unit = shortest_decimal(bpy.context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(bpy.context.scene)
     objects = [
         member.data
         for member in root.walk()
@@ -229,7 +240,9 @@ def _write_rows(assembly: Assembly) -> None:
 def _tree(
     part: MemberBody, depth: int, factor: float, counted: bool
 ) -> Iterator[tuple[int, MemberBody, float, bool]]:
-    """Yield for each member its depth, itself, the factor of its mass by instances, and whether its mass counts."""
+    """Yield for each member its depth, itself, the factor of its mass by instances, and whether its
+    mass counts.
+    """
     yield depth, part, factor, counted
     below = sum([_own_mass(member) for member in part.parts], 0.0)
     if part.member.kind == MemberKind.INSTANCE and below > 0.0:
@@ -256,7 +269,8 @@ def _row_findings(part: MemberBody) -> list[Finding]:
 
 
 def bill_csv(root: MemberBody, mass: float) -> list[str]:
-    """Return the lines of the bill of an assembly with this mass, kg, as CSV: the header, then its rows.
+    """Return the lines of the bill of an assembly with this mass, kg, as CSV: the header, then its
+    rows.
 
     SI units; the inertia of a member is about its own center of mass, along the world axes.
     """

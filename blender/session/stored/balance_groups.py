@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from ....core.statics.support import Support
 from ...scene import fcurves
 from ...write.properties import BALANCE_GROUP, BALANCE_SPANS
+from .. import memory
 from ..tracking import handlers
-from ..tracking.cache import SessionCache
 
 INSIDE = "body_balance_inside"
 CONTACT = "body_balance_contact"
@@ -32,8 +32,10 @@ DESCRIPTIONS = {  # of custom properties with F-curves
     "body_balance_momentum": "Linear momentum, kg·m/s",
     "body_balance_angular_momentum": "Angular momentum about the center of mass, kg·m²/s",
     "body_balance_kinetic_energy": "Kinetic energy, J",
-    "body_balance_margin": "Distance of the center from the edge of the support polygon, m; negative outside",
-    "body_balance_zero_moment_point": "Point of the ground at which contact forces have no moment along it",
+    "body_balance_margin": "Distance of the center from the edge of the support polygon, m; "
+    "negative outside",
+    "body_balance_zero_moment_point": "Point of the ground at which contact forces have no moment "
+    "along it",
 }
 
 
@@ -41,9 +43,9 @@ DESCRIPTIONS = {  # of custom properties with F-curves
 class Path:
     """Path of a center of mass over f frames.
 
-    frames: (f,). centers: (f, 3), in Blender's units and the world.
-    inside: (f,), True for a center over the support polygon; None without a polygon. contact, unexplained: (f,),
-    whether anything touches the ground, and whether momentum changes without that; None for groups.
+    frames: (f,). centers: (f, 3), in Blender's units and the world. inside: (f,), True for a center
+    over the support polygon; None without a polygon. contact, unexplained: (f,), whether anything
+    touches the ground, and whether momentum changes without that; None for groups.
     """
 
     frames: NDArray[np.float64]
@@ -51,9 +53,6 @@ class Path:
     inside: NDArray[np.bool_] | None
     contact: NDArray[np.bool_] | None = None
     unexplained: NDArray[np.bool_] | None = None
-
-
-_supports: SessionCache[Mapping[int, Support]] = SessionCache()
 
 
 def groups(scene: bpy.types.Scene) -> Iterator[Object]:
@@ -82,10 +81,11 @@ def store(
     supports: Sequence[Support | None],
     spans: Sequence[tuple[float, float, float, float]],
 ) -> None:
-    """Put a path and (f,) or (f, 3) signals on the empty as keys, in place of earlier ones, and remember the supports.
+    """Put a path and (f,) or (f, 3) signals on the empty as keys, in place of earlier ones, and
+    remember the supports.
 
-    Truth values are keyed as 0 and 1; frames without a value, which is NaN, get no key. spans: of frames, with
-    momentum from nothing.
+    Truth values are keyed as 0 and 1; frames without a value, which is NaN, get no key. spans: of
+    frames, with momentum from nothing.
     """
     empty[BALANCE_SPANS] = [float(value) for span in spans for value in span]
     if not spans:
@@ -103,14 +103,14 @@ def store(
                 del empty[name]
             continue
         is_truth = values.dtype == bool
-        empty[name] = 0 if is_truth else 0.0 if values.ndim == 1 else [0.0] * 3
+        empty[name] = np.zeros_like(values[0], int if is_truth else float).tolist()
         ui = empty.id_properties_ui(name)
         ui.update(description=description, **({"min": 0, "max": 1} if is_truth else {}))
         for axis, column in enumerate(values.reshape(len(frames), -1).T):
             known = ~np.isnan(column)
             kind = fcurves.CONSTANT if is_truth else fcurves.LINEAR
             fcurves.write_keys(curves, (path, axis), frames[known], column[known], kind)
-    _supports[empty] = {
+    memory.supports[empty] = {
         round(float(frame)): support
         for frame, support in zip(frames, supports)
         if support is not None
@@ -137,7 +137,7 @@ def path(empty: Object) -> Path | None:
 
 def support(empty: Object, frame: int) -> Support | None:
     """Return the support polygon of a group at a frame, or None if none is cached."""
-    return (_supports.get(empty) or {}).get(frame)
+    return (memory.supports.get(empty) or {}).get(frame)
 
 
 def _keys(

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Density as a multiplication: if it is one number, stored results follow it at once, without being measured again.
+"""Density as a multiplication: if it is one number, stored results follow it at once, without being
+measured again.
 
-The stamp must be that of the present settings with the stored density or mass. So nothing has to be remembered, undo
-restores both together, and an animated setting leaves the results out of date.
+The stamp must be that of the present settings with the stored density or mass. So nothing has to be
+remembered, undo restores both together, and an animated setting leaves the results out of date.
 """
 
 from __future__ import annotations
@@ -34,7 +35,9 @@ DEFAULTS = {  # notes on an unset density, by the setting
 
 
 def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
-    """Return an object's measurement, with a note if its density is unset and no finding says so yet."""
+    """Return an object's measurement, with a note if its density is unset and no finding says so
+    yet.
+    """
     unset = unset_density(obj, measurement, scene)
     if unset is None:
         return measurement
@@ -49,7 +52,9 @@ def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Findin
 
 
 def follow_density(obj: Object, scene: Scene) -> None:
-    """Update stored results if the settings change them by a factor alone; else leave them out of date."""
+    """Update stored results if the settings change them by a factor alone; else leave them out of
+    date.
+    """
     stamp = stamps.of_results(obj)
     if stamp is None or stamp.version != VERSION or "body_density_from" in obj:
         return
@@ -114,7 +119,9 @@ def on_density(settings: PropertyGroup, context: Context) -> None:
 
 
 def on_default_density(settings: PropertyGroup, context: Context) -> None:
-    """Scale the results of objects without their own density after a change of the scene's density."""
+    """Scale the results of objects without their own density after a change of the scene's
+    density.
+    """
     with stored.assembly.kept_up_to_date(context):
         for obj in settings.id_data.objects:
             if not obj.body_moments.is_property_set("density"):

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The faults of measured meshes, for the overlay: cached until the geometry changes or the file is closed."""
+"""The faults of measured meshes, for the overlay: cached until the geometry changes or the file is
+closed.
+"""
 
 from __future__ import annotations
 
@@ -15,8 +17,8 @@ from ....core.mesh.surface import Surface
 from ....core.verdict.findings import FLIPPED_FACES
 from ....core.verdict.health import DefectiveElements
 from ...bodies.measure_object import Measured
+from .. import memory
 from ..tracking import updates
-from ..tracking.cache import SessionCache
 
 PAIRS = "boundary_edges", "non_manifold_edges", "inconsistent_edges"
 FACES = FLIPPED_FACES, "duplicate_faces", "degenerate_faces"
@@ -28,8 +30,8 @@ OWN_PLACE = np.eye(4)
 class Faults:
     """Faulty edges and faces in an object's own coordinates.
 
-    edges: (k, 2, 3), boundary, non-manifold and inconsistent. triangles: (l, 3, 3), of flipped, duplicate and zero-area
-    faces. change: number of the last update of the geometry.
+    edges: (k, 2, 3), boundary, non-manifold and inconsistent. triangles: (l, 3, 3), of flipped,
+    duplicate and zero-area faces. change: number of the last update of the geometry.
     """
 
     edges: NDArray[np.float64]
@@ -37,8 +39,7 @@ class Faults:
     change: int
 
 
-_faults: SessionCache[Faults] = SessionCache()
-forget = _faults.forget
+forget = memory.faults.forget
 
 
 def remember(obj: Object, measured: Measured) -> None:
@@ -67,14 +68,14 @@ def remember_surface(
     if len(faces):
         triangles, face = surface.all_triangles()
         triangles = triangles[np.isin(face, faces)][:MAX_DRAWN]
-    _faults[obj] = Faults(
+    memory.faults[obj] = Faults(
         points[pairs[:MAX_DRAWN]], points[triangles], updates.last_change_of_geometry(obj)
     )
 
 
 def of_object(obj: Object) -> Faults | None:
     """Return the faults of an object, None if there are none or its geometry has changed."""
-    faults = _faults.get(obj)
+    faults = memory.faults.get(obj)
     if faults is None or faults.change != updates.last_change_of_geometry(obj):
         return None
     return faults

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moments to a chosen order, kept in memory, and their display in a panel and on the clipboard.
 
-The last few objects' moments are kept while the file is open; their keys show when they are out of date.
+The last few objects' moments are kept while the file is open; their keys show when they are out of
+date.
 """
 
 from __future__ import annotations
@@ -32,15 +33,14 @@ from ...bodies.measure_object import THREADS, measure_object
 from ...read.fingerprint import matrix_hash, settings_hash
 from ...settings.options import MeasureOptions
 from ...write.units import number
+from .. import memory
 from ..findings import INVARIANTS_ORDER, MASS_MOMENTS_UNKNOWN, MOMENTS_OF_AREA_ONLY
-from ..tracking import staleness, stamps, updates
-from ..tracking.cache import SessionCache
+from ..tracking import staleness, stamps
 from ..tracking.stamps import Kind, Stamp
 from .reference import ReferenceChoice
 
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
 HU_ORDER = 3  # order of Hu's invariants
-MAX_CACHED_OBJECTS = 16  # objects
 ZERO_DISPLAY_RTOL = 1e-12  # relative to the largest moment of a degree: shown as 0
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -57,9 +57,9 @@ class FlatMoments:
 class ComputedMoments:
     """One object's moments, SI, world axes.
 
-    volume: for a shell, area times thickness; None for flat shapes, like `area`. mass: None if the moments of the mass
-    are not known to this order. rotation, location: the object frame. flat: the moments of a flat shape. not_flat: the
-    reason if there are none.
+    volume: for a shell, area times thickness; None for flat shapes, like `area`. mass: None if the
+    moments of the mass are not known to this order. rotation, location: the object frame. flat: the
+    moments of a flat shape. not_flat: the reason if there are none.
     """
 
     name: str
@@ -105,8 +105,6 @@ Display = tuple[
     tuple[Degree, ...], Finding | None
 ]  # a panel's degrees, and the reason if there are none
 
-_computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
-
 
 def compute_moments(
     context: Context, obj: Object, order: int
@@ -149,15 +147,15 @@ def compute_moments(
 
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
     """Cache an object's freshly computed moments."""
-    _computed[obj] = computed
+    memory.moments[obj] = computed
     settings = settings_hash(obj, depsgraph.scene)
-    stamp = stamps.carry(obj, Kind.MOMENTS, updates.count(), matrix_hash(obj), settings)
+    stamp = stamps.carry(obj, Kind.MOMENTS, memory.state.updates, matrix_hash(obj), settings)
     staleness.mark_stamp(obj, stamp, depsgraph)
 
 
 def computed_moments(obj: Object) -> ComputedMoments | None:
     """Return an object's computed moments; None if there are none."""
-    return _computed.get(obj)
+    return memory.moments.get(obj)
 
 
 def stamp_of(obj: Object) -> Stamp | None:
@@ -228,7 +226,9 @@ def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree
 
 
 def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant]:
-    """Return Hu's seven invariants and, from fourth order on, Flusser's; MeasureError for bodies and lower orders."""
+    """Return Hu's seven invariants and, from fourth order on, Flusser's; MeasureError for bodies
+    and lower orders.
+    """
     if of != "FLAT":
         raise ReadError(MOMENTS_OF_AREA_ONLY)
     if order < HU_ORDER:
@@ -256,9 +256,9 @@ def in_frame(
 ) -> Moments:
     """Return the moments in a frame or about a reference.
 
-    frame: "WORLD" or "OBJECT". about: the frame's "ORIGIN", the body's "CENTER", or "NORMALIZED" (`normalize` by size,
-    for a mass by gyration). reference: replaces both, with its origin and axes. Raises MeasureError if there are no
-    such moments, or they leave the range of numbers.
+    frame: "WORLD" or "OBJECT". about: the frame's "ORIGIN", the body's "CENTER", or "NORMALIZED"
+    (`normalize` by size, for a mass by gyration). reference: replaces both, with its origin and
+    axes. Raises MeasureError if there are no such moments, or they leave the range of numbers.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         if of == "FLAT":
@@ -294,7 +294,9 @@ def _select_moments(computed: ComputedMoments, of: str) -> Moments:
 def _in_plane(
     computed: ComputedMoments, about: str, frame: str, order: int, reference: Reference | None
 ) -> Moments:
-    """Return moments along the axes of the plane: normalized, about the center, or about the foot of an origin."""
+    """Return moments along the axes of the plane: normalized, about the center, or about the foot
+    of an origin.
+    """
     moments = _select_moments(computed, "FLAT").truncate(order)
     flat = computed.flat
     if about == "NORMALIZED":
@@ -308,13 +310,9 @@ def _in_plane(
 
 def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
     moments = _select_moments(computed, of).truncate(order)
-    origin = (
-        moments.center
-        if about != "ORIGIN"
-        else np.zeros(3)
-        if frame == "WORLD"
-        else computed.location
-    )
+    origin = np.zeros(3) if frame == "WORLD" else computed.location
+    if about != "ORIGIN":
+        origin = moments.center
     if frame == "OBJECT":
         moments = moments.in_frame(computed.rotation, origin)
     if about == "NORMALIZED":
@@ -344,7 +342,9 @@ def unit(of: str, about: str, degree: int) -> str:
 def as_csv(
     computed: ComputedMoments, of: str, about: str, frame: str, reference: Reference | None = None
 ) -> str:
-    """Return all moments as CSV: a comment that describes them, and a row for each with its bounds."""
+    """Return all moments as CSV: a comment that describes them, and a row for each with its
+    bounds.
+    """
     bounds = ["rounding", "float32"]
     if of == "FLAT" and about == "INVARIANT":
         heading = "invariants of the flat shape, from central moments, scaled to an area of 1"
@@ -393,7 +393,8 @@ def _heading(of: str, about: str, frame: str) -> str:
 def _flat_heading(computed: ComputedMoments, about: str, frame: str) -> str:
     assert computed.flat is not None
     x, y, normal = (" ".join(map(repr, axis)) for axis in computed.flat.plane.axes.T.tolist())
-    return "area moments of the flat shape, along x = ({:s}) and y = ({:s}), front ({:s}), {:s}".format(
+    heading = "area moments of the flat shape, along x = ({:s}) and y = ({:s}), front ({:s}), {:s}"
+    return heading.format(
         x,
         y,
         normal,

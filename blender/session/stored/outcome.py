@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Refusals of the last action, for panels to show until the next selection, undo or successful action."""
+"""Refusals of the last action, for panels to show until the next selection, undo or successful
+action.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +14,7 @@ import bpy
 from ....core.verdict.finding import Finding, Severity
 from ....core.verdict.sentences import Group, grouped, severity
 from ...write.findings import FAILURE
+from .. import memory
 
 
 class ActionOutcome(NamedTuple):
@@ -21,22 +24,17 @@ class ActionOutcome(NamedTuple):
     groups: tuple[Group, ...]
 
 
-_last: ActionOutcome | None = None
-_shown_in: tuple[
-    object, ...
-] = ()  # the selection and the last action when the outcome was first shown
-
-
 def remember(action: str, findings: Iterable[Finding]) -> None:
-    """Keep the refusals of an action, in place of the previous action's. action: the operator's label."""
-    global _last, _shown_in
+    """Keep the refusals of an action, in place of the previous action's. action: the operator's
+    label.
+    """
     groups = grouped(
         _refused(found)
         for found in findings
         if found.code == FAILURE or severity(found) == Severity.ERROR
     )
-    _last = ActionOutcome(action, tuple(groups)) if groups else None
-    _shown_in = ()
+    memory.state.outcome = ActionOutcome(action, tuple(groups)) if groups else None
+    memory.state.outcome_seen_in = ()
 
 
 def _refused(found: Finding) -> tuple[str, Finding]:
@@ -47,9 +45,10 @@ def _refused(found: Finding) -> tuple[str, Finding]:
 
 
 def last() -> ActionOutcome | None:
-    """Return the refusals of the last action, None if there were none, or after another selection or action."""
-    global _shown_in
-    if _last is not None:
+    """Return the refusals of the last action, None if there were none, or after another selection
+    or action.
+    """
+    if memory.state.outcome is not None:
         layer = bpy.context.view_layer
         actions = bpy.context.window_manager.operators
         selected = tuple(obj.session_uid for obj in layer.objects.selected)
@@ -58,13 +57,12 @@ def last() -> ActionOutcome | None:
             selected,
             actions[-1].as_pointer() if actions else 0,
         )
-        if _shown_in not in ((), state):
+        if memory.state.outcome_seen_in not in ((), state):
             forget()
-        _shown_in = state
-    return _last
+        memory.state.outcome_seen_in = state
+    return memory.state.outcome
 
 
 def forget() -> None:
     """Forget the refusals of the last action."""
-    global _last
-    _last = None
+    memory.state.outcome = None

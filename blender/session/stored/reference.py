@@ -21,6 +21,7 @@ from ....core.inertia.plain_body import PlainBody, Reference, ReferredInertia, r
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, MeasureError, QueryError
 from ...read.findings import REFERENCE_OBJECT_MISSING
+from ...scale import meters_per_unit
 from ...write import properties
 from ...write.findings import NO_STORED_RESULTS
 from ..tracking import staleness
@@ -29,7 +30,9 @@ Point = tuple[float, ...]
 
 
 def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Finding | None:
-    """Return an owner's inertia about the scene's reference, from stored results; else the reason, or None if none."""
+    """Return an owner's inertia about the scene's reference, from stored results; else the reason,
+    or None if none.
+    """
     choice = ReferenceChoice.from_settings(scene.body_moments_reference)
     body = _stored_body(owner, scene)
     if body is None:
@@ -41,7 +44,9 @@ def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Find
 
 
 def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None = None) -> None:
-    """Write the inertia about a reference, by default the scene's, beside stored results, or raise MeasureError."""
+    """Write the inertia about a reference, by default the scene's, beside stored results, or raise
+    MeasureError.
+    """
     choice = choice or ReferenceChoice.from_settings(scene.body_moments_reference)
     body = _stored_body(owner, scene)
     if body is None:
@@ -74,7 +79,9 @@ def stored_choice(owner: Object | Collection) -> ReferenceChoice | None:
 
 
 def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None) -> None:
-    """Store the inertia about the stored reference again after new results, unless the reference is gone."""
+    """Store the inertia about the stored reference again after new results, unless the reference is
+    gone.
+    """
     if choice is not None:
         with suppress(MeasureError):
             store(owner, scene, choice)
@@ -86,9 +93,7 @@ def _stored_body(owner: Object | Collection, scene: Scene) -> PlainBody | None:
     if stored is None:
         return None
     if isinstance(owner, bpy.types.Object):
-        stored = stored.in_world(
-            owner.matrix_world, shortest_decimal(scene.unit_settings.scale_length)
-        )
+        stored = stored.in_world(owner.matrix_world, meters_per_unit(scene))
     return stored
 
 
@@ -139,8 +144,10 @@ class ReferenceChoice:
             return None
 
     def resolve(self, owner: bpy.types.ID, scene: Scene, center: Sequence[float]) -> Reference:
-        """Return the reference frame (SI, world axes) for an owner with this center of mass, or raise QueryError."""
-        unit = shortest_decimal(scene.unit_settings.scale_length)
+        """Return the reference frame (SI, world axes) for an owner with this center of mass, or
+        raise QueryError.
+        """
+        unit = meters_per_unit(scene)
         if self.about == "CENTER":
             return Reference(center)
         if self.about == "ORIGIN" and isinstance(owner, Object):

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Storing of results on objects: measurements, with what the panel's sliders need, bones, symmetries and sections."""
+"""Storing of results on objects: measurements, with what the panel's sliders need, bones,
+symmetries and sections.
+"""
 
 from __future__ import annotations
 
@@ -13,11 +15,11 @@ import numpy as np
 from bpy.types import Context, Object, Scene
 
 from ....core.measurement.settings import fingerprint
-from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import MeasuredStack, Stacked
 from ...read.fingerprint import matrix_hash, scale_hash, settings_hash
+from ...scale import meters_per_unit
 from ...settings.density import is_density_unset
 from ...write import properties, section
 from ..tracking import armatures, staleness, stamps
@@ -35,7 +37,9 @@ MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fin
 
 
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
-    """Write a measurement on the object, and remember the data for its sliders, or raise EditRefusedError."""
+    """Write a measurement on the object, and remember the data for its sliders, or raise
+    EditRefusedError.
+    """
     measured = replace(measured, measurement=density.noted(obj, measured.measurement, scene))
     staleness.note_edits(obj)
     about = reference.stored_choice(obj)
@@ -48,7 +52,9 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
 def store_many(
     measured: Sequence[tuple[Object, Measured | Stacked]], scene: Scene
 ) -> Iterator[tuple[Object, Exception | None]]:
-    """Store the results of many objects like `store`; yield each with None, or the error that prevented it."""
+    """Store the results of many objects like `store`; yield each with None, or the error that
+    prevented it.
+    """
     for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
         items: list[tuple[Object, Any]] = list(run)
         if stack is None:
@@ -66,7 +72,9 @@ def store_many(
 def store_measured(
     context: Context, measured: Iterable[tuple[Object, Measured | Stacked]]
 ) -> dict[Object, Exception]:
-    """Store measurements of the present scene; return the errors of objects that cannot hold their results."""
+    """Store measurements of the present scene; return the errors of objects that cannot hold their
+    results.
+    """
     measured = list(measured)
     outcomes = list(store_many(measured, context.scene))
     shapes = {obj: found.shape_digest for obj, found in measured if isinstance(found, Stacked)}
@@ -113,7 +121,9 @@ def _store_stack(
 def store_symmetry(
     obj: Object, shape: Shape | FlatShape, confirmed: Symmetry, allowed: Symmetry, tolerance: float
 ) -> None:
-    """Store the symmetry that the surface confirms, and the group that the moments allow, on an object."""
+    """Store the symmetry that the surface confirms, and the group that the moments allow, on an
+    object.
+    """
     stored = obj.body_moments_symmetry
     stored.group = confirmed.group
     stored.compatible = allowed.group
@@ -140,7 +150,7 @@ def _elements(found: Symmetry) -> list[tuple[str, int, np.ndarray]]:
 
 def store_sections(context: Context, sections: Sequence[tuple[Object, MeasuredSection]]) -> None:
     """Store sections on their objects."""
-    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    unit = meters_per_unit(context.scene)
     for obj, (found, description, findings) in sections:
         parts = (found.plane.origin, found.plane.axes.ravel(), found.second, found.centroid)
         numbers = np.concatenate([*parts, [found.area, found.perimeter]])
@@ -152,7 +162,9 @@ def store_sections(context: Context, sections: Sequence[tuple[Object, MeasuredSe
 
 
 def store_rig(rig: Rig) -> list[tuple[str, Finding]]:
-    """Store the results of all bones and the whole, or raise EditRefusedError; return bones without, and reasons."""
+    """Store the results of all bones and the whole, or raise EditRefusedError; return bones
+    without, and reasons.
+    """
     armature = rig.armature
     properties.store(armature, rig.measurement)
     parts = {part.name: part for part in rig.parts}
@@ -174,7 +186,9 @@ def store_rig(rig: Rig) -> list[tuple[str, Finding]]:
 
 
 def clear_rig(armature: Object) -> bool:
-    """Remove the results of all bones and of the whole, or raise EditRefusedError; return whether there were any."""
+    """Remove the results of all bones and of the whole, or raise EditRefusedError; return whether
+    there were any.
+    """
     properties.require_storable(armature)
     cleared = [properties.clear(owner) for owner in (armature, *armature.pose.bones)]
     return any(cleared)

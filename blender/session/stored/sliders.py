@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The thickness of a measured wall and the threshold of a measured grid as sliders.
 
-Walls are kept in memory as polynomials in the thickness, grids with their values; a change of the setting stores the
-numbers of the new body. If geometry or transform have changed since, the stored numbers stay and are out of date. While
-a threshold moves, its numbers come from every second or third value of a large grid and are out of date; a moment later
-the exact ones follow.
+Walls are kept in memory as polynomials in the thickness, grids with their values; a change of the
+setting stores the numbers of the new body. If geometry or transform have changed since, the stored
+numbers stay and are out of date. While a threshold moves, its numbers come from every second or
+third value of a large grid and are out of date; a moment later the exact ones follow.
 """
 
 from __future__ import annotations
@@ -26,16 +26,14 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import MeasureError
 from ...bodies.measure_object import Measured
 from ...bodies.request import Request, measurement_of
+from ...scale import meters_per_unit
 from ...settings import hooks
 from ...settings.density import grid_key
 from ...write import properties
+from .. import memory
 from ..tracking import staleness, stamps
-from ..tracking.cache import SessionCache
 from . import density
 
-# objects: a grid may have gigabytes
-MAX_WALLS = 64
-MAX_GRIDS = 2
 DELAY = 0.3  # s after the last change of a threshold
 COARSE = "coarse"  # equals no key of settings, so that results with it are out of date
 
@@ -44,9 +42,11 @@ Source = TypeVar("Source", Walls, ThresholdGrid)
 
 @dataclass(frozen=True, eq=False)
 class _Kept(Generic[Source]):
-    """The walls or the grid of an object's measurement, and the parts of the stamps that were stored with it since.
+    """The walls or the grid of an object's measurement, and the parts of the stamps that were
+    stored with it since.
 
-    geometries: the digests at every stored threshold, because undo may restore each. unit: meters per Blender unit.
+    geometries: the digests at every stored threshold, because undo may restore each. unit: meters
+    per Blender unit.
     """
 
     reading: Reading
@@ -56,9 +56,8 @@ class _Kept(Generic[Source]):
     unit: float
 
 
-_walls: SessionCache[_Kept[Walls]] = SessionCache(MAX_WALLS)
-_grids: SessionCache[_Kept[ThresholdGrid]] = SessionCache(MAX_GRIDS)
-_pending: list[tuple[Object, Scene]] = []  # objects whose exact numbers are due
+SliderWalls = _Kept[Walls]
+SliderGrid = _Kept[ThresholdGrid]
 
 
 def remember(obj: Object, measured: Measured, scene: Scene) -> None:
@@ -66,20 +65,22 @@ def remember(obj: Object, measured: Measured, scene: Scene) -> None:
     stamp = stamps.Stamp.parse(measured.measurement.fingerprint)
     reading = measured.reading
     body = measured.body
-    of_stamp = {stamp.geometry}, stamp.transform, shortest_decimal(scene.unit_settings.scale_length)
+    of_stamp = {stamp.geometry}, stamp.transform, meters_per_unit(scene)
     if isinstance(body, WallBody) and body.walls is not None:
-        _walls[obj] = _Kept(replace(reading, parts=[]), body.walls.drop_arrays(), *of_stamp)
+        memory.walls[obj] = _Kept(replace(reading, parts=[]), body.walls.drop_arrays(), *of_stamp)
         if on_wall_setting not in hooks.on_wall_change:
             hooks.on_wall_change.append(on_wall_setting)
     elif isinstance(body, ThresholdGridBody):
-        _grids[obj] = _Kept(reading, body.grid, *of_stamp)
+        memory.grids[obj] = _Kept(reading, body.grid, *of_stamp)
         if on_threshold not in hooks.on_threshold_change:
             hooks.on_threshold_change.append(on_threshold)
 
 
 def max_thickness(obj: Object) -> float | None:
-    """Return the thickness in m from which the object's wall folds over, or None if it is unknown or unlimited."""
-    kept = _current(_walls, obj)
+    """Return the thickness in m from which the object's wall folds over, or None if it is unknown
+    or unlimited.
+    """
+    kept = _current(memory.walls, obj)
     if kept is None or obj.body_moments.wall == "THIN":
         return None
     limit = _walls_on_side(kept, obj).max_thickness
@@ -89,7 +90,7 @@ def max_thickness(obj: Object) -> float | None:
 def is_too_thick(obj: Object) -> bool:
     """Return whether the current thickness is known to be too large."""
     limit = max_thickness(obj)
-    kept = _walls.get(obj)
+    kept = memory.walls.get(obj)
     if limit is None or kept is None:
         return False
     return not shortest_decimal(obj.body_moments.thickness) * kept.unit < limit
@@ -98,7 +99,7 @@ def is_too_thick(obj: Object) -> bool:
 def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
     """Store the numbers of a changed wall or thickness."""
     obj, scene = settings.id_data, context.scene
-    kept = _current(_walls, obj, scene)
+    kept = _current(memory.walls, obj, scene)
     is_walled = settings.kind == "SHELL" and settings.wall != "THIN"
     varies = settings.mass_from == "DENSITY" and settings.density_from != "VALUE"
     if kept is None or not is_walled or varies:
@@ -120,8 +121,8 @@ def on_threshold(settings: PropertyGroup, context: Context) -> None:
     coarse = kept.source.coarse()
     if _store_threshold(obj, scene, kept, coarse, preview=True) and coarse is kept.source:
         staleness.mark_object(obj)
-    if (obj, scene) not in _pending:
-        _pending.append((obj, scene))
+    if (obj, scene) not in memory.due_numbers:
+        memory.due_numbers.append((obj, scene))
     if bpy.app.background:
         _finish()
         return
@@ -131,9 +132,10 @@ def on_threshold(settings: PropertyGroup, context: Context) -> None:
 
 
 def _current(
-    cache: SessionCache[_Kept[Source]], obj: Object, scene: Scene | None = None
+    cache: memory.SessionCache[_Kept[Source]], obj: Object, scene: Scene | None = None
 ) -> _Kept[Source] | None:
-    """Return an object's kept walls or grid, if its stored numbers belong to the same geometry and transform.
+    """Return an object's kept walls or grid, if its stored numbers belong to the same geometry and
+    transform.
 
     scene: if given, it must also have the same unit scale, and the object no edits since.
     """
@@ -145,13 +147,13 @@ def _current(
         or stamp.transform != kept.transform
     ):
         return None
-    if scene is not None and shortest_decimal(scene.unit_settings.scale_length) != kept.unit:
+    if scene is not None and meters_per_unit(scene) != kept.unit:
         return None
     return None if scene is not None and staleness.is_edited(obj) else kept
 
 
 def _current_grid(obj: Object, scene: Scene | None) -> _Kept[ThresholdGrid] | None:
-    kept = None if scene is None else _current(_grids, obj, scene)
+    kept = None if scene is None else _current(memory.grids, obj, scene)
     return kept if kept is not None and obj.body_moments.grid_as == "THRESHOLD" else None
 
 
@@ -160,7 +162,9 @@ def _walls_on_side(kept: _Kept[Walls], obj: Object) -> Walls:
 
 
 def _store(obj: Object, scene: Scene, kept: _Kept, body: Callable[[Request], Body]) -> bool:
-    """Write the numbers of a body to the object; return False if there are none; the panel and Measure then say why."""
+    """Write the numbers of a body to the object; return False if there are none; the panel and
+    Measure then say why.
+    """
     request = Request.resolve(obj, unit=kept.unit)
     try:
         measurement = measurement_of(kept.reading, body(request), request)
@@ -185,9 +189,12 @@ def _store_threshold(
 
 
 def _finish() -> None:
-    """Store the exact numbers of the pending objects. Return None, so that Blender's timer calls this only once."""
-    while _pending:
-        obj, scene = _pending.pop()
+    """Store the exact numbers of the pending objects.
+
+    Return None, so that Blender's timer calls this only once.
+    """
+    while memory.due_numbers:
+        obj, scene = memory.due_numbers.pop()
         try:
             kept = _current_grid(obj, scene)
         except ReferenceError:  # removed meanwhile

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stability of objects on the ground: their support, their resting poses, and how they are laid on it.
+"""Stability of objects on the ground: their support, their resting poses, and how they are laid on
+it.
 
-A convex hull is computed on request, and holds until the geometry changes; support and poses follow its place and
-center.
+A convex hull is computed on request, and holds until the geometry changes; support and poses follow
+its place and center.
 """
 
 from __future__ import annotations
@@ -35,9 +36,9 @@ from ...scene.findings import OPEN_OBJECT
 from ...scene.rigid_world import down
 from ...scene.transforms import world
 from ...write import properties, reports
+from .. import memory
 from ..displayed import drawn
-from ..tracking import handlers, staleness, stamps, updates
-from ..tracking.cache import SessionCache
+from ..tracking import handlers, staleness, stamps
 from ..tracking.stamps import Kind, Stamp
 from . import results
 
@@ -47,11 +48,11 @@ SAME_SHAPE_RTOL = (
 
 
 @dataclass(eq=False)
-class _Remembered:
+class KnownHull:
     """An object's hull, with its support and poses.
 
-    hull: in the object's coordinates. shape: the (4, 3) scale and center for which `poses` hold. support_key: the
-    generation and the scene for which `support` holds.
+    hull: in the object's coordinates. shape: the (4, 3) scale and center for which `poses` hold.
+    support_key: the generation and the scene for which `support` holds.
     """
 
     hull: ConvexHull
@@ -61,21 +62,18 @@ class _Remembered:
     support: Support | None = None
 
 
-_remembered: SessionCache[_Remembered] = SessionCache()
-
-
 def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     """Compute and cache the hull of an evaluated object, or raise MeasureError if it has none."""
     hull = object_hull(obj, depsgraph)
-    _remembered[obj] = _Remembered(hull)
-    staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, updates.count()), depsgraph)
+    memory.hulls[obj] = KnownHull(hull)
+    staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, memory.state.updates), depsgraph)
     handlers.count_change(obj)
     return hull
 
 
 def is_known(obj: Object) -> bool:
     """Return whether a hull of the object is cached, because its stability was checked."""
-    return obj in _remembered
+    return obj in memory.hulls
 
 
 def stamp_of(obj: Object) -> Stamp | None:
@@ -84,12 +82,14 @@ def stamp_of(obj: Object) -> Stamp | None:
 
 
 def support(obj: Object, scene: Scene = None) -> Support | None:
-    """Return an object's current support, in Blender's units and the world; None if unchecked or out of date."""
+    """Return an object's current support, in Blender's units and the world; None if unchecked or
+    out of date.
+    """
     scene = scene or bpy.context.scene
-    remembered = _remembered.get(obj)
+    remembered = memory.hulls.get(obj)
     if remembered is None or staleness.stale_reason(obj, scene, stamp_of):
         return None
-    key = (handlers.generation(), scene.session_uid)
+    key = (memory.state.generation, scene.session_uid)
     if remembered.support_key != key:
         remembered.support_key = key
         remembered.support = None
@@ -98,7 +98,8 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
             matrix = np.array(obj.matrix_world, np.float64)
             points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
             center = np.array(body.world.center) / body.unit
-            # Relative to the extent, the height up to which points touch the ground; it exceeds the hull's gap.
+            # Relative to the extent, the height up to which points touch the ground; it exceeds the
+            # hull's gap.
             gap = remembered.hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
             tolerance = max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
             remembered.support = find_support(points, center, down(scene), tolerance)
@@ -106,9 +107,11 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
 
 
 def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | None:
-    """Return stable resting poses (Blender's units, object frame), the reason if there are none, or None."""
+    """Return stable resting poses (Blender's units, object frame), the reason if there are none, or
+    None.
+    """
     scene = scene or bpy.context.scene
-    remembered = _remembered.get(obj)
+    remembered = memory.hulls.get(obj)
     if remembered is None or staleness.stale_reason(obj, scene, stamp_of):
         return None
     body = drawn(obj, scene)
@@ -136,7 +139,9 @@ def frame(obj: Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[str]:
-    """Compute and remember an object's convex hull, measuring it if needed; return texts about decisions."""
+    """Compute and remember an object's convex hull, measuring it if needed; return texts about
+    decisions.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     if properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
         result = measure_body(obj, depsgraph)
@@ -148,7 +153,8 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
     extent = float(np.ptp(hull.points, axis=0).max())
     if len(hull.points) >= MAX_CORNERS:
         text = (
-            "“{object}” is finely divided: its convex hull is taken with {corners} corners, to {share:percent} of its "
+            "“{object}” is finely divided: its convex hull is taken with {corners} corners, to "
+            "{share:percent} of its "
             "size"
         )
         return [
@@ -158,7 +164,9 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
 
 
 def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: list[str]) -> bool:
-    """Lay the object on the ground, on its likeliest pose `pose` or the nearest (0); return whether it had to move."""
+    """Lay the object on the ground, on its likeliest pose `pose` or the nearest (0); return whether
+    it had to move.
+    """
     reframe.check_movable(obj)
     measured: list[Object] = []
     notes += check_stability(context, obj, measured)

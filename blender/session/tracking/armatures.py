@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Armatures and their meshes: meshes of posed armatures, and edits of measured characters.
 
-A skinned mesh is evaluated anew whenever its armature moves, but the rest pose is measured: an edit is a new shape of a
-mesh without an update of its armature.
+A skinned mesh is evaluated anew whenever its armature moves, but the rest pose is measured: an edit
+is a new shape of a mesh without an update of its armature.
 """
 
 from __future__ import annotations
@@ -17,28 +17,26 @@ from ... import read
 from ...read.tracking import tracking_paused
 from ...settings.given import COLLIDER
 from ...write import properties
+from .. import memory
 from . import handlers, staleness
-from .cache import SessionCache, current_value
-
-# by armature: the generation, and its meshes then
-_meshes: SessionCache[tuple[int, tuple[Object, ...]]] = SessionCache()
-_watched: dict[
-    int, Object
-] = {}  # by the session uids of skinned meshes, the armatures that deform them
 
 
 def stands_for_meshes(obj: Object) -> bool:
-    """Return whether an original object is an armature in Pose Mode, whose meshes count in its place."""
+    """Return whether an original object is an armature in Pose Mode, whose meshes count in its
+    place.
+    """
     return obj.type == "ARMATURE" and obj.mode == "POSE"
 
 
 def deformed_meshes(armature: Object) -> tuple[Object, ...]:
-    """Return the meshes of the window's view layer that an original armature deforms, in the layer's order."""
+    """Return the meshes of the window's view layer that an original armature deforms, in the
+    layer's order.
+    """
     objects = bpy.context.view_layer.objects
-    return current_value(
-        _meshes,
+    return memory.current_value(
+        memory.deformed_meshes,
         armature,
-        handlers.generation(),
+        memory.state.generation,
         lambda: tuple(
             obj for obj in objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)
         ),
@@ -48,7 +46,8 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
 def subjects(objects: Iterable[Object]) -> list[Object]:
     """Return original objects, each once, with the deformed meshes in place of posed armatures.
 
-    Colliders, and objects without a shape or results, are left out, unless nothing else is among the objects.
+    Colliders, and objects without a shape or results, are left out, unless nothing else is among
+    the objects.
     """
     found: dict[Object, None] = {}
     chosen = list(objects)
@@ -58,31 +57,37 @@ def subjects(objects: Iterable[Object]) -> list[Object]:
 
 
 def _counts(obj: Object) -> bool:
-    """Return whether an object can be measured or shows results, as assemblies and armatures do; no collider does."""
+    """Return whether an object can be measured or shows results, as assemblies and armatures do; no
+    collider does.
+    """
     may_be_measured = read.visibility.has_shape(obj) or stands_for_meshes(obj)
     return COLLIDER not in obj and (may_be_measured or "body_mass" in obj)
 
 
 def watch(armature: Object, objects: Iterable[Object]) -> None:
-    """Begin to note edits of the meshes among `objects` that an armature deforms, in the name of the armature."""
+    """Begin to note edits of the meshes among `objects` that an armature deforms, in the name of
+    the armature.
+    """
     for obj in read.rig.skinned_objects(armature, objects):
-        _watched[obj.session_uid] = armature
+        memory.watched[obj.session_uid] = armature
 
 
 def watch_all() -> None:
     """Watch the meshes of all measured characters of a file."""
-    _watched.clear()
+    memory.watched.clear()
     for obj in bpy.data.objects:
         if obj.type == "ARMATURE" and "body_mass" in obj:
             watch(obj, bpy.data.objects)
 
 
 def note_updates(updates: handlers.Updates) -> None:
-    """Note an edit on an armature if one of its watched meshes has a new shape and the armature has no update."""
-    if tracking_paused.depth or not _watched:
+    """Note an edit on an armature if one of its watched meshes has a new shape and the armature has
+    no update.
+    """
+    if tracking_paused.depth or not memory.watched:
         return
     touched = {*updates.reshaped, *updates.moved, *updates.others}
-    for uid in _watched.keys() & updates.reshaped:
-        armature = _watched[uid]
+    for uid in memory.watched.keys() & updates.reshaped:
+        armature = memory.watched[uid]
         if armature.session_uid not in touched:
             staleness.set_edited(armature, properties.fingerprint(armature), True)

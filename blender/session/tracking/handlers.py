@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's reports while a file is open, heard once, and passed on to the functions in the lists below.
+"""Blender's reports while a file is open, heard once, and passed on to the functions in the lists
+below.
 
-A subscriber never writes data while Blender evaluates: that would be another change. Before a file is saved it may.
+A subscriber never writes data while Blender evaluates: that would be another change. Before a file
+is saved it may.
 """
 
 from __future__ import annotations
@@ -15,11 +17,12 @@ import bpy
 from bpy.app.handlers import persistent
 from bpy.types import ID, Collection, Depsgraph, Object, Scene
 
-from . import cache
+from .. import memory
 
 
 class Updates(NamedTuple):
-    """Session uids of data-blocks that the window's dependency graph has evaluated again; there may be thousands.
+    """Session uids of data-blocks that the window's dependency graph has evaluated again; there may
+    be thousands.
 
     depsgraph: its `updates` are valid until the handlers return.
     reshaped, moved, others: objects with new geometry, with a new transform only, and with neither.
@@ -40,27 +43,22 @@ on_update: list[Callable[[Updates], None]] = []
 on_note: list[Callable[[ID | None], None]] = []  # a counted change of one object, or of any
 before_undo: list[Callable[[], None]] = []
 on_undo: list[Callable[[], None]] = []  # undo and redo: before the update that follows them
-on_load: list[Callable[[], None]] = []  # after all caches were emptied
+on_load: list[Callable[[], None]] = []  # after the last file was forgotten
 on_save: list[Callable[[], None]] = []
 LISTS = on_update, on_note, before_undo, on_undo, on_load, on_save
 
-_generation = 0
-
-
-def generation() -> int:
-    """Return the number of changes since Blender's start; results of an older generation may be wrong."""
-    return _generation
-
 
 def count_change(data: ID | None = None) -> None:
-    """Count a change that Blender does not report, such as a new note about an object; by default of any object."""
-    global _generation
-    _generation += 1
+    """Count a change that Blender does not report, such as a new note about an object; by default
+    of any object.
+    """
+    memory.state.generation += 1
     _call(on_note, data)
 
 
 def _call(subscribers: Sequence[Callable[..., None]], *args: Updates | ID | None) -> None:
-    # Call all of them in order, even if one fails: its error is raised after the others were called.
+    # Call all of them in order, even if one fails: its error is raised after the others were
+    # called.
     with ExitStack() as calls:
         for subscriber in reversed(subscribers):
             calls.callback(subscriber, *args)
@@ -94,8 +92,7 @@ def _on_frame(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
 
 
 def _note_update(scene: Scene, depsgraph: Depsgraph | None, frame_changed: bool) -> None:
-    global _generation
-    _generation += 1
+    memory.state.generation += 1
     if depsgraph is not None and depsgraph.mode == "VIEWPORT":
         _call(on_update, _updates(scene, depsgraph, frame_changed))
 
@@ -107,15 +104,14 @@ def _before_undo(*_args) -> None:
 
 @persistent
 def _on_undo(*_args) -> None:
-    global _generation
-    _generation += 1  # the update that follows names the restored objects
+    memory.state.generation += 1  # the update that follows names the restored objects
     _call(on_undo)
 
 
 @persistent
 def _on_load(*_args) -> None:
     count_change()
-    cache.clear_all()
+    memory.forget_file()
     _call(on_load)
 
 
@@ -143,9 +139,9 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove the handlers and empty all caches."""
+    """Remove the handlers and forget the file."""
     for name, function in reversed(HANDLERS):
         functions = getattr(bpy.app.handlers, name)
         if function in functions:  # scripts and other add-ons may empty these lists
             functions.remove(function)
-    cache.clear_all()
+    memory.forget_file()

@@ -1,17 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Staleness of stored numbers: transform and settings are compared by the digests in stamps; edits are noted.
+"""Staleness of stored numbers: transform and settings are compared by the digests in stamps; edits
+are noted.
 
-A note is a stamp that the object carried when Blender evaluated its geometry anew. When a file is saved, the notes
-become part of the stamps (`stamps.write_edited`), because opening the file again reports no updates.
+A note is a stamp that the object carried when Blender evaluated its geometry anew. When a file is
+saved, the notes become part of the stamps (`stamps.write_edited`), because opening the file again
+reports no updates.
 
-Not every update is an edit: Blender also evaluates an object that is copied, shown again or gets a material slot. So
-the surfaces of small meshes are kept as digests, which are compared. For all other objects every update is an edit,
-except that of a setting and the one after undo, which restores numbers and shape together (in Edit Mode and Sculpt Mode
-the shape alone). Notes are kept, because undo may restore the numbers before the edit, too.
+Not every update is an edit: Blender also evaluates an object that is copied, shown again or gets a
+material slot. So the surfaces of small meshes are kept as digests, which are compared. For all
+other objects every update is an edit, except that of a setting and the one after undo, which
+restores numbers and shape together (in Edit Mode and Sculpt Mode the shape alone). Notes are kept,
+because undo may restore the numbers before the edit, too.
 
-A handler only writes down the updated objects; their effects are noted on request (`note_edits`), and at the latest
-before results are replaced, before undo, and before the file is saved.
+A handler only writes down the updated objects; their effects are noted on request (`note_edits`),
+and at the latest before results are replaced, before undo, and before the file is saved.
 """
 
 from __future__ import annotations
@@ -24,7 +27,6 @@ import bpy
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ....core import measurement
-from ....core.numerics.float32 import shortest_decimal
 from ... import read
 from ...read.fingerprint import (
     colliders_digest,
@@ -34,22 +36,14 @@ from ...read.fingerprint import (
     settings_hash,
 )
 from ...read.tracking import tracking_paused
+from ...scale import meters_per_unit
 from ...settings.given import COLLIDERS
 from ...write import properties
+from .. import memory
 from . import handlers, stamps, updates
-from .cache import SessionCache, current_value
 from .stamps import EDITED, Kind, Stale, Stamp
 
 NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
-_edited: SessionCache[frozenset[str]] = (
-    SessionCache()
-)  # the stamps that an object carried when its geometry changed
-_shapes: dict[
-    str, bytes
-] = {}  # stamp → digest of the surface when it was stored: copies of an object share both
-_resolved: dict[int, int] = {}  # session uid → number of the last update whose effects are noted
-# By assembly or armature: the generation, and the present digests of its parts. Panels ask at every redraw.
-_parts: SessionCache[tuple[int, tuple[str, str] | None]] = SessionCache()
 
 
 # ---------------------------------------------------------------- Comparison
@@ -99,7 +93,7 @@ def _has_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
 
 
 def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
-    return stamp.extra == shortest_decimal(scene.unit_settings.scale_length)
+    return stamp.extra == meters_per_unit(scene)
 
 
 def _has_colliders(obj: Object, _stamp: Stamp, _scene: Scene) -> bool:
@@ -117,12 +111,18 @@ def _has_members(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
 
 
 def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
-    """Return present digests of structure and members' results ("" if one is stale); None if nothing is evaluated."""
-    return current_value(_parts, root, handlers.generation(), lambda: _digest_parts(root, scene))
+    """Return present digests of structure and members' results ("" if one is stale); None if
+    nothing is evaluated.
+    """
+    return memory.current_value(
+        memory.part_digests, root, memory.state.generation, lambda: _digest_parts(root, scene)
+    )
 
 
 def was_current(root: Object | Collection, scene: Scene) -> bool:
-    """Return whether a total was up to date before the settings of members changed, which Blender reports later."""
+    """Return whether a total was up to date before the settings of members changed, which Blender
+    reports later.
+    """
     stamp = stamps.of_results(root)
     parts = _digest_parts(root, scene, (None, Stale.SETTINGS))
     if (
@@ -137,7 +137,9 @@ def was_current(root: Object | Collection, scene: Scene) -> bool:
 def _digest_parts(
     root: Object | Collection, scene: Scene, current: tuple[Stale | None, ...] = (None,)
 ) -> tuple[str, str] | None:
-    """Compute `_digests_of_parts`. current: the reasons with which a member counts as up to date."""
+    """Compute `_digests_of_parts`. current: the reasons with which a member counts as up to
+    date.
+    """
     if isinstance(root, Object) and root.type == "ARMATURE":
         return read.rig.rig_hash(root, read.rig.rig_objects(root, scene.objects), scene), ""
     depsgraph = bpy.context.view_layer.depsgraph
@@ -196,7 +198,9 @@ CHECKS = {
 
 
 def is_edited(obj: Object) -> bool:
-    """Return whether geometry or transform changed since the results were stored, or there are no results."""
+    """Return whether geometry or transform changed since the results were stored, or there are no
+    results.
+    """
     stamp = stamps.of_results(obj)
     return stamp is None or not (_has_geometry(obj, stamp) and has_transform(obj, stamp.transform))
 
@@ -207,7 +211,8 @@ def is_edited(obj: Object) -> bool:
 def mark_up_to_date(
     context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
 ) -> None:
-    """Mark freshly stored results of objects as up to date, after evaluating what storing has tagged.
+    """Mark freshly stored results of objects as up to date, after evaluating what storing has
+    tagged.
 
     objects: with results stored or removed. shapes: the `surface_digest` of freshly read ones.
     """
@@ -222,7 +227,9 @@ def mark_up_to_date(
 
 
 def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None:
-    """Mark fresh data (objects and stamps), such as sections, as up to date, if nothing else was changed."""
+    """Mark fresh data (objects and stamps), such as sections, as up to date, if nothing else was
+    changed.
+    """
     with tracking_paused():
         depsgraph = context.evaluated_depsgraph_get()
     for obj, stamp in fresh:
@@ -238,21 +245,25 @@ def mark_stamp(obj: Object, stamp: Stamp, depsgraph: Depsgraph) -> None:
 
 def mark_object(obj: Object) -> None:
     """Mark the stored results as up to date with an original object's current geometry."""
-    _resolved[obj.session_uid] = updates.count()
+    memory.resolved[obj.session_uid] = memory.state.updates
     set_edited(obj, properties.fingerprint(obj), False)
     handlers.count_change(obj)
 
 
 def replace_stamp(obj: Object, before: str) -> None:
-    """Carry the notes on replaced results (`before`: their stamp) over, if the shape was not changed with them."""
+    """Carry the notes on replaced results (`before`: their stamp) over, if the shape was not
+    changed with them.
+    """
     text = properties.fingerprint(obj)
     set_edited(obj, text, before in _edited_stamps(obj))
-    if before in _shapes:
-        _shapes[text] = _shapes[before]
+    if before in memory.shapes:
+        memory.shapes[text] = memory.shapes[before]
 
 
 def pin(obj: Object) -> None:
-    """Bind an object's results to its current place, after data that depend on the place were stored with them."""
+    """Bind an object's results to its current place, after data that depend on the place were
+    stored with them.
+    """
     stamp = stamps.of_results(obj)
     if stamp is not None and stamp.version and has_transform(obj, stamp.transform):
         obj["body_fingerprint"] = stamp._replace(transform=matrix_hash(obj)).text
@@ -270,7 +281,7 @@ def mark_axes_changed(objects: Iterable[Object]) -> None:
 
 
 def _edited_stamps(obj: Object) -> frozenset[str]:
-    return _edited.get(obj) or frozenset()
+    return memory.edited.get(obj) or frozenset()
 
 
 def set_edited(obj: Object, text: str, is_edited: bool) -> None:
@@ -278,69 +289,66 @@ def set_edited(obj: Object, text: str, is_edited: bool) -> None:
     noted = _edited_stamps(obj)
     if is_edited != (text in noted):
         handlers.count_change(obj)
-        _edited[obj] = noted | {text} if is_edited else noted - {text}
+        memory.edited[obj] = noted | {text} if is_edited else noted - {text}
 
 
 def note_edits(obj: Object, shape: bytes | None = None) -> None:
     """Note the effects of all updates since the last call on the stamps of an original object.
 
-    Call it before its stamps are replaced: later nobody could say whether the geometry has changed since.
-    shape: the `surface_digest` of an object that was read just now.
+    Call it before its stamps are replaced: later nobody could say whether the geometry has changed
+    since. shape: the `surface_digest` of an object that was read just now.
     """
     uid = obj.session_uid
-    newest = updates.count()
-    seen = _resolved.get(uid, 0)
+    newest = memory.state.updates
+    seen = memory.resolved.get(uid, 0)
     if seen >= newest:
         return
-    _resolved[uid] = newest
+    memory.resolved[uid] = newest
     edit, last = updates.last_since(obj, seen)
     if last.number <= seen:
         return
     carried = stamps.with_geometry(obj)
     if (
         shape is None
-        and any([text in _shapes for text in carried])
+        and any([text in memory.shapes for text in carried])
         and (depsgraph := updates.depsgraph_of(last))
     ):
         shape = read.mesh.shape_digest(obj, depsgraph)
     for text, kind in carried.items():
-        if shape is not None and text in _shapes:
-            set_edited(obj, text, shape != _shapes[text])
-        elif edit.number or text in _shapes or kind in (Kind.MOMENTS, Kind.HULL):
-            # Redo brings back an edit whose note may have been taken back; undo brings back no data in memory.
+        if shape is not None and text in memory.shapes:
+            set_edited(obj, text, shape != memory.shapes[text])
+        elif edit.number or text in memory.shapes or kind in (Kind.MOMENTS, Kind.HULL):
+            # Redo brings back an edit whose note may have been taken back; undo brings back no data
+            # in memory.
             set_edited(obj, text, True)
 
 
 def _remember_shape(
     obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: bytes | None = None
 ) -> None:
-    """Keep the digest of the surface behind a stamp, if the data only depend on it, the settings and the transform."""
+    """Keep the digest of the surface behind a stamp, if the data only depend on it, the settings
+    and the transform.
+    """
     varies = obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
         return
     shape = shape or read.mesh.shape_digest(obj, depsgraph)
     if shape is not None:  # else the digest of an equal object with the same stamp still holds
-        _shapes[stamp.text] = shape
+        memory.shapes[stamp.text] = shape
 
 
 def note_all_edits() -> None:
     """Note the effects of all updates on all objects."""
     for obj in (
-        bpy.data.objects if updates.count() else ()
+        bpy.data.objects if memory.state.updates else ()
     ):  # while Blender enables the add-on, it gives no data
         note_edits(obj)
-
-
-def forget_file() -> None:
-    """Drop the digests of surfaces and the numbers of noted updates."""
-    _resolved.clear()
-    _shapes.clear()
 
 
 def write_notes() -> None:
     """Write the noted edits into the stamps stored on the objects."""
     note_all_edits()
-    for obj in bpy.data.objects if len(_edited) else ():
-        edited = _edited.get(obj)
+    for obj in bpy.data.objects if len(memory.edited) else ():
+        edited = memory.edited.get(obj)
         if edited and obj.is_editable:
             stamps.write_edited(obj, edited)

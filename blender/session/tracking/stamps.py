@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stamps: digests of the inputs of stored data, which `staleness.stale_reason` compares with the present inputs.
+"""Stamps: digests of the inputs of stored data, which `staleness.stale_reason` compares with the
+present inputs.
 
-Results, a section and a symmetry carry theirs as text: version, geometry, transform and settings, joined by colons. In
-a saved file, EDITED stands in place of the geometry's digest if the geometry has changed since. Data in memory, such as
-hulls, have stamps of the same form, that the session carries for their objects.
+Results, a section and a symmetry carry theirs as text: version, geometry, transform and settings,
+joined by colons. In a saved file, EDITED stands in place of the geometry's digest if the geometry
+has changed since. Data in memory, such as hulls, have stamps of the same form, that the session
+carries for their objects.
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ from ....core import measurement
 from ....core.verdict.method import Procedure
 from ...settings.given import COLLIDERS
 from ...write import properties, section
-from .cache import SessionCache
+from .. import memory
 
 EDITED = "edited"
 
@@ -78,12 +80,11 @@ class Stamp(NamedTuple):
         return ":".join(self[1:5])
 
 
-# The stamps of objects' data in memory, by kind.
-_carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
-
-
 def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
-    """Attach a stamp to an original object's data in memory, and return it. number: `updates.count` at their making."""
+    """Attach a stamp to an original object's data in memory, and return it.
+
+    number: of the last update at their making.
+    """
     stamp = Stamp(
         kind,
         measurement.settings.VERSION,
@@ -91,13 +92,13 @@ def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: s
         transform,
         settings,
     )
-    _carried[obj] = {**(_carried.get(obj) or {}), kind: stamp}
+    memory.carried[obj] = {**(memory.carried.get(obj) or {}), kind: stamp}
     return stamp
 
 
 def carried(obj: Object, kind: Kind) -> Stamp | None:
     """Return the stamp of an object's data in memory, if any."""
-    return (_carried.get(obj) or {}).get(kind)
+    return (memory.carried.get(obj) or {}).get(kind)
 
 
 def of_results(owner: Object | Collection) -> Stamp | None:
@@ -138,8 +139,10 @@ def of_colliders(obj: Object) -> Stamp | None:
 
 
 def with_geometry(obj: Object) -> dict[str, Kind]:
-    """Return the texts and kinds of an original object's stamps, except those of assemblies and bones."""
-    found = [*_stored(obj), *(_carried.get(obj) or {}).values()]
+    """Return the texts and kinds of an original object's stamps, except those of assemblies and
+    bones.
+    """
+    found = [*_stored(obj), *(memory.carried.get(obj) or {}).values()]
     return {
         stamp.text: stamp.kind
         for stamp in found
@@ -152,7 +155,9 @@ def _stored(obj: Object) -> tuple[Stamp | None, ...]:
 
 
 def write_edited(obj: Object, edited: Container[str]) -> None:
-    """Put EDITED into the stored stamps of an original, editable object whose texts are in `edited`."""
+    """Put EDITED into the stored stamps of an original, editable object whose texts are in
+    `edited`.
+    """
     for stamp in _stored(obj):
         if stamp is None or not stamp.version or stamp.text not in edited:
             continue

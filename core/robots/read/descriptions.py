@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Descriptions of robots from files of all formats, recognized by their content.
 
-Optional modules of other programs compose USD that is binary or has several files, and expand xacro. Files that a
-description names are looked for before a module opens them, and are never outside of the allowed folders.
+Optional modules of other programs compose USD that is binary or has several files, and expand
+xacro. Files that a description names are looked for before a module opens them, and are never
+outside of the allowed folders.
 """
 
 from __future__ import annotations
@@ -21,8 +22,13 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from ...scans.findings import FILE_MISSING, FILE_NOT_REGULAR
-from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...files.findings import (
+    FILE_MISSING,
+    FILE_NOT_REGULAR,
+    FILE_TOO_LARGE,
+    FILE_UNREADABLE,
+    FILE_WITHOUT_OBJECTS,
+)
 from ...verdict.finding import FileError, system_reason
 from ..findings import (
     DESCRIPTION_INVALID,
@@ -62,7 +68,9 @@ MAX_DEPTH = 3  # Levels of folders below a root that are searched for a package.
 
 @dataclass(frozen=True)
 class Roots:
-    """Folders that files may be read from. base: that of the description. anywhere: True if all folders are allowed."""
+    """Folders that files may be read from. base: that of the description. anywhere: True if all
+    folders are allowed.
+    """
 
     folders: tuple[Path, ...]
     anywhere: bool = False
@@ -70,7 +78,9 @@ class Roots:
 
     @classmethod
     def for_file(cls, file: Path, more: Sequence[Path] = (), anywhere: bool = False) -> Roots:
-        """Return the roots of a description: its package's folder or else that above its own, `more`, and ROS's."""
+        """Return the roots of a description: its package's folder or else that above its own,
+        `more`, and ROS's.
+        """
         folder = Path(os.path.realpath(file)).parent
         packages = (
             above for above in (folder, *folder.parents) if os.path.isfile(above / "package.xml")
@@ -86,7 +96,9 @@ class Roots:
         return replace(self, base=base)
 
     def find(self, name: str) -> Path:
-        """Return the file that a description names; raise FileError if it is missing, not allowed, or on a network."""
+        """Return the file that a description names; raise FileError if it is missing, not allowed,
+        or on a network.
+        """
         name = name.replace("\\", "/")
         match = _SCHEME.fullmatch(name)
         scheme, rest = (match[1].lower(), match[2]) if match else ("", name)
@@ -108,7 +120,10 @@ class Roots:
         raise FileError(MESH_OUTSIDE if is_outside else MESH_MISSING, name=name)
 
     def _candidates(self, scheme: str, rest: str) -> Iterator[Path]:
-        """Yield possible paths. A package's name may be that of a root, of a folder in it, or of neither."""
+        """Yield possible paths.
+
+        A package's name may be that of a root, of a folder in it, or of neither.
+        """
         if scheme in ("package", "model"):
             package, _, inside = rest.partition("/")
             for folder in self.folders:
@@ -150,7 +165,10 @@ def _folders_named(root: Path, name: str) -> Iterator[Path]:
 
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
-    """Return a file's robot description. roots: folders of files that an MJCF model includes. FileError if refused."""
+    """Return a file's robot description. roots: folders of files that an MJCF model includes.
+
+    FileError if refused.
+    """
     data = _bytes(path)
     roots = roots or Roots.for_file(path)
     is_text = data.startswith(_USD.encode())
@@ -204,7 +222,9 @@ def _xml(data: bytes, roots: Roots, path: Path) -> Description:
 
 
 def _narrow(data: bytes) -> bytes:
-    """Return UTF-16 XML as UTF-8, so that repairs can be inserted in its bytes; other data unchanged."""
+    """Return UTF-16 XML as UTF-8, so that repairs can be inserted in its bytes; other data
+    unchanged.
+    """
     wide = next((name for start, name in _WIDE.items() if data.startswith(start)), None)
     if wide is None:
         return data
@@ -215,7 +235,8 @@ def _narrow(data: bytes) -> bytes:
 
 
 def _include(root: Node, roots: Roots, own: Path) -> None:
-    """Replace each `include` of MJCF or SDF by the file's elements, which have no place in the model's own file.
+    """Replace each `include` of MJCF or SDF by the file's elements, which have no place in the
+    model's own file.
 
     Models that MJCF attaches become children of their elements.
     """
@@ -259,7 +280,8 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
                 raise FileError(
                     INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **place
                 ) from error
-            # A model of MuJoCo includes a file once; all models may repeat, but not include themselves.
+            # A model of MuJoCo includes a file once; all models may repeat, but not include
+            # themselves.
             if path in (model if is_mjcf and not is_attached else above) or files > MAX_INCLUDES:
                 raise FileError(INCLUDE_TWICE, name=name, **place)
             there = here if is_mjcf and not is_attached else here.at(path.parent)
@@ -283,7 +305,9 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
 
 
 def _model_file(name: str, roots: Roots) -> Path:
-    """Return the file of a model of SDF: the name's own, or the last one that the model.config of its folder names."""
+    """Return the file of a model of SDF: the name's own, or the last one that the model.config of
+    its folder names.
+    """
     try:
         return roots.find(name)
     except FileError as error:
@@ -351,7 +375,9 @@ def _check_layers(sdf: Any, path: Path, roots: Roots) -> None:
 
 
 def _marked(data: bytes, file: str, places: dict[str, Place]) -> bytes:
-    """Return XML whose elements have the key of their place as an attribute, which macros of xacro pass on."""
+    """Return XML whose elements have the key of their place as an attribute, which macros of xacro
+    pass on.
+    """
     parts = []
     end = 0
     for node in parse(data).walk():
@@ -364,7 +390,10 @@ def _marked(data: bytes, file: str, places: dict[str, Place]) -> bytes:
 
 
 def _expand_xacro(path: Path, data: bytes, roots: Roots) -> Node:
-    """Return the element that xacro makes of a file. It evaluates the file's expressions as Python."""
+    """Return the element that xacro makes of a file.
+
+    It evaluates the file's expressions as Python.
+    """
     places: dict[str, Place] = {}
     marked = _marked(data, "", places)
     try:
@@ -373,7 +402,8 @@ def _expand_xacro(path: Path, data: bytes, roots: Roots) -> Node:
         raise FileError(XACRO_NOT_EXPANDED, name=path.name, error=str(error)) from error
 
     def expand() -> bytes:
-        # xacro appends the name of each file that it reads to a list. This one refuses files outside of the roots.
+        # xacro appends the name of each file that it reads to a list. This one refuses files
+        # outside of the roots.
         xacro.all_includes = SimpleNamespace(append=lambda name: roots.find(os.path.abspath(name)))
         parse_file = xacro.parse
         files = iter([marked])

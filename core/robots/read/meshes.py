@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The meshes of robots as triangles: .stl, .obj, .glb and .dae, without Blender, which no longer reads the last.
+"""The meshes of robots as triangles: .stl, .obj, .glb and .dae, without Blender, which no longer
+reads the last.
 
-COLLADA, which a third of published robots use: geometries of triangles, polylists and polygons, placed by the scene's
-nodes, in meters. Most readers of robots (RViz, MoveIt, hpp-fcl) ignore which axis the file says is up; some obey. So
-the file's own axes are kept, and the rotation that it asks for is returned beside them.
+COLLADA, which a third of published robots use: geometries of triangles, polylists and polygons,
+placed by the scene's nodes, in meters. Most readers of robots (RViz, MoveIt, hpp-fcl) ignore which
+axis the file says is up; some obey. So the file's own axes are kept, and the rotation that it asks
+for is returned beside them.
 """
 
 from __future__ import annotations
@@ -18,13 +20,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...cad.obj import read_obj_faces
+from ...files.findings import FILE_TOO_LARGE, FILE_TYPE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...files.number_text import (
+    parse_number,
+    parse_numbers,
+    parse_whole,
+    parse_wholes,
+)
 from ...mesh.surface import Surface
 from ...numerics.rotations import rotation_matrix
-from ...scans.findings import FILE_TYPE
-from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...streams.stl import StlFile
 from ...verdict.finding import FileError, finding, system_reason
-from ...verdict.number_text import parse_number, parse_numbers, parse_whole, parse_wholes
 from ..findings import MESH_UNREADABLE
 from ..stated import MOST, rotation_about
 from ..write.gltf import BINARY, JSON, chunks
@@ -45,9 +51,11 @@ TURNS = {
 
 
 def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
-    """Return a file's surface in its own coordinates and unit (meters for .dae), and the rotation to z up.
+    """Return a file's surface in its own coordinates and unit (meters for .dae), and the rotation
+    to z up.
 
-    The rotation is None if the file names no other axis. FileError, with the file's name, if it cannot be read.
+    The rotation is None if the file names no other axis. FileError, with the file's name, if it
+    cannot be read.
     """
     try:
         return _read_mesh(path)
@@ -89,7 +97,9 @@ def read_obj(path: Path) -> Arrays:
 
 
 def read_glb(path: Path) -> Arrays:
-    """Return points and triangles of a binary glTF, placed by its scene, with y up as other robot readers keep it."""
+    """Return points and triangles of a binary glTF, placed by its scene, with y up as other robot
+    readers keep it.
+    """
     data = path.read_bytes()
     parts = dict(chunks(data)) if data[:4] == b"glTF" else {}
     document = json.loads(parts.get(JSON, b""))
@@ -158,7 +168,9 @@ def _accessor(document: dict, binary: bytes, index: int) -> NDArray:
 
 
 def read_dae(path: Path) -> tuple[*Arrays, NDArray[np.float64] | None]:
-    """Return points (meters, the file's axes), triangles, and the rotation to z up, None if z is up."""
+    """Return points (meters, the file's axes), triangles, and the rotation to z up, None if z is
+    up.
+    """
     root = parse(path.read_bytes())
     for node in root.walk():
         node.tag = node.tag.rpartition("}")[2]
@@ -176,7 +188,9 @@ def read_dae(path: Path) -> tuple[*Arrays, NDArray[np.float64] | None]:
 
 
 def _instances(root: Node, by_id: dict[str, Node]) -> Iterator[tuple[Node, NDArray]]:
-    """Yield the geometries of the scene and their (4, 4) matrices; without a scene, all geometries of the file."""
+    """Yield the geometries of the scene and their (4, 4) matrices; without a scene, all geometries
+    of the file.
+    """
     scene = root.find("scene", "instance_visual_scene")
     visual = by_id.get(scene.get("url").removeprefix("#")) if scene else None
     if visual is None:
@@ -287,7 +301,10 @@ def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int6
 def checked_surface(
     texts: Sequence[str], points: NDArray, sizes: NDArray, corners: NDArray
 ) -> Surface:
-    """Return faces of given sizes over points, three numbers each. ValueError, with its text, if an array is wrong."""
+    """Return faces of given sizes over points, three numbers each.
+
+    ValueError, with its text, if an array is wrong.
+    """
     is_right = (
         len(points) % 3 == 0 and (np.abs(points) <= MOST).all(),
         (sizes >= 0).all() and (sizes == np.rint(sizes)).all() and sizes.sum() == len(corners),

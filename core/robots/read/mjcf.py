@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reader of MJCF: the inertials and shapes of its bodies.
 
-It applies defaults by class, the compiler's angle unit and Euler order, and mesh folders. Models that it attaches have
-their own.
+It applies defaults by class, the compiler's angle unit and Euler order, and mesh folders. Models
+that it attaches have their own.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...files.number_text import parse_numbers
 from ...mesh.hulls import convex_hull
 from ...mesh.surface import Surface
 from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding, MeasureError
-from ...verdict.number_text import parse_numbers
 from ..model import Pose, Shape
 from ..stated import (
     LEAST,
@@ -42,7 +42,9 @@ SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 
 
 class _Model:
-    """The settings and assets of a whole file. count: counts the elements of all models together."""
+    """The settings and assets of a whole file. count: counts the elements of all models
+    together.
+    """
 
     def __init__(self, root: Node, count: Iterator[int]) -> None:
         self.root, self.count = root, count
@@ -76,7 +78,9 @@ class _Model:
             self._add_defaults(child, child.get("class"), own)
 
     def attributes(self, node: Node, current: str = "main") -> dict[str, str]:
-        """Return the attributes of an element and its defaults. current: the class of those that name none."""
+        """Return the attributes of an element and its defaults. current: the class of those that
+        name none.
+        """
         return (
             self._classes.get(node.get("class") or current, {}).get(node.tag, {}) | node.attributes
         )
@@ -101,7 +105,8 @@ class _Model:
 
 
 class _Frame(NamedTuple):
-    """The frame that elements of a body stand in: its pose in the body, what scales it, and the class of its defaults.
+    """The frame that elements of a body stand in: its pose in the body, what scales it, and the
+    class of its defaults.
 
     scale: (3,) along the frame's axes. mass: the factor of masses. prefix: of the names of bodies.
     """
@@ -121,7 +126,9 @@ class _Frame(NamedTuple):
         return is_in_place and self.mass == 1.0 and bool((self.scale == 1.0).all())
 
     def enter(self, node: Node) -> _Frame:
-        """Return the frame of an element `frame` in this one, or that of a `body`, scaled as this one."""
+        """Return the frame of an element `frame` in this one, or that of a `body`, scaled as this
+        one.
+        """
         turn = _rotation(node.attributes, self.model)[0]
         values = node.attributes if node.tag == "frame" else {}
         position = numbers(values.get("pos", ""), 3, (0.0, 0.0, 0.0))
@@ -192,7 +199,9 @@ def read(root: Node, data: bytes) -> Description:
 def _parts(
     nodes: Sequence[Node], frame: _Frame, refused: list[Finding]
 ) -> Iterator[tuple[Node, _Frame]]:
-    """Yield elements and their frames; also those in frames and attached models. refused: findings about wrong ones."""
+    """Yield elements and their frames; also those in frames and attached models. refused: findings
+    about wrong ones.
+    """
     for node in nodes:
         check_size(1, next(frame.model.count))
         inside = None
@@ -224,7 +233,8 @@ def _link(
     )
     shapes = tuple(shape for shape in read if shape is not None)
     name = outer.prefix + body.get("name") if body.get("name") else "body {}".format(count + 1)
-    # Without an inertial MuJoCo takes it from geoms. Numbers in a frame are not those of the body; no repair fits them.
+    # Without an inertial MuJoCo takes it from geoms. Numbers in a frame are not those of the body;
+    # no repair fits them.
     link = stated_link(
         body, node, findings, name=name, inertial=inertial, shapes=shapes, moves=False
     )
@@ -257,7 +267,9 @@ Rotation = tuple[NDArray[np.float64], Angles | None, tuple[float, ...] | None]
 
 
 def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
-    """Return the (3, 3) rotation, roll, pitch and yaw if stated, and the quaternion if stated, of an element."""
+    """Return the (3, 3) rotation, roll, pitch and yaw if stated, and the quaternion if stated, of
+    an element.
+    """
     unit = radians(1.0) if model.degrees else 1.0
     if "quat" in attributes:
         values = numbers(attributes["quat"], 4, (1.0, 0.0, 0.0, 0.0))
@@ -338,7 +350,9 @@ def _shape(geom: Node, frame: _Frame, findings: list[Finding]) -> StatedShape | 
 
 
 def _primitive(kind: str, attributes: dict[str, str], pose: Pose) -> Shape | None:
-    """Return the shape of a geom in its frame, None if it bounds no volume. pose: unless it states both of its ends."""
+    """Return the shape of a geom in its frame, None if it bounds no volume. pose: unless it states
+    both of its ends.
+    """
     size = parse_numbers(attributes.get("size", ""))
     if kind in FLAT_KINDS:
         return None
@@ -369,7 +383,9 @@ def _primitive(kind: str, attributes: dict[str, str], pose: Pose) -> Shape | Non
 
 
 def _surface(values: dict[str, str]) -> Surface:
-    """Return the mesh of an asset's vertices and faces; without faces, the convex hull of the vertices."""
+    """Return the mesh of an asset's vertices and faces; without faces, the convex hull of the
+    vertices.
+    """
     vertices = values["vertex"]
     faces = values.get("face", "")
     points = np.array(parse_numbers(vertices))

@@ -32,7 +32,9 @@ def read(root: Node, data: bytes) -> Description:
 
 
 class _Scope:
-    """The frames of a model by their names, each in another one of them. scopes: those of all models."""
+    """The frames of a model by their names, each in another one of them. scopes: those of all
+    models.
+    """
 
     def __init__(self, model: Node, scopes: dict[Node, _Scope]) -> None:
         frames = [
@@ -106,7 +108,9 @@ def _inertial(node: Node) -> StatedInertial:
 
 
 def _pose(node: Node) -> tuple[Pose, Angles | None, tuple[float, ...] | None, str]:
-    """Return a pose, its angles or its quaternion as stated, and the name of the frame that it is in, "" by default."""
+    """Return a pose, its angles or its quaternion as stated, and the name of the frame that it is
+    in, "" by default.
+    """
     element = node.find("pose") or Node("pose", {}, NOWHERE)
     text = element.text
     frame = element.get("relative_to")

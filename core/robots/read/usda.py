@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """USD as text: rigid bodies with PhysicsMassAPI, and the meshes and primitives below them.
 
-Only one layer is read: prims, their metadata and attributes. Layers that it refers to are not opened; a prim that
-refers to another of the layer has its attributes.
+Only one layer is read: prims, their metadata and attributes. Layers that it refers to are not
+opened; a prim that refers to another of the layer has its attributes.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...files.number_text import parse_number
 from ...mesh.surface import Surface
 from ...numerics.rotations import polar_rotation, rotation_matrix
 from ...verdict.finding import FileError, Finding, finding
-from ...verdict.number_text import parse_number
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
 from ..stated import (
@@ -47,7 +47,8 @@ _SPECIFIERS = {"def", "over", "class"}
 
 @dataclass(eq=False)
 class Prim:
-    """One prim. values: attributes as text. start, end: range of the text between its braces, in characters.
+    """One prim. values: attributes as text. start, end: range of the text between its braces, in
+    characters.
 
     line: that of its opening brace.
     """
@@ -62,7 +63,10 @@ class Prim:
     children: list[Prim] = field(default_factory=list)
 
     def numbers(self, name: str) -> NDArray[np.float64] | None:
-        """Return the numbers of an attribute, None if it has no value. ValueError if a text is no number."""
+        """Return the numbers of an attribute, None if it has no value.
+
+        ValueError if a text is no number.
+        """
         if self.values.get(name, "None") == "None":
             return None
         return np.array(
@@ -147,7 +151,9 @@ class _Parser:
         return prim
 
     def attribute(self, prim: Prim) -> None:
-        """Read a statement, and store the value after its equals sign, if it has one, in the prim."""
+        """Read a statement, and store the value after its equals sign, if it has one, in the
+        prim.
+        """
         words: list[str] = []
         while self.peek() not in ("=", "}", ";", "(") and self.peek() not in _SPECIFIERS:
             words.append(self.take()[0])
@@ -205,7 +211,9 @@ def _description(text: str, data: bytes) -> Description:
 
 
 def _resolve(roots: list[Prim]) -> None:
-    """Give prims that refer to another prim of the layer its attributes, unless they state their own."""
+    """Give prims that refer to another prim of the layer its attributes, unless they state their
+    own.
+    """
     by_path: dict[str, Prim] = {}
     waiting = [("/" + prim.name, prim) for prim in roots]
     while waiting:
@@ -243,7 +251,9 @@ def _visit(
 
 
 def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
-    """Return the (4, 4) matrix from a prim to the world, for column vectors. above: the matrix of its parent."""
+    """Return the (4, 4) matrix from a prim to the world, for column vectors. above: the matrix of
+    its parent.
+    """
     matrix = above
     for inverse, name in re.findall(r'"(!\w+!)?([\w:]*)"', prim.values.get("xformOpOrder", "")):
         if inverse == "!resetXformStack!":
@@ -275,7 +285,9 @@ def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
 def _link(
     prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], text: str
 ) -> StatedLink:
-    """Return a body in the axes of its prim, in meters; the prim's scale is applied to its shapes and its center."""
+    """Return a body in the axes of its prim, in meters; the prim's scale is applied to its shapes
+    and its center.
+    """
     findings: list[Finding] = []
     turn = _turn(matrix)
     to_link = np.eye(4)
@@ -336,7 +348,9 @@ def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Stated
 
 
 def _parts(prim: Prim, matrix: NDArray) -> Iterator[tuple[Prim, NDArray]]:
-    """Yield a body and the prims below it, up to the next body, with their matrices to the world."""
+    """Yield a body and the prims below it, up to the next body, with their matrices to the
+    world.
+    """
     yield prim, matrix
     for child in prim.children:
         if "PhysicsRigidBodyAPI" not in child.metadata:

@@ -17,9 +17,9 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
-from ...streams.findings import FILE_TOO_LARGE
+from ...files.findings import FILE_TOO_LARGE
+from ...files.number_text import parse_numbers
 from ...verdict.finding import FileError, Finding, finding
-from ...verdict.number_text import parse_numbers
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER, XML_ENTITIES
 from ..model import Shape
 from ..stated import Place, StatedLink, StatedShape
@@ -34,7 +34,9 @@ _TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # Quoted attributes may
 
 @dataclass(eq=False)
 class Node:
-    """One element. start, end: range of its bytes in the file, or NOWHERE. place: its beginning in its file."""
+    """One element. start, end: range of its bytes in the file, or NOWHERE. place: its beginning in
+    its file.
+    """
 
     tag: str
     attributes: dict[str, str]
@@ -84,7 +86,9 @@ def _end_of_tag(data: bytes, start: int) -> int:
 
 
 def parse(data: bytes, file: str = "") -> Node:
-    """Return the root element of an XML document. FileError if it is invalid, too large, or has a doctype.
+    """Return the root element of an XML document.
+
+    FileError if it is invalid, too large, or has a doctype.
 
     file: the name of an included file, whose elements have no bytes in the description's own.
     """
@@ -136,7 +140,10 @@ def parse(data: bytes, file: str = "") -> Node:
 
 
 def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.float64]:
-    """Return the (count,) numbers of a text, the default if it is empty. ValueError, with the text, if it is wrong."""
+    """Return the (count,) numbers of a text, the default if it is empty.
+
+    ValueError, with the text, if it is wrong.
+    """
     values = parse_numbers(text) or default
     if len(values) != count:
         raise ValueError(text)
@@ -144,14 +151,19 @@ def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.
 
 
 def number(text: str, default: float | None = None) -> float:
-    """Return the number of a text, the default if it is empty. ValueError, with the text, if it is wrong."""
+    """Return the number of a text, the default if it is empty.
+
+    ValueError, with the text, if it is wrong.
+    """
     return float(numbers(text, 1, () if default is None else (default,))[0])
 
 
 def attempt(
     findings: list[Finding], node: Node | None, read: Callable[..., Value], *more: object
 ) -> Value | None:
-    """Return the result of `read` for an element; None without an element, or, with a finding, if a number is wrong."""
+    """Return the result of `read` for an element; None without an element, or, with a finding, if a
+    number is wrong.
+    """
     if node is None:
         return None
     try:
@@ -173,8 +185,9 @@ def read_shapes(
 ) -> tuple[StatedShape, ...]:
     """Return the visual and collision shapes of a link of URDF or SDF that bound a volume.
 
-    pose_of: returns the pose of an element, and the angles if stated. kinds: known ones besides meshes. get: returns
-    the text of an element's property. length: default of a radius or length, if there is one. beside: as of a shape.
+    pose_of: returns the pose of an element, and the angles if stated. kinds: known ones besides
+    meshes. get: returns the text of an element's property. length: default of a radius or length,
+    if there is one. beside: as of a shape.
     """
 
     def read(node: Node, role: str) -> StatedShape | None:
@@ -210,7 +223,9 @@ def read_shapes(
 def stated_link(
     node: Node, element: Node | None, findings: Sequence[Finding], **values: Any
 ) -> StatedLink:
-    """Return a link with the places of its values in the file. element: the inertial's, which a repair replaces."""
+    """Return a link with the places of its values in the file. element: the inertial's, which a
+    repair replaces.
+    """
     is_fixed = element is None or values["inertial"] is None or element.start == NOWHERE
     span = None if element is None or is_fixed else (element.start, element.end)
     places = {"place": node.place, "inertial_place": (element or node).place}
@@ -218,7 +233,10 @@ def stated_link(
 
 
 def _unreadable(node: Node, error: Exception) -> Finding:
-    """Return the finding about a wrong number. It names the only element with that text, else the node."""
+    """Return the finding about a wrong number.
+
+    It names the only element with that text, else the node.
+    """
     text = str(error)
     holders = [
         one

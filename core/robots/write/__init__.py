@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writers of robots as text: one module for each format, each from `core/robots/model.py:Robot` alone."""
+"""Writers of robots as text: one module for each format, each from `core/robots/model.py:Robot`
+alone.
+"""
 
 from ...lazy import lazy_names
 

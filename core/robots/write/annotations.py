@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Audit reports for programs that show findings at their lines: SARIF 2.1.0 and the annotations of GitHub."""
+"""Audit reports for programs that show findings at their lines: SARIF 2.1.0 and the annotations of
+GitHub.
+"""
 
 from __future__ import annotations
 
@@ -86,7 +88,9 @@ def to_sarif(documents: Sequence[dict[str, Any]]) -> str:
 
 
 def to_github(documents: Sequence[dict[str, Any]]) -> str:
-    """Return one workflow command a line for each entry that is not known, which GitHub shows at its line."""
+    """Return one workflow command a line for each entry that is not known, which GitHub shows at
+    its line.
+    """
     lines = [AUDIT_COMMANDS + "\n"]
     for link, found in _located(documents):
         if found.get("known"):

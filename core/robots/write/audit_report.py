@@ -26,17 +26,23 @@ from .marker import AUDIT_COLUMNS as COLUMNS
 from .marker import AUDIT_PAGE, AUDIT_TEXT
 from .marker import AUDIT_SCHEMA as SCHEMA
 
-RESTS_ON = "What is said of the geometry rests on one assumption: the drawn shapes of a link hold all of its mass."
+RESTS_ON = (
+    "What is said of the geometry rests on one assumption: the drawn shapes of a link hold all of "
+    "its mass."
+)
 _STYLE = (
-    "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;color:#222;background:#fff}"
-    "table{border-collapse:collapse;width:100%}th,td{text-align:left;vertical-align:top;padding:.35rem .6rem;"
-    "border-bottom:1px solid #ddd}.error{color:#a40000;font-weight:600}.warning{color:#8a5a00;font-weight:600}"
+    "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;"
+    "color:#222;background:#fff}table{border-collapse:collapse;width:100%}"
+    "th,td{text-align:left;vertical-align:top;padding:.35rem .6rem;border-bottom:1px solid #ddd}"
+    ".error{color:#a40000;font-weight:600}.warning{color:#8a5a00;font-weight:600}"
     ".note{color:#555}td.number{text-align:right;font-variant-numeric:tabular-nums}"
 )
 
 
 def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
-    """Return the report document of one file. repaired: name of the repaired copy, None if there is none."""
+    """Return the report document of one file. repaired: name of the repaired copy, None if there is
+    none.
+    """
     repairs = {id(link): _inertial(inertial) for link, inertial in audit.repairs()}
     links = [
         {
@@ -57,13 +63,17 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
 
 
 def with_status(document: dict[str, Any]) -> dict[str, Any]:
-    """Return the document of a readable file with the status of its findings: "ok" if all are notes or known."""
+    """Return the document of a readable file with the status of its findings: "ok" if all are notes
+    or known.
+    """
     counts = count_findings(document)
-    return {**document, "status": "findings" if counts["warnings"] + counts["errors"] else "ok"}
+    return document | {"status": "findings" if counts["warnings"] + counts["errors"] else "ok"}
 
 
 def count_findings(document: dict[str, Any]) -> dict[str, int]:
-    """Return the counts of "links", and of findings that are not known, by severity: "notes" and so on."""
+    """Return the counts of "links", and of findings that are not known, by severity: "notes" and so
+    on.
+    """
     found = [
         *document["errors"],
         *(found for link in document["links"] for found in link["findings"]),
@@ -90,7 +100,7 @@ def failed_document(file: str, reason: Finding) -> dict[str, Any]:
         "line": reason.values.get("line", 1),
         "column": reason.values.get("column", 1),
     }
-    return plain({**head, "links": [], "errors": [{**_finding(reason), **place}]})
+    return plain(head | {"links": [], "errors": [(_finding(reason) | place)]})
 
 
 def _finding(one: Finding) -> dict[str, Any]:
@@ -151,9 +161,11 @@ def _table_rows(documents: Iterable[dict[str, Any]]) -> Iterable[list[Any]]:
             ]
             for found in link["findings"] or [{"severity": "", "code": "ok", "message": ""}]:
                 yield [
-                    one["file"], link["name"], *(found[key] for key in ("severity", "code", "message")),
+                    one["file"],
+                    link["name"],
+                    *(found[key] for key in ("severity", "code", "message")),
                     *("" if value is None else value for value in shared),
-                ]  # fmt: skip
+                ]
 
 
 def to_csv(documents: Sequence[dict[str, Any]]) -> str:
@@ -227,7 +239,9 @@ def _numbers(inertial: dict[str, Any] | None) -> str:
 
 
 def to_text(documents: Sequence[dict[str, Any]]) -> str:
-    """Return the findings as plain text, one after the other: place, severity, link, sentence, and the numbers."""
+    """Return the findings as plain text, one after the other: place, severity, link, sentence, and
+    the numbers.
+    """
     lines = [AUDIT_TEXT]
     for one in documents:
         for reason in one["errors"]:

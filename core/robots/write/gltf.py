@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rigid bodies in a glTF file that Blender's exporter has written: KHR_physics_rigid_bodies and OMI_physics_body.
+"""Rigid bodies in a glTF file that Blender's exporter has written: KHR_physics_rigid_bodies and
+OMI_physics_body.
 
-The nodes stay as they are; nodes of bodies get the two extensions. Blender's z up is glTF's y up: (x, y, z) becomes (x,
-z, -y). Blender writes its own units as meters, whatever the scene's unit scale, so a node above all others scales them.
-A body has the mass of all links that are fixed to it; nodes without a motion of their own move with the node above.
+The nodes stay as they are; nodes of bodies get the two extensions. Blender's z up is glTF's y up:
+(x, y, z) becomes (x, z, -y). Blender writes its own units as meters, whatever the scene's unit
+scale, so a node above all others scales them. A body has the mass of all links that are fixed to
+it; nodes without a motion of their own move with the node above.
 """
 
 from __future__ import annotations
@@ -48,13 +50,14 @@ def body_extensions(
         values["inertiaOrientation"] = [x, y, z, w]
     kinematic = {"isKinematic": True} if is_fixed else {}
     kind = {"type": "kinematic" if is_fixed else "dynamic"}
-    return {KHR: {"motion": {**kinematic, **values}}, OMI: {"motion": {**kind, **values}}}
+    return {KHR: {"motion": (kinematic | values)}, OMI: {"motion": (kind | values)}}
 
 
 def add_rigid_bodies(
     document: dict[str, Any], robot: Robot, meters_per_unit: float
 ) -> list[Finding]:
-    """Add the motions of bodies to the nodes of a glTF document, and a node for its unit, in place; return findings.
+    """Add the motions of bodies to the nodes of a glTF document, and a node for its unit, in place;
+    return findings.
 
     robot: its links have the names of nodes. meters_per_unit: unit scale of the Blender scene.
     """
@@ -97,14 +100,19 @@ def add_rigid_bodies(
 
 
 def read_json(data: bytes) -> dict[str, Any]:
-    """Return the JSON document of the bytes of a .gltf or .glb file. ValueError if they have none."""
+    """Return the JSON document of the bytes of a .gltf or .glb file.
+
+    ValueError if they have none.
+    """
     if data[:4] != b"glTF":
         return json.loads(data)
     return json.loads(dict(chunks(data)).get(JSON, b""))
 
 
 def replace_json(data: bytes, document: dict[str, Any]) -> bytes:
-    """Return the bytes of a file with another JSON document; other chunks of a .glb keep their bytes."""
+    """Return the bytes of a file with another JSON document; other chunks of a .glb keep their
+    bytes.
+    """
     text = json.dumps(document, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
     if data[:4] != b"glTF":
         return (

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A robot as a glTF file of its own, as text: a node for each link, with joints of KHR_physics_rigid_bodies.
+"""A robot as a glTF file of its own, as text: a node for each link, with joints of
+KHR_physics_rigid_bodies.
 
-Every link is a body, in meters and with y up. A joint has a node below the parent link's node and a connected node
-below the child's, both at the joint's frame and turned so that the axes of freedom are axes of these nodes; fixed
-directions have the limits zero. Meshes are embedded: glTF knows no files of other formats.
+Every link is a body, in meters and with y up. A joint has a node below the parent link's node and a
+connected node below the child's, both at the joint's frame and turned so that the axes of freedom
+are axes of these nodes; fixed directions have the limits zero. Meshes are embedded: glTF knows no
+files of other formats.
 """
 
 from __future__ import annotations
@@ -180,7 +182,9 @@ class _Document:
 
 
 def _implicit(shape: Shape) -> dict[str, Any]:
-    """Return a box, sphere, capsule or cylinder as an entry of KHR_implicit_shapes, in whose axes our z is y."""
+    """Return a box, sphere, capsule or cylinder as an entry of KHR_implicit_shapes, in whose axes
+    our z is y.
+    """
     if shape.kind == "box":
         x, y, z = shape.size
         return {"type": "box", "box": {"size": [x, z, y]}}
@@ -194,7 +198,9 @@ def _implicit(shape: Shape) -> dict[str, Any]:
 
 
 def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
-    """Return the limits of a joint along its node's axes: zero for fixed directions, the range of limited ones."""
+    """Return the limits of a joint along its node's axes: zero for fixed directions, the range of
+    limited ones.
+    """
     held = {"linearAxes": {0, 1, 2}, "angularAxes": {0, 1, 2}}
     limits: list[dict[str, Any]] = []
     for free in joint.free:
@@ -229,6 +235,8 @@ def _drives(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
 
 
 def _direction(free: FreeAxis, turn: NDArray) -> tuple[NDArray[np.float64], int]:
-    """Return the direction of a free axis along the joint's node, and the index of the node's axis next to it."""
+    """Return the direction of a free axis along the joint's node, and the index of the node's axis
+    next to it.
+    """
     direction = turn.T @ Y_UP @ free.axis
     return direction, int(np.argmax(np.abs(direction)))

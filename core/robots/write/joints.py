@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Joints about several axes as joints in a row, and the known values of joints with the formats that hold them."""
+"""Joints about several axes as joints in a row, and the known values of joints with the formats
+that hold them.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,8 @@ from ..findings import JOINT_VALUES_LOST
 from ..model import Joint, Link, Pose, Robot
 from .text import unique_names
 
-# Names of values in each format, by ours. UsdPhysics and glTF have drives, others dynamics, limits and mimics.
+# Names of values in each format, by ours. UsdPhysics and glTF have drives, others dynamics, limits
+# and mimics.
 _DRIVE = {"damping": "damping", "stiffness": "stiffness", "effort": "maxForce"}
 NAMES = {
     "URDF": {name: name for name in ("damping", "friction", "effort", "velocity", "mimic")},
@@ -56,10 +59,12 @@ def lost_values(
 def with_axis_frames(
     robot: Robot, is_whole: Callable[[Joint], bool] = lambda _joint: False, part: float = 0.0
 ) -> Robot:
-    """Return a robot whose joints have one axis each, with frames between the axes of those that had several.
+    """Return a robot whose joints have one axis each, with frames between the axes of those that
+    had several.
 
-    The frames stand at the joint, along the child's axes. is_whole: returns True for joints that stay as they are.
-    part: of the child's inertial, which a frame has as well; zero for frames without mass.
+    The frames stand at the joint, along the child's axes. is_whole: returns True for joints that
+    stay as they are. part: of the child's inertial, which a frame has as well; zero for frames
+    without mass.
     """
     names, joint_names = ({one.name for one in those} for those in (robot.links, robot.joints))
     frames: list[Link] = []

@@ -16,16 +16,20 @@ AUDIT_TEXT = "Body Moments: audit"  # of one as text or a table
 AUDIT_COMMANDS = "::debug::Body Moments: audit"  # of one as commands for GitHub
 SARIF_SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json"
 _SARIF = re.compile(
-    rb'\s*\{\s*"\$schema": "[^"]*sarif[^"]*",[^{]*\{\s*"tool": \{\s*"driver": \{\s*"name": "Body Moments"'
+    rb'\s*\{\s*"\$schema": "[^"]*sarif[^"]*",[^{]*\{\s*"tool": \{\s*"driver": \{\s*'
+    rb'"name": "Body Moments"'
 )
 MARKER = "Body Moments: {}"  # In the first lines of our robot files, which may be overwritten.
 _HEAD = re.compile(
-    rb"(<\?xml [^>]*>\s*<!-- |#usda 1.0\s*\(\s*\"\"\"|\{\s*\"asset\": \{\s*\"generator\": \")Body Moments: \w+[\s\"]"
+    rb"(<\?xml [^>]*>\s*<!-- |#usda "
+    rb"1.0\s*\(\s*\"\"\"|\{\s*\"asset\": \{\s*\"generator\": \")Body Moments: \w+[\s\"]"
 )
 
 
 def is_audit(head: bytes) -> bool:
-    """Return whether a file that begins with `head` is an audit report in a form other than JSON."""
+    """Return whether a file that begins with `head` is an audit report in a form other than
+    JSON.
+    """
     first = head.split(b"\n", 1)[0].rstrip(b"\r").decode("utf-8", "replace")
     return first in (",".join(AUDIT_COLUMNS), AUDIT_PAGE, AUDIT_TEXT, AUDIT_COMMANDS) or bool(
         _SARIF.match(head)

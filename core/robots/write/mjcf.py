@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """MJCF, for MuJoCo, with the inertia as principal pair, `diaginertia` and `quat`.
 
-MuJoCo's test that no principal moment exceeds the sum of the others has no tolerance, and its moments of a
-`fullinertia` are off by rounding, so that it refuses thin plates.
+MuJoCo's test that no principal moment exceeds the sum of the others has no tolerance, and its
+moments of a `fullinertia` are off by rounding, so that it refuses thin plates.
 """
 
 from __future__ import annotations
@@ -39,14 +39,18 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def smallest_inertials(robot: Robot, limit: float) -> dict[str, float]:
-    """Return the smaller of mass and least moment of each link where it is below a limit, by name."""
+    """Return the smaller of mass and least moment of each link where it is below a limit, by
+    name.
+    """
     inertials = [(link.name, link.inertial) for link in robot.links if link.inertial is not None]
     least = {name: float(min(inertial.mass, inertial.moments[0])) for name, inertial in inertials}
     return {name: value for name, value in least.items() if value < limit}
 
 
 def raised_inertials(robot: Robot, limit: float) -> list[Finding]:
-    """Return the finding about links whose mass or moments MuJoCo raises to a limit, empty if there are none."""
+    """Return the finding about links whose mass or moments MuJoCo raises to a limit, empty if there
+    are none.
+    """
     small = smallest_inertials(robot, limit)
     if not small:
         return []
@@ -98,7 +102,9 @@ def _name(text: str) -> str:
 
 
 def _add_meshes(root: Element, robot: Robot) -> dict[tuple, str]:
-    """Add an asset for each mesh, once even if several links show it; return the names by `_mesh_key`."""
+    """Add an asset for each mesh, once even if several links show it; return the names by
+    `_mesh_key`.
+    """
     files = {
         _mesh_key(shape): shape
         for link in robot.links
@@ -132,7 +138,10 @@ def _add_place(element: Element, pose: Pose) -> None:
 def _add_joints(
     body: Element, robot: Robot, link: Link, joint: Joint | None, names: dict[str, str]
 ) -> None:
-    """Add a joint for each degree of freedom of a link. A root with mass moves freely if it is not fixed."""
+    """Add a joint for each degree of freedom of a link.
+
+    A root with mass moves freely if it is not fixed.
+    """
     if joint is None:
         if not link.is_fixed and any(part.inertial is not None for part in robot.rigid_parts(link)):
             SubElement(body, "freejoint")
@@ -160,7 +169,7 @@ def _add_joints(
 def _add_inertial(body: Element, inertial: Inertial) -> None:
     place = {"pos": numbers(inertial.center), "quat": numbers(quaternion(inertial.axes))}
     values = {"mass": number(inertial.mass), "diaginertia": numbers(inertial.moments)}
-    SubElement(body, "inertial", {**place, **values})
+    SubElement(body, "inertial", (place | values))
 
 
 def inertial_text(inertial: StatedInertial, *_: object) -> str:
@@ -169,7 +178,10 @@ def inertial_text(inertial: StatedInertial, *_: object) -> str:
 
 
 def _add_geoms(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:
-    """Add a geometry that is seen, and one that collides. A flat mesh has no convex hull to collide with."""
+    """Add a geometry that is seen, and one that collides.
+
+    A flat mesh has no convex hull to collide with.
+    """
     if shape.seen:
         _add_geom(
             body, shape, meshes, {"group": "2", "contype": "0", "conaffinity": "0", "mass": "0"}

@@ -24,8 +24,10 @@ GRAVITY = (0.0, 0.0, -9.80665)
 FAR = 1e3  # rad or m, in the place of an open limit
 ALONG_Y = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # Cylinders stand along y.
 _FORMS = {
-    **{"mesh": ("Mesh", "scale_factors", 1.0), "box": ("Brick", "half_lengths", 0.5)},
-    **{"ellipsoid": ("Ellipsoid", "radii", 1.0), "sphere": ("Sphere", "radius", 1.0)},
+    "mesh": ("Mesh", "scale_factors", 1.0),
+    "box": ("Brick", "half_lengths", 0.5),
+    "ellipsoid": ("Ellipsoid", "radii", 1.0),
+    "sphere": ("Sphere", "radius", 1.0),
     "cylinder": ("Cylinder", "radius", 1.0),
 }
 
@@ -38,7 +40,9 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def _order(joint: Joint) -> bool | None:
-    """Return True if a joint moves before it turns, False if it turns first, None if it does neither."""
+    """Return True if a joint moves before it turns, False if it turns first, None if it does
+    neither.
+    """
     kinds = [free.kind for free in joint.free]
     return (
         True if kinds == sorted(kinds, reverse=True) else False if kinds == sorted(kinds) else None
@@ -103,7 +107,10 @@ def _add_geometry(parent: Element, shape: Shape) -> None:
 
 
 def _add_frame(parent: Element, name: str, body: str, pose: Pose) -> Element:
-    """Add a frame of a body, "" for the ground, and return it. Its angles turn about its own x, y and z in turn."""
+    """Add a frame of a body, "" for the ground, and return it.
+
+    Its angles turn about its own x, y and z in turn.
+    """
     frame = SubElement(parent, "PhysicalOffsetFrame", name=name)
     add_text(frame, "socket_parent", "/bodyset/" + body if body else "/ground")
     add_text(frame, "translation", numbers(pose.position))
@@ -129,7 +136,10 @@ def _add_root(joints: Element, robot: Robot, link: Link, name: str) -> None:
 def _add_joint(
     joints: Element, robot: Robot, joint: Joint, name: str, names: dict[str, str]
 ) -> None:
-    """Add a joint. A CustomJoint moves before it turns; one that turns first is stated from its other side."""
+    """Add a joint.
+
+    A CustomJoint moves before it turns; one that turns first is stated from its other side.
+    """
     place = robot.pose_in_parent(robot.link(joint.child)) @ joint.pose
     ends = ((names[joint.parent], place), (names[joint.child], joint.pose))
     kind = "BallJoint" if joint.is_ball else "CustomJoint" if joint.free else "WeldJoint"

@@ -90,7 +90,9 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
 
 
 def _name(text: str) -> str:
-    """Return a valid name: without `::`, which separates models and links, and not reserved by the format."""
+    """Return a valid name: without `::`, which separates models and links, and not reserved by the
+    format.
+    """
     text = xml_name(text).replace("::", "_")
     return text + "_" if _RESERVED.fullmatch(text) else text
 
@@ -115,7 +117,9 @@ def _add_tensor(parent: Element, tensor: NDArray) -> None:
 
 
 def inertial_text(inertial: StatedInertial, old: str, *_: object) -> str:
-    """Return the element of a repaired inertial, along the link's axes: files before version 1.9 have no quaternion."""
+    """Return the element of a repaired inertial, along the link's axes: files before version 1.9
+    have no quaternion.
+    """
     text = inertial_element(_add_plain_inertial, inertial.principal())
     kept = re.findall(r"<fluid_added_mass>.*?</fluid_added_mass>", old, re.DOTALL)
     return text.replace("\n</inertial>", "".join("\n  " + one for one in kept) + "\n</inertial>")

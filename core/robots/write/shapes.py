@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Visual and collision shapes of links: their meshes, the primitives of their inertia, or nothing."""
+"""Visual and collision shapes of links: their meshes, the primitives of their inertia, or
+nothing.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,9 @@ def capsule_pieces(shape: Shape) -> list[Shape]:
 
 
 def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
-    """Return the finding about a robot's ellipsoids for a format without them, empty if it has none."""
+    """Return the finding about a robot's ellipsoids for a format without them, empty if it has
+    none.
+    """
     names = [
         link.name for link in robot.links if any(shape.kind == "ellipsoid" for shape in link.shapes)
     ]
@@ -48,7 +52,9 @@ def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
 
 
 def shape_values(shape: Shape) -> dict[str, str]:
-    """Return the names and texts of a shape's lengths in URDF and SDF; of a mesh its scale, unless it is 1."""
+    """Return the names and texts of a shape's lengths in URDF and SDF; of a mesh its scale, unless
+    it is 1.
+    """
     if shape.kind == "mesh":
         return {"scale": numbers(shape.size)} if shape.size != (1.0, 1.0, 1.0) else {}
     if shape.kind in ("box", "ellipsoid"):
@@ -59,7 +65,8 @@ def shape_values(shape: Shape) -> dict[str, str]:
 def with_meshes(
     robot: Robot, surface_of: Callable[[str], Surface | None]
 ) -> tuple[Robot, list[Finding]]:
-    """Return a robot with the surface of each link (in m, along its axes), and a finding about links without one.
+    """Return a robot with the surface of each link (in m, along its axes), and a finding about
+    links without one.
 
     Colliders have their own surfaces.
     """
@@ -84,7 +91,9 @@ def without_collision(robot: Robot) -> Robot:
 
 
 def with_colliders(robot: Robot, colliders_of: Callable[[Link], Sequence[Shape]]) -> Robot:
-    """Return a robot whose links collide as their colliders, shapes in the links' frames, if they have any."""
+    """Return a robot whose links collide as their colliders, shapes in the links' frames, if they
+    have any.
+    """
 
     def shapes_of(link: Link) -> Sequence[Shape]:
         colliders = [replace(shape, seen=False) for shape in colliders_of(link)]
@@ -98,7 +107,9 @@ def with_colliders(robot: Robot, colliders_of: Callable[[Link], Sequence[Shape]]
 
 
 def with_primitives(robot: Robot, kind: str) -> Robot:
-    """Return a robot with a "box", "ellipsoid", "capsule" or no shape ("none") as each link's geometry."""
+    """Return a robot with a "box", "ellipsoid", "capsule" or no shape ("none") as each link's
+    geometry.
+    """
     return _with_shapes(
         robot,
         lambda link: (

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes of links: binary STL, which all readers accept, or OBJ if MuJoCo would refuse the size as STL."""
+"""Meshes of links: binary STL, which all readers accept, or OBJ if MuJoCo would refuse the size as
+STL.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ...files.whole_file import whole_file
 from ...mesh.surface import Surface
-from ...whole_file import whole_file
 from ..model import Robot
 from .text import unique_names
 
@@ -26,7 +28,9 @@ _NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)
 
 
 def to_stl(surface: Surface) -> bytes:
-    """Return a surface in m as binary STL with zero normals, so that readers compute them from the corners."""
+    """Return a surface in m as binary STL with zero normals, so that readers compute them from the
+    corners.
+    """
     triangles = surface.all_triangles()[0]
     rows = np.zeros(len(triangles), TRIANGLE)
     rows["corners"] = surface.points[triangles]
@@ -46,10 +50,12 @@ def to_obj(surface: Surface) -> bytes:
 def write_meshes(
     robot: Robot, output: Path, read: Path | None = None, force: bool = False
 ) -> Robot:
-    """Write the surfaces of a robot's meshes to files, and return the robot with the names of these files.
+    """Write the surfaces of a robot's meshes to files, and return the robot with the names of these
+    files.
 
-    output: the robot's own file; the meshes go to the folder `meshes` beside it. read: a file that is never replaced.
-    OSError if a file cannot be written, or exists, is no mesh of ours, and `force` is False; then none is written.
+    output: the robot's own file; the meshes go to the folder `meshes` beside it. read: a file that
+    is never replaced. OSError if a file cannot be written, or exists, is no mesh of ours, and
+    `force` is False; then none is written.
     """
     shapes = {
         (link.name, index): shape for link in robot.links for index, shape in enumerate(link.shapes)
@@ -80,7 +86,9 @@ def write_meshes(
 
 
 def mesh_files(shapes: Iterable[tuple[str, int]], stem: str) -> dict[tuple[str, int], str]:
-    """Return the mesh file of each link's name and shape's index, relative to the robot's; unique even without case."""
+    """Return the mesh file of each link's name and shape's index, relative to the robot's; unique
+    even without case.
+    """
     files = unique_names(
         shapes, lambda key: _file_name("{}_collider_{}".format(*key) if key[1] else key[0])
     )

@@ -33,7 +33,9 @@ def numbers(values: Iterable[float]) -> str:
 
 
 def xml_text(text: str) -> str:
-    """Return the text with an underscore for each character that XML cannot hold or a reader would change."""
+    """Return the text with an underscore for each character that XML cannot hold or a reader would
+    change.
+    """
     return _SPACES.sub("_", _NOT_XML.sub("_", text))
 
 
@@ -48,7 +50,9 @@ def xml_name(text: str) -> str:
 def unique_names(
     names: Iterable[Key], rename: Callable[[Key], str], taken: Iterable[str] = ()
 ) -> dict[Key, str]:
-    """Return a dict from each name to its `rename`d name, with a number if that name is used or `taken`."""
+    """Return a dict from each name to its `rename`d name, with a number if that name is used or
+    `taken`.
+    """
     used = set(taken)
     result = {}
     for name in names:
@@ -63,7 +67,9 @@ def unique_names(
 
 
 def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
-    """Return roll, pitch and yaw with rotation = Rz(yaw) Ry(pitch) Rx(roll), -π/2 ≤ pitch ≤ π/2, also at the poles."""
+    """Return roll, pitch and yaw with rotation = Rz(yaw) Ry(pitch) Rx(roll), -π/2 ≤ pitch ≤ π/2,
+    also at the poles.
+    """
     yaw = atan2(rotation[1, 0], rotation[0, 0])
     pitch = atan2(-rotation[2, 0], hypot(rotation[0, 0], rotation[1, 0]))
     roll = atan2(
@@ -94,7 +100,9 @@ def inertial_element(add: Callable[[Element, Inertial], None], inertial: Inertia
 
 
 def document(root: Element, kind: str, remarks: Iterable[str]) -> str:
-    """Return the text of an XML file: our marker and the remarks as comments, then the root element, indented."""
+    """Return the text of an XML file: our marker and the remarks as comments, then the root
+    element, indented.
+    """
     ElementTree.indent(root)
     lines = [MARKER.format(kind), *(xml_text(remark) for remark in remarks)]
     comments = ["<!-- {} -->\n".format(re.sub("-(?=-|$)", "- ", line)) for line in lines]

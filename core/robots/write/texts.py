@@ -30,7 +30,9 @@ def with_geometry(
     read: Path | None = None,
     force: bool = False,
 ) -> tuple[Robot, list[Finding]]:
-    """Return a robot with meshes, written to files unless the format embeds them, and a finding about bare links."""
+    """Return a robot with meshes, written to files unless the format embeds them, and a finding
+    about bare links.
+    """
     robot, findings = with_meshes(robot, surface_of)
     return robot if FORMATS[format_name].holds_meshes else write_meshes(
         robot, output, read, force
@@ -40,7 +42,9 @@ def with_geometry(
 def robot_text(
     robot: Robot, format_name: str, findings: Iterable[Finding] = (), *, inertial_only: bool = False
 ) -> tuple[str, list[Finding]]:
-    """Return a robot in a format, with all findings as remarks, and these findings. inertial_only: only inertials."""
+    """Return a robot in a format, with all findings as remarks, and these findings. inertial_only:
+    only inertials.
+    """
     findings = [*findings, *check(robot, format_name, inertial_only=inertial_only)]
     writer = FORMATS[format_name].writer_module
     return writer.write(robot, list(map(sentence, findings)), inertial_only=inertial_only), findings

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """URDF, with the inertial frame and the tensor along the link's axes (rpy 0).
 
-Some readers ignore the inertial frame's rotation (ros2/rviz#1170) or diagonalize wrongly. The products ixy, ixz and
-iyz are entries of the tensor, such as -∫xy dm. A link's origin is at its joint.
+Some readers ignore the inertial frame's rotation (ros2/rviz#1170) or diagonalize wrongly. The
+products ixy, ixz and iyz are entries of the tensor, such as -∫xy dm. A link's origin is at its
+joint.
 """
 
 from __future__ import annotations
@@ -37,10 +38,13 @@ FLATNESS = 1e-7  # Thickness relative to length, of float32 vertices in a plane.
 BASE, WORLD = "base_link", "world"
 SLACK = (
     2.0**-48
-)  # The largest moment of a flat body is lowered by this part: MuJoCo tests A + B ≥ C without tolerance.
+    # The largest moment of a flat body is lowered by this part: MuJoCo tests A + B ≥ C without
+    # tolerance.
+)
 LEAST = 1e-14  # kg and kg·m² that MuJoCo gives massless frames, as it refuses less than 1e-15.
 BOUNDED = 1e-13  # It takes smaller tensors for singular, unless a bound is set.
-# A limited joint must state these unknown values. N·m or N, and rad/s or m/s, too large to have an effect.
+# A limited joint must state these unknown values. N·m or N, and rad/s or m/s, too large to have an
+# effect.
 EFFORT, VELOCITY = 1e6, 1e3
 
 
@@ -66,7 +70,9 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
-    """Return a robot as URDF, with remarks as comments. inertial_only: only the links with their inertials."""
+    """Return a robot as URDF, with remarks as comments. inertial_only: only the links with their
+    inertials.
+    """
     robot = robot if inertial_only else with_axis_frames(robot.at_joints())
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], xml_name)
@@ -117,7 +123,9 @@ def _name(text: str) -> str:
 
 
 def _add_compiler(root: Element, robot: Robot) -> None:
-    """Let MuJoCo keep fixed links, folders of meshes, and links of little or no mass; other readers skip it."""
+    """Let MuJoCo keep fixed links, folders of meshes, and links of little or no mass; other readers
+    skip it.
+    """
     values = {"fusestatic": "false", "strippath": "false"}
     is_bare = any(link.inertial is None and robot.joint_of(link.name) for link in robot.links)
     if is_bare or smallest_inertials(robot, BOUNDED):
@@ -175,7 +183,9 @@ def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
 
 
 def _is_flat(surface: Surface | None) -> bool:
-    """Return whether a surface lies in a plane, so that no convex hull of it can collide; MuJoCo refuses it."""
+    """Return whether a surface lies in a plane, so that no convex hull of it can collide; MuJoCo
+    refuses it.
+    """
     if surface is None:
         return False
     points = surface.points[np.unique(surface.all_triangles()[0])]

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """USD as plain text: PhysicsMassAPI, in single precision, and NewtonMassAPI, in double.
 
-Blender's Python has no `pxr`, so layers are written as text. The largest principal moment is rounded down until no
-moment exceeds the sum of the others in float32 too (rule RB.008 of NVIDIA's SimReady). A body
-carries the mass of all links fixed to it, because the mass of a parent overrides that of its children.
+Blender's Python has no `pxr`, so layers are written as text. The largest principal moment is
+rounded down until no moment exceeds the sum of the others in float32 too (rule RB.008 of NVIDIA's
+SimReady). A body carries the mass of all links fixed to it, because the mass of a parent overrides
+that of its children.
 """
 
 from __future__ import annotations
@@ -31,7 +32,8 @@ ARTICULATION = ("PhysicsArticulationRootAPI",)
 APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")
 LEAST = float(np.finfo(np.float32).tiny)  # The least number that float32 holds with all its digits.
 _MASS_ATTRIBUTE = re.compile(
-    r"[ \t]*(?:custom )?(?:uniform )?[\w:\[\]]+ (?:physics:(?:mass|centerOfMass|diagonalInertia|principalAxes)|"
+    r"[ \t]*(?:custom )?(?:uniform )?[\w:\[\]]+ "
+    r"(?:physics:(?:mass|centerOfMass|diagonalInertia|principalAxes)|"
     r"newton:inertia) = (?:\([^)]*\)|\[[^\]]*\]|[^\s(\[]+)[ \t]*;?\n?"
 )
 _NO_IDENTIFIER = re.compile(r"\W")
@@ -53,7 +55,10 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
-    """Return a robot as a USD layer, in meters, with a prim for each link. Parameters are those of `urdf.write`."""
+    """Return a robot as a USD layer, in meters, with a prim for each link.
+
+    Parameters are those of `urdf.write`.
+    """
     names = unique_names([link.name for link in robot.links], identifier)
     joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
     heavy = [
@@ -102,8 +107,9 @@ def write_over(
 ) -> str:
     """Return a layer that adds mass to the prims of another layer, and nothing else.
 
-    paths: names of the prims from the top to each root link. geometry: the other layer's file, relative to this one.
-    meters_per_unit: of the scene, whose exporter omits it. Bodies cannot nest: each root carries all links fixed to it.
+    paths: names of the prims from the top to each root link. geometry: the other layer's file,
+    relative to this one. meters_per_unit: of the scene, whose exporter omits it. Bodies cannot
+    nest: each root carries all links fixed to it.
     """
     tree: dict[str, dict] = {}
     bodies = {}
@@ -168,7 +174,9 @@ def header(
 
 
 def identifier(name: str) -> str:
-    """Return the name that Blender's exporter gives the prim of an object: letters, digits and underscores."""
+    """Return the name that Blender's exporter gives the prim of an object: letters, digits and
+    underscores.
+    """
     name = _NO_IDENTIFIER.sub("_", name)
     return name if name.isidentifier() else "_" + name
 
@@ -181,7 +189,9 @@ def quoted(text: str) -> str:
 def mass_attributes(
     inertial: Inertial, meters_per_unit: float = 1.0, scale: ArrayLike = (1.0, 1.0, 1.0)
 ) -> list[str]:
-    """Return the lines that give a prim its mass, in units of its stage. scale: (3,) of the prim, for the center."""
+    """Return the lines that give a prim its mass, in units of its stage. scale: (3,) of the prim,
+    for the center.
+    """
     center = inertial.center / (meters_per_unit * np.asarray(scale, np.float64))
     inertia = inertial.inertia / meters_per_unit**2
     entries = [inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
@@ -199,7 +209,9 @@ def mass_attributes(
 def inertial_text(
     inertial: StatedInertial, old: str, link: StatedLink, description: Description
 ) -> str:
-    """Return a prim's inner text `old` with the attributes of a repaired inertial instead of its former ones."""
+    """Return a prim's inner text `old` with the attributes of a repaired inertial instead of its
+    former ones.
+    """
     unit = description.scales["length"]
     mass = description.scales["mass"]
     local = np.eye(4) if link.local is None else link.local
@@ -223,7 +235,9 @@ def inertial_text(
 
 
 def round_down(moments: NDArray) -> NDArray[np.float32]:
-    """Return (3,) ascending moments in single precision, the largest one not above the sum of the others."""
+    """Return (3,) ascending moments in single precision, the largest one not above the sum of the
+    others.
+    """
     rounded = np.asarray(moments, np.float64).astype(np.float32)
     while float(rounded[2]) > float(rounded[0]) + float(rounded[1]):
         rounded[2] = np.nextafter(rounded[2], np.float32(0.0))
@@ -249,7 +263,9 @@ def _doubles(values: Iterable[float]) -> str:
 def _prim(
     kind: str, name: str, inner: Iterable[str], apis: Sequence[str] = (), reference: str = ""
 ) -> list[str]:
-    """Return the lines of a prim with attributes and prims in it. reference: a prim that has the rest."""
+    """Return the lines of a prim with attributes and prims in it. reference: a prim that has the
+    rest.
+    """
     head = ["{} {}".format(kind, quoted(name))]
     if apis:
         lines = ["    prepend apiSchemas = [{}]".format(", ".join(map(quoted, apis)))]
@@ -271,8 +287,12 @@ def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
 
 
 _KINDS = {
-    **{"mesh": "Mesh", "box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere"},
-    **{"capsule": "Capsule", "cylinder": "Cylinder"},
+    "mesh": "Mesh",
+    "box": "Cube",
+    "ellipsoid": "Sphere",
+    "sphere": "Sphere",
+    "capsule": "Capsule",
+    "cylinder": "Cylinder",
 }
 
 
@@ -299,7 +319,9 @@ def _geometry(shape: Shape) -> list[str]:
 
 
 def _collider(shape: Shape, link: str, count: int, geometry: Sequence[str]) -> list[str]:
-    """Return the lines of a collider with its own geometry, else the visible prim's; of a mesh its convex hull."""
+    """Return the lines of a collider with its own geometry, else the visible prim's; of a mesh its
+    convex hull.
+    """
     # Renderers skip guides.
     inner = ['uniform token purpose = "guide"', *geometry]
     apis = ["PhysicsCollisionAPI"]
@@ -375,7 +397,9 @@ def _ends(
 
 
 def _drive(free: FreeAxis, name: str) -> tuple[list[str], list[str]]:
-    """Return API names and lines for the drive of one direction, per degree if it turns; empty if nothing is known."""
+    """Return API names and lines for the drive of one direction, per degree if it turns; empty if
+    nothing is known.
+    """
     lines = []
     for key, attribute in NAMES["USD"].items():
         if key in free.values:
@@ -391,7 +415,9 @@ def _in_degrees(kind: str, value: float) -> float:
 
 
 def _limits(joint: Joint) -> tuple[tuple[str, ...], list[str]]:
-    """Return API names and lines for limits and drives of six directions; a locked one's lower limit is the higher."""
+    """Return API names and lines for limits and drives of six directions; a locked one's lower
+    limit is the higher.
+    """
     limits = {"{}{}".format(kind, axis): (1.0, -1.0) for kind in ("trans", "rot") for axis in "XYZ"}
     apis, lines = [], []
     for free in joint.free:

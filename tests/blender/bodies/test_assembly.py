@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Assemblies add up what their members weigh, each once, wherever it stands; what is given counts as given."""
+"""Assemblies add up what their members weigh, each once, wherever it stands; what is given counts
+as given.
+"""
 
 from fractions import Fraction
 
@@ -65,7 +67,9 @@ def measured(root):
 
 
 def boxes_inertia(boxes):
-    """(mass, center, tensor about the center) of axis-parallel boxes (density, size, center), in exact fractions."""
+    """(mass, center, tensor about the center) of axis-parallel boxes (density, size, center), in
+    exact fractions.
+    """
     exact = [
         (Fraction(density), [Fraction(value) for value in size], [Fraction(value) for value in at])
         for density, size, at in boxes
@@ -323,7 +327,9 @@ def test_an_empty_gives_mass_center_and_inertia_in_its_own_frame(with_children):
 
 
 def test_instance_mass_scales_by_kind_of_member():
-    """Twice as large it has 8 times a solid's mass, 4 times a sheet's, twice a wire's, and the mass that is given."""
+    """Twice as large it has 8 times a solid's mass, 4 times a sheet's, twice a wire's, and the mass
+    that is given.
+    """
     root, of = collection(), bpy.data.collections.new("Of")
     sheet, weighed = box(of, (1, 1, 1), name="sheet"), box(of, (1, 1, 1), name="weighed")
     box(of, (1, 1, 1), density=1.0, name="solid")
@@ -377,7 +383,9 @@ def test_object_has_given_center_and_inertia():
 
 @pytest.mark.parametrize("kind", ["NONE", "COLLECTION"])
 def test_empty_without_collection_is_point_or_assembly(kind):
-    """Where instancing is switched off Blender keeps the collection; with it on, none may be chosen."""
+    """Where instancing is switched off Blender keeps the collection; with it on, none may be
+    chosen.
+    """
     root, shown = collection(), collection("Shown")
     box(shown, (1, 1, 1), (0, 0, 0))
     point, parent = empty(root, "Point", (1, 2, 3), mass=5.0), empty(root, "Parent")

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Generated robots with planted mistakes: each is found, named and repaired, and right ones are left alone."""
+"""Generated robots with planted mistakes: each is found, named and repaired, and right ones are
+left alone.
+"""
 
 import os
 from dataclasses import replace
@@ -28,7 +30,9 @@ from tests.robots.links import inertial, rotation
 
 
 def body(rng):
-    """A random body without any symmetry, with its center away from the origin: two sheared boxes in one mesh."""
+    """A random body without any symmetry, with its center away from the origin: two sheared boxes
+    in one mesh.
+    """
     points, triangles = joined(
         box((0, 0, 0), rng.uniform(0.5, 2.0, 3)), box((-1, -1.5, -2), rng.uniform(-0.9, -0.2, 3))
     )
@@ -41,7 +45,9 @@ def body(rng):
 
 
 def robot(folder, seed, links=3, placed=True):
-    """A robot whose links are filled evenly, their meshes written beside it; placed: in frames of their own."""
+    """A robot whose links are filled evenly, their meshes written beside it; placed: in frames of
+    their own.
+    """
     rng = np.random.default_rng(seed)
     result = []
     (folder / "meshes").mkdir(exist_ok=True)
@@ -69,7 +75,9 @@ def with_tensor(true, tensor, **changes):
 
 
 def plant(true, kind, rng):
-    """A mistake: what is stated, the codes that may name it, whether the tensor is in a rotated frame."""
+    """A mistake: what is stated, the codes that may name it, whether the tensor is in a rotated
+    frame.
+    """
     m, c, tensor = true.mass, true.center, true.inertia
     shift = m * (c @ c * np.eye(3) - np.outer(c, c))
     signs = np.array([[1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
@@ -298,14 +306,19 @@ def with_meshes(text, folder, right):
 def test_mujoco_reads_a_body_as_we_do(tmp_path):
     """Defaults, classes, Euler angles in degrees, axes and quaternions."""
     text = """<mujoco><compiler angle="degree" eulerseq="zyx"/>
-    <default><geom type="box" size=".1 .2 .3"/><default class="thin"><geom size=".1 .2 .01"/></default></default>
+    <default><geom type="box" size=".1 .2 .3"/><default class="thin"><geom size=".1 .2 .01"/>
+</default></default>
     <worldbody>
       <body name="a" euler="10 20 30"><freejoint/><geom class="thin" euler="10 20 30" pos="1 2 3"/>
         <inertial pos=".1 .2 .3" euler="40 50 60" mass="2" diaginertia=".02 .03 .04"/></body>
-      <body name="b"><freejoint/><inertial pos="0 0 0" axisangle="1 2 3 40" mass="1" diaginertia=".02 .03 .04"/></body>
-      <body name="c"><freejoint/><inertial pos="0 0 0" mass="1" fullinertia=".02 .03 .04 .001 .002 -.003"/></body>
-      <body name="d"><freejoint/><inertial pos="0 0 0" xyaxes="1 1 0 0 1 1" mass="1" diaginertia=".02 .03 .04"/></body>
-      <body name="e"><freejoint/><inertial pos="0 0 0" zaxis="1 2 -3" mass="1" diaginertia=".02 .03 .04"/></body>
+      <body name="b"><freejoint/><inertial pos="0 0 0" axisangle="1 2 3 40" mass="1"
+diaginertia=".02 .03 .04"/></body>
+      <body name="c"><freejoint/><inertial pos="0 0 0" mass="1"
+fullinertia=".02 .03 .04 .001 .002 -.003"/></body>
+      <body name="d"><freejoint/><inertial pos="0 0 0" xyaxes="1 1 0 0 1 1" mass="1"
+diaginertia=".02 .03 .04"/></body>
+      <body name="e"><freejoint/><inertial pos="0 0 0" zaxis="1 2 -3" mass="1"
+diaginertia=".02 .03 .04"/></body>
     </worldbody></mujoco>"""
     path = tmp_path / "model.xml"
     path.write_text(text, encoding="utf-8")
@@ -356,8 +369,13 @@ def test_mujoco_reads_a_body_as_we_do(tmp_path):
 
 
 def test_included_mujoco_files_are_read_and_not_repaired(tmp_path):
-    """Files in files; what they state is judged, and repaired only where it stands in the model itself."""
-    body = '<body name="{}"><inertial mass="{}" pos="0 0 0" diaginertia="1 1 1"/><geom type="box" size="1 1 1"/></body>'
+    """Files in files; what they state is judged, and repaired only where it stands in the model
+    itself.
+    """
+    body = (
+        '<body name="{}"><inertial mass="{}" pos="0 0 0" diaginertia="1 1 1"/><geom type="box" '
+        'size="1 1 1"/></body>'
+    )
     model = '<mujoco><include file="sub/more.xml"/><worldbody>{}<replicate count="2"><include '
     model += 'file="arm.xml"/></replicate></worldbody></mujoco>'
     path = tmp_path / "model.xml"
@@ -399,8 +417,10 @@ def test_included_mujoco_files_are_read_and_not_repaired(tmp_path):
 def test_disagreeing_collision_geometry_is_noted_with_its_effect(tmp_path):
     box = "<origin xyz='0 0 {}' rpy='0 0 {}'/><geometry><box size='{} 3 4'/></geometry>"
     text = (
-        "<robot name='r'><link name='l'><inertial><mass value='24000'/><inertia ixx='50000' iyy='40000' izz='26000' "
-        "ixy='0' ixz='0' iyz='0'/></inertial><visual>{}</visual><collision>{}</collision></link></robot>"
+        "<robot name='r'><link name='l'><inertial><mass value='24000'/><inertia ixx='50000' "
+        "iyy='40000' izz='26000' "
+        "ixy='0' ixz='0' "
+        "iyz='0'/></inertial><visual>{}</visual><collision>{}</collision></link></robot>"
     )
     path = tmp_path / "r.urdf"
     path.write_text(text.format(box.format(0, 0, 2), box.format(0.1, 0.2, 2.5)), encoding="utf-8")
@@ -422,8 +442,10 @@ def test_disagreeing_collision_geometry_is_noted_with_its_effect(tmp_path):
 def test_impossible_inertial_is_error_and_uneven_one_a_note(tmp_path):
     text = """<robot name="r">{}</robot>"""
     link = (
-        '<link name="{}"><inertial><origin xyz="{}"/><mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}" ixy="0" '
-        'ixz="0" iyz="0"/></inertial><collision><geometry><box size="2 2 2"/></geometry></collision></link>'
+        '<link name="{}"><inertial><origin xyz="{}"/><mass value="{}"/><inertia ixx="{}" iyy="{}" '
+        'izz="{}" ixy="0" '
+        'ixz="0" iyz="0"/></inertial><collision><geometry><box size="2 2 '
+        '2"/></geometry></collision></link>'
     )
     cases = {
         "hollow": ("0 0 0", 1000, 1000, 1000, 1000, ["audit_not_uniform"]),
@@ -462,9 +484,12 @@ def test_up_axis_of_mesh_counts_if_it_fits_the_inertial(tmp_path, turned):
 
 
 def collada(points, triangles):
-    text = """<COLLADA><asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id="g"><mesh>
-    <source id="p"><float_array>{}</float_array></source><vertices id="v"><input semantic="POSITION" source="#p"/>
-    </vertices><triangles><input semantic="VERTEX" source="#v" offset="0"/><p>{}</p></triangles></mesh></geometry>
+    text = """<COLLADA><asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id="g">
+<mesh>
+    <source id="p"><float_array>{}</float_array></source><vertices id="v">
+<input semantic="POSITION" source="#p"/>
+    </vertices><triangles><input semantic="VERTEX" source="#v" offset="0"/><p>{}</p></triangles>
+</mesh></geometry>
     </library_geometries></COLLADA>"""
     return text.format(
         " ".join(map(repr, points.ravel().tolist())), " ".join(map(str, triangles.ravel().tolist()))
@@ -474,12 +499,14 @@ def collada(points, triangles):
 def test_missing_inertial_counts_for_links_with_shapes(tmp_path):
     path = tmp_path / "r.urdf"
     path.write_text(
-        '<robot name="r"><link name="frame"/><link name="arm"><visual><geometry><sphere radius="1"/>'
+        '<robot name="r"><link name="frame"/><link name="arm"><visual><geometry><sphere '
+        'radius="1"/>'
         "</geometry></visual></link></robot>"
     )
     assert faults(audit(path)) == [[], ["inertial_missing"]]
     path.write_text(
-        '<robot name="r"><link name="arm"><inertial><mass value="heavy"/></inertial><visual><geometry>'
+        '<robot name="r"><link name="arm"><inertial><mass '
+        'value="heavy"/></inertial><visual><geometry>'
         '<sphere radius="1"/></geometry></visual></link></robot>'
     )
     (arm,) = audit(path).links
@@ -491,10 +518,10 @@ def test_missing_inertial_counts_for_links_with_shapes(tmp_path):
 def test_published_descriptions_are_judged_as_by_hand(tmp_path):
     """Numbers of models that are public; what is right about each was worked out on paper.
 
-    A beam of 0.508 m along x whose least moment stands at zz (gazebo_models, lumber 4x4x20); a ball of 0.16 kg with
-    2/3 m r², which is that of a thin shell (cricket ball); a cylinder of 10 kg with the inertia 1 all around, which no
-    mass within a radius of 0.2 m can have (urdf_tutorial, base_link); a link without mass or tensor, which are then
-    1 and 1 (double pendulum).
+    A beam of 0.508 m along x whose least moment stands at zz (gazebo_models, lumber 4x4x20); a ball
+    of 0.16 kg with 2/3 m r², which is that of a thin shell (cricket ball); a cylinder of 10 kg with
+    the inertia 1 all around, which no mass within a radius of 0.2 m can have (urdf_tutorial,
+    base_link); a link without mass or tensor, which are then 1 and 1 (double pendulum).
     """
     cylinder = "<cylinder><radius>{}</radius><length>{}</length></cylinder>"
     tensor = "<inertia><ixx>{}</ixx><iyy>{}</iyy><izz>{}</izz></inertia>"
@@ -510,7 +537,10 @@ def test_published_descriptions_are_judged_as_by_hand(tmp_path):
         ("<mass>10</mass>" + tensor.format(1.0, 1.0, 1.0), cylinder.format(0.2, 0.6)),
         ("", cylinder.format(0.1, 0.9)),
     )
-    link = '<link name="{}"><inertial>{}</inertial><collision name="c"><geometry>{}</geometry></collision></link>'
+    link = (
+        '<link name="{}"><inertial>{}</inertial><collision '
+        'name="c"><geometry>{}</geometry></collision></link>'
+    )
     text = "".join(link.format(index, *case) for index, case in enumerate(cases))
     path = tmp_path / "m.sdf"
     path.write_text(
@@ -539,7 +569,8 @@ def test_missing_mesh_is_named_once_and_stops_judgment(tmp_path):
         for name in ("gone.stl", "gone.stl", "bad.stl")
     ]
     (tmp_path / "bad.stl").write_bytes(b"solid")
-    text = """<robot name="r"><link name="a"><inertial><mass value="8000"/><inertia ixx="1e5" iyy="1e5" izz="1e5"
+    text = """<robot name="r"><link name="a"><inertial><mass value="8000"/><inertia ixx="1e5"
+iyy="1e5" izz="1e5"
     ixy="0" ixz="0" iyz="0"/></inertial>{}</link></robot>"""
     box = shape.format('<box size="2 2 2"/>')
     path = tmp_path / "r.urdf"
@@ -559,15 +590,20 @@ UNUSABLE = ("0", "-1", "nan", "inf", "1e308", "1e-320")
 FORMS = {
     "r.urdf": '<robot name="r">{}</robot>',
     "r.sdf": '<sdf><model name="m">{}</model></sdf>',
-    "r.xml": '<mujoco><asset><mesh name="m" file="m.stl" scale="{scale}"/></asset><worldbody>{}</worldbody></mujoco>',
+    "r.xml": '<mujoco><asset><mesh name="m" file="m.stl" '
+    'scale="{scale}"/></asset><worldbody>{}</worldbody></mujoco>',
     "r.usda": "#usda 1.0\n(\n metersPerUnit = 1\n)\n{}",
 }
 LINKS = {
-    "r.urdf": '<link name="a"><inertial><mass value="1"/><inertia ixx="9" iyy="9" izz="9"/></inertial><visual>'
-    '<geometry><sphere radius="1"/></geometry></visual><collision><geometry>{}</geometry></collision></link>',
-    "r.sdf": '<link name="a"><inertial><mass>1</mass></inertial><visual><geometry><sphere/></geometry></visual>'
+    "r.urdf": '<link name="a"><inertial><mass value="1"/><inertia ixx="9" iyy="9" '
+    'izz="9"/></inertial><visual>'
+    "<geometry><sphere "
+    'radius="1"/></geometry></visual><collision><geometry>{}</geometry></collision></link>',
+    "r.sdf": '<link name="a"><inertial><mass>1</mass></inertial>'
+    "<visual><geometry><sphere/></geometry></visual>"
     "<collision>{}</collision></link>",
-    "r.xml": '<body name="a"><inertial mass="1" diaginertia="9 9 9"/><geom size="1" contype="0"/><geom {}/></body>',
+    "r.xml": '<body name="a"><inertial mass="1" diaginertia="9 9 9"/><geom size="1" '
+    'contype="0"/><geom {}/></body>',
     "r.usda": 'def Xform "a" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{ float physics:mass = 1\n'
     'float3 physics:diagonalInertia = (9, 9, 9)\ndef Sphere "s" {{ }}\n{} }}\n',
 }
@@ -601,7 +637,9 @@ SHAPES = {
 @pytest.mark.parametrize("name", FORMS)
 @pytest.mark.parametrize("number", UNUSABLE)
 def test_unusable_size_is_finding_and_stops_the_comparison(tmp_path, name, number):
-    """The sphere alone cannot have this inertial, but nothing is judged by a part of the geometry."""
+    """The sphere alone cannot have this inertial, but nothing is judged by a part of the
+    geometry.
+    """
     (tmp_path / "m.stl").write_bytes(to_stl(Surface.from_triangles(*box((0, 0, 0), (1, 1, 1)))))
     for shape in SHAPES[name]:
         if number == "-1" and "mesh" in shape:
@@ -625,7 +663,10 @@ def test_names_that_no_system_has_are_missing_meshes(tmp_path):
         ".",
         "",
     ]
-    link = '<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial><visual><geometry>'
+    link = (
+        '<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" '
+        'izz="1"/></inertial><visual><geometry>'
+    )
     link += '<mesh filename="{}"/></geometry></visual></link>'
     path = tmp_path / "r.urdf"
     path.write_text(

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What bodies do with moments that are known better, and with those of shapes that several bodies share."""
+"""What bodies do with moments that are known better, and with those of shapes that several bodies
+share.
+"""
 
 import bpy
 import numpy as np

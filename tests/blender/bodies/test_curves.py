@@ -22,7 +22,9 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 
 def bezier_area(obj):
-    """The area of four cubic quarters by Green's theorem, with the handles' length k: 4 (1/2 + 3k/5 - 3k²/20)."""
+    """The area of four cubic quarters by Green's theorem, with the handles' length k: 4 (1/2 + 3k/5
+    - 3k²/20).
+    """
     point = obj.data.splines[0].bezier_points[0]
     k = (point.handle_left - point.co).length
     return 4.0 * (0.5 + 0.6 * k - 0.15 * k * k)
@@ -97,7 +99,9 @@ def test_straight_splines_are_rods(bevel):
 
 @pytest.mark.parametrize("unit", [1.0, 0.25])
 def test_wire_length_bound_covers_float32(unit):
-    """Short rods far away, of which each end may have been moved by half a unit in the last place, 2^-15 at 1000."""
+    """Short rods far away, of which each end may have been moved by half a unit in the last place,
+    2^-15 at 1000.
+    """
     bpy.context.scene.unit_settings.scale_length = unit
     obj = poly([(1000.0, 0, 0), (1000.0, 0.5, 0)])
     obj.body_moments.kind = "WIRE"

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Densities that are not one number: materials, polynomials and vertex attributes, from settings to what is said."""
+"""Densities that are not one number: materials, polynomials and vertex attributes, from settings to
+what is said.
+"""
 
 import math
 
@@ -113,7 +115,9 @@ def test_a_shell_takes_its_materials_by_face():
 
 
 def test_the_mean_by_area_is_that_of_the_areas_as_they_are_seen():
-    """A unit cube scaled to 1 x 2 x 3 is the box of 1 x 2 x 3, beside another place with another scale."""
+    """A unit cube scaled to 1 x 2 x 3 is the box of 1 x 2 x 3, beside another place with another
+    scale.
+    """
     cork, steel = material("Cork", CORK), material("Steel", STEEL)
     cube = by_material(
         add(box((0, 0, 0), (1, 1, 1)), scale=(1, 2, 3)), cork, steel, faces=[1, 0, 0, 0, 0, 0]
@@ -364,7 +368,9 @@ def boxes_mass(low, high, density):
     ],
 )
 def test_coordinates_are_the_objects_own_or_the_worlds(frame, scale, place):
-    """Own coordinates are meters along the axes as they are drawn: scaled they are not, mirrored they are."""
+    """Own coordinates are meters along the axes as they are drawn: scaled they are not, mirrored
+    they are.
+    """
     obj = by_polynomial(
         add(box((0, 0, 1), (1, 2, 3)), location=place, scale=scale), "5 + z**2", frame
     )
@@ -415,7 +421,9 @@ def test_each_instance_has_the_density_in_its_own_coordinates(apart):
 
 
 def test_a_shell_with_a_polynomial_density():
-    """A unit square sheet in z = 0 with ρ = 10 + x²: ∫ = 10 + 1/3, and so on; unevenly scaled it is another sheet."""
+    """A unit square sheet in z = 0 with ρ = 10 + x²: ∫ = 10 + 1/3, and so on; unevenly scaled it is
+    another sheet.
+    """
     square = {"points": [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], "faces": [(0, 1, 2, 3)]}
     for scale in ((1, 1, 1), (1, 3, 1), (2, 2, 2), (-1, 1, 1), (1, 1, 0)):
         obj = by_polynomial(add(square, scale=scale), "10 + x**2")
@@ -627,7 +635,9 @@ def test_command_line_density_overrides_materials(tmp_path):
 
 @pytest.mark.parametrize("order", [None, 3, 5])
 def test_open_body_of_uniform_sources_has_equal_moments(order):
-    """By one material, by a polynomial that is one number, and by one value; closed to the same point."""
+    """By one material, by a polynomial that is one number, and by one value; closed to the same
+    point.
+    """
     points = np.random.default_rng(0).uniform(1.0, 2.0, (7, 3)).tolist()
     faces = [(0, 1, 2), (1, 3, 2), (2, 3, 4), (3, 5, 4), (4, 5, 6), (0, 2, 6), (2, 5, 6)]
     found = []

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volume objects: voxels to the bit by both ways of reading them, and numbers through every transform and type."""
+"""Volume objects: voxels to the bit by both ways of reading them, and numbers through every
+transform and type.
+"""
 
 import bpy
 import numpy as np
@@ -380,7 +382,9 @@ def test_higher_orders_of_the_voxels_that_are_not_empty(tmp_path):
 
 
 def with_nodes(obj, *makers):
-    """A modifier that joins with the object's own geometry what the makers give, from a tree an output socket each."""
+    """A modifier that joins with the object's own geometry what the makers give, from a tree an
+    output socket each.
+    """
     tree = bpy.data.node_groups.new("Nodes", "GeometryNodeTree")
     for direction in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many objects measured together are each of them measured alone: numbers, bounds, findings, frames, fingerprints."""
+"""Many objects measured together are each of them measured alone: numbers, bounds, findings,
+frames, fingerprints.
+"""
 
 import numpy as np
 import pytest
@@ -100,7 +102,9 @@ def cracked(width):
 
 
 def shards(count=4, seed=3):
-    """Bodies of all kinds, far away, tiny, mirrored, stretched and sheared; each once more as a linked copy."""
+    """Bodies of all kinds, far away, tiny, mirrored, stretched and sheared; each once more as a
+    linked copy.
+    """
     rng, made = np.random.default_rng(seed), []
     for kind, make in KINDS.items():
         for i in range(count):
@@ -136,7 +140,9 @@ def alone(obj, depsgraph, options=AS_SET):
 
 
 def assert_same(found, expected):
-    """To the bit; the fingerprints' digests of areas under uneven maps, whose sums have another order, aside."""
+    """To the bit; the fingerprints' digests of areas under uneven maps, whose sums have another
+    order, aside.
+    """
     if isinstance(expected, Exception):
         assert isinstance(found, Exception) and str(found) == str(expected)
         return
@@ -244,7 +250,9 @@ def object_of(points, faces, name="Object"):
 
 
 def test_meshes_of_equal_corners_and_other_faces_differ():
-    """A triangle and five corners, or five corners and a triangle, and what closes either of them."""
+    """A triangle and five corners, or five corners and a triangle, and what closes either of
+    them.
+    """
     points = [
         (0, 0, 0),
         (2, 0, 0.5),

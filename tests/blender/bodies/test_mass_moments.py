@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of the mass to any order, for every source of density: closed forms over boxes, within the bounds."""
+"""Moments of the mass to any order, for every source of density: closed forms over boxes, within
+the bounds.
+"""
 
 import math
 
@@ -42,7 +44,9 @@ def box(low=LOW, high=HIGH, name="Box"):
 
 
 def mass_moments(*words, order=ORDER):
-    """(K,) the moments, and their bounds together, of the one object, about the center of the box."""
+    """(K,) the moments, and their bounds together, of the one object, about the center of the
+    box.
+    """
     middle = (LOW + HIGH) / 2.0
     moments = measured("--order", order, "--about", ",".join(map(str, middle)), *words)["moments"]
     keys = [",".join(map(str, powers)) for powers in monomials(order).tolist()]
@@ -159,7 +163,9 @@ def test_a_volume_object_within_a_solid(tmp_path):
 
 @pytest.mark.parametrize("spline_order", [1, 2, 4])
 def test_a_grid_with_any_spline_order(tmp_path, spline_order):
-    """One voxel: its spline is a product of three, whose moments are those of a sum of uniform numbers."""
+    """One voxel: its spline is a product of three, whose moments are those of a sum of uniform
+    numbers.
+    """
     obj = volume_object(tmp_path / "grid.vdb", vdb_grid(np.full((1, 1, 1), 7.0, np.float32)))
     obj.body_moments.spline_order = spline_order
     moments = measured("--order", 8)["moments"]["mass"]

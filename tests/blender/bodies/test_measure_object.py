@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From an object to its numbers: closed forms through every transform, kind, unit and overlap, and nothing touched."""
+"""From an object to its numbers: closed forms through every transform, kind, unit and overlap, and
+nothing touched.
+"""
 
 from fractions import Fraction
 
@@ -158,7 +160,9 @@ def test_overlapping_shells_are_summed_with_a_warning_or_united():
 
 
 def test_distant_brick_is_exact_within_input_bound():
-    """The truth of the stored coordinates in rationals; the 5 cm that were meant lie within the input bound."""
+    """The truth of the stored coordinates in rationals; the 5 cm that were meant lie within the
+    input bound.
+    """
     obj = add(box((1000.0, 1000.0, 0.0), (1000.05, 1000.05, 0.05)))
     found = measure(obj)
     points = np.array([vertex.co[:] for vertex in obj.data.vertices])
@@ -372,7 +376,8 @@ def test_inverted_or_open_body_is_repaired_before_union():
 def test_every_letter_is_closed(bevel):
     text = bpy.data.curves.new("Text", "FONT")
     text.extrude, text.bevel_depth = 0.1, bevel
-    text.body = "ABCDEFGHIJKLMNOPQRSTUVWXYZ\nabcdefghijlmnopqrstuvwxyz\n0123456789&@%é"  # k's bevels overlap
+    # k's bevels overlap
+    text.body = "ABCDEFGHIJKLMNOPQRSTUVWXYZ\nabcdefghijlmnopqrstuvwxyz\n0123456789&@%é"
     obj = bpy.data.objects.new("Text", text)
     bpy.context.scene.collection.objects.link(obj)
     bpy.context.view_layer.update()

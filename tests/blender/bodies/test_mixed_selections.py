@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One selection that mixes everything is each of its objects measured by itself: what is stored, totals, the order of
-what is reported."""
+"""One selection that mixes everything is each of its objects measured by itself: what is stored,
+totals, the order of what is reported.
+"""
 
 import contextlib
 import random
@@ -77,8 +78,9 @@ def linked(folder, rng):
 
 
 def mixed(seed, folder):
-    """Objects in random order, selected: meshes of all kinds, some linked to each other, a curve, an empty, a camera,
-    and some of a library."""
+    """Objects in random order, selected: meshes of all kinds, some linked to each other, a curve,
+    an empty, a camera, and some of a library.
+    """
     rng, draw = np.random.default_rng(seed), random.Random(seed)
     made = []
     for number in range(COUNT):

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What changes mass, size and inertia by less than 1e-4 is a note: the same decision about a small thing and a large
-one."""
+"""What changes mass, size and inertia by less than 1e-4 is a note: the same decision about a small
+thing and a large one.
+"""
 
 import numpy as np
 import pytest

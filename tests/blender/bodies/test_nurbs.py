@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surface objects: Blender's evaluation reproduced, and bodies measured from their control points."""
+"""Surface objects: Blender's evaluation reproduced, and bodies measured from their control
+points.
+"""
 
 from itertools import product
 
@@ -8,7 +10,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_body, measure_object
-from body_moments.blender.session.live import following, live
+from body_moments.blender.session import memory
+from body_moments.blender.session.live import measuring as live
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.measurement.record import record
 from body_moments.core.moments.exponents import monomials
@@ -64,7 +67,9 @@ FLAGS = list(product((False, True), repeat=3))
 
 @pytest.mark.parametrize("along_u", FLAGS)
 def test_display_mesh_is_reproduced_for_all_spline_flags(along_u):
-    """Every flag of u with every flag of v; the orders 2 to 6 in turn; invalid ones show nothing, as predicted."""
+    """Every flag of u with every flag of v; the orders 2 to 6 in turn; invalid ones show nothing,
+    as predicted.
+    """
     rng = np.random.default_rng(FLAGS.index(along_u))
     valid = 0
     for number, along_v in enumerate(FLAGS * 4):
@@ -167,7 +172,9 @@ def test_patch_wall_keeps_thickness_under_scale():
 @pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
 @pytest.mark.parametrize("scale", [(1, 1, 1), (2, -2, 2), (1, 2, 3), (-1, 0.5, 4)])
 def test_patch_moment_bounds_cover_float32_at_any_scale(order, kind, scale):
-    """A body grown by a thousandth changes by what control points that are moved as far would change at most."""
+    """A body grown by a thousandth changes by what control points that are moved as far would
+    change at most.
+    """
     obj = primitive("sphere")
     obj.body_moments.kind, obj.scale = kind, scale
     growth = 1.001
@@ -329,7 +336,7 @@ def test_live_numbers_follow_hooks_keys_transforms_and_frames():
     bpy.ops.object.body_moments_live()
     for frame in (1, 6, 11):
         bpy.context.scene.frame_set(frame)
-        assert following.followed[obj].is_pending
+        assert memory.followed[obj].is_pending
         found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
         assert found.volume == pytest.approx(BALL * STORED * hook.scale.z, rel=1e-8)
     obj.scale = (1.0, 2.0, -1.0)
@@ -340,7 +347,9 @@ def test_live_numbers_follow_hooks_keys_transforms_and_frames():
 
 
 def test_patches_and_polygons_in_one_object_are_the_sum_of_both():
-    """A ball of patches and a box of polygons, twice: turned, and flattened to nothing; solid, sheet and any order."""
+    """A ball of patches and a box of polygons, twice: turned, and flattened to nothing; solid,
+    sheet and any order.
+    """
     ball = primitive("sphere")
     bpy.ops.mesh.primitive_cube_add(size=2.0, location=(6, 0, 0))
     box = bpy.context.object

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A body of each kind that is larger, or in other units, has the numbers and the bounds of a larger body."""
+"""A body of each kind that is larger, or in other units, has the numbers and the bounds of a larger
+body.
+"""
 
 import bpy
 import numpy as np

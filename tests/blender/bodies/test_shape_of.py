@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The shape of an object by itself: which objects have one, its pose, and how far its moments go."""
+"""The shape of an object by itself: which objects have one, its pose, and how far its moments
+go.
+"""
 
 import bmesh
 import bpy
@@ -25,7 +27,9 @@ def shape(obj):
 
 
 def prisms(*corners, offset=0.0):
-    """Regular prisms one above the other, with these numbers of corners, the first of which is along x."""
+    """Regular prisms one above the other, with these numbers of corners, the first of which is
+    along x.
+    """
     points, faces = [], []
     for level, count in enumerate(corners):
         first, angles = len(points), 2.0 * np.pi * np.arange(count) / count
@@ -70,7 +74,9 @@ def test_grid_wire_and_wall_have_no_shape(tmp_path):
 
 @pytest.mark.parametrize("size", [2.0**-10, 1.0, 16.0])
 def test_a_shape_is_seen_as_far_away_as_rounding_leaves_it(size):
-    """Its largest radius of gyration is (13/12)^0.5; a hundred thousandth of that is rounding from 4.69e10 m on."""
+    """Its largest radius of gyration is (13/12)^0.5; a hundred thousandth of that is rounding from
+    4.69e10 m on.
+    """
     obj = add(box_mesh(1, 2, 3), scale=(size,) * 3)
     for place, is_seen in ((4.6e10, True), (4.8e10, False)):
         obj.location = (1.0, -place * size, 2.0)
@@ -94,7 +100,9 @@ def test_overflowing_shape_moments_are_refused():
 
 
 def test_prisms_round_to_sixth_order_have_corner_axes():
-    """A prism of seven corners on one of eight: nothing but the plane of both first corners makes a copy of them."""
+    """A prism of seven corners on one of eight: nothing but the plane of both first corners makes a
+    copy of them.
+    """
     obj, turn = add(prisms(7, 8)), 0.7
     rotation = np.array(
         [[np.cos(turn), -np.sin(turn), 0.0], [np.sin(turn), np.cos(turn), 0.0], [0.0, 0.0, 1.0]]
@@ -186,7 +194,9 @@ def test_axes_hidden_by_coarse_coordinates_have_no_bound():
 
 @pytest.mark.parametrize("corners", range(3, 10))
 def test_pose_with_one_corner_off_is_bounded_or_not_unique(corners):
-    """A corner 1e-4 off leaves no symmetry but perhaps a mirror; axes that only it fixes are badly known."""
+    """A corner 1e-4 off leaves no symmetry but perhaps a mirror; axes that only it fixes are badly
+    known.
+    """
     mesh, rng = prisms(corners), np.random.default_rng(corners)
     mesh.vertices[0].co = np.array(mesh.vertices[0].co) + (0.6e-4, 0.7e-4, 0.5e-4)
     points = np.array([[*vertex.co, 1.0] for vertex in mesh.vertices])

@@ -15,7 +15,8 @@ from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
 ORDER = 12
-# By itself a body is measured as its matrix of float32 numbers maps it, which turns and scales it to rounding.
+# By itself a body is measured as its matrix of float32 numbers maps it, which turns and scales it
+# to rounding.
 MATRIX_RTOL = 2e-6
 
 

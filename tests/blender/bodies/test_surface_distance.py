@@ -23,7 +23,9 @@ FACES = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 def test_surface_distance_is_that_of_nearest_face(size):
-    """Points below the lowest face, turned; what single precision would take for farther is found exactly."""
+    """Points below the lowest face, turned; what single precision would take for farther is found
+    exactly.
+    """
     center, turn = size * CENTER, rotation_matrix([0.8, 0.1, -0.3, 0.5])
     skin = skin_of(
         Surface(center + size * TETRAHEDRON @ turn.T, triangles=FACES), center=center, size=size

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The body of a Volume object within a threshold: numbers through every transform, fillings, refusals, the slider."""
+"""The body of a Volume object within a threshold: numbers through every transform, fillings,
+refusals, the slider.
+"""
 
 import math
 
@@ -20,7 +22,9 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 
 def ramp(tmp_path, shape=(12, 9, 7), matrix=None, dtype=np.float32, name="ramp"):
-    """A volume whose values are 1 + i along x: as a body, a box whose face moves with the threshold."""
+    """A volume whose values are 1 + i along x: as a body, a box whose face moves with the
+    threshold.
+    """
     values = (1.0 + np.arange(shape[0]))[:, None, None] * np.ones(shape)
     obj = volume_object(
         tmp_path / (name + ".vdb"), vdb_grid(values.astype(dtype), matrix=matrix, background=-1e6)
@@ -60,7 +64,9 @@ def test_thresholded_ball_is_exact_under_any_transform(tmp_path, matrix):
 
 
 def test_thresholded_ramp_is_box_of_material_or_ramp(tmp_path):
-    """Beyond the last layer the density falls to the background within one voxel, almost at once."""
+    """Beyond the last layer the density falls to the background within one voxel, almost at
+    once.
+    """
     obj = ramp(tmp_path)
     obj.body_moments.density = 2000.0
     solid = measure(obj)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What numbers are known to be of: each thing that they depend on makes another text, and nothing else does."""
+"""What numbers are known to be of: each thing that they depend on makes another text, and nothing
+else does.
+"""
 
 import numpy as np
 import pytest

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rigid-body constraints and bones as joints; where a constraint stops is asked of Blender's own simulation."""
+"""Rigid-body constraints and bones as joints; where a constraint stops is asked of Blender's own
+simulation.
+"""
 
 from math import inf
 
@@ -103,7 +105,9 @@ def test_kinds_of_constraints_have_their_axes(kind):
 
 
 def stop(kind, gravity, offset, flip, **limits):
-    """Where the second object, or the first if it is flipped, comes to rest relative to its start."""
+    """Where the second object, or the first if it is flipped, comes to rest relative to its
+    start.
+    """
     scene = bpy.context.scene
     scene.gravity = gravity
     bpy.ops.rigidbody.world_add()

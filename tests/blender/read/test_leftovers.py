@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whatever is read, in whatever way: no data is left behind, none is changed, and a second look gives the same."""
+"""Whatever is read, in whatever way: no data is left behind, none is changed, and a second look
+gives the same.
+"""
 
 import bpy
 import numpy as np

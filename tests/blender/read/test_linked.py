@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects that other files hold: nothing is written on them that would be lost, and each is named."""
+"""Objects that other files hold: nothing is written on them that would be lost, and each is
+named.
+"""
 
 import pytest
 
@@ -14,7 +16,9 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 @pytest.fixture
 def linked(tmp_path):
-    """Two linked objects of one name, and a local one of that name, active and selected with them."""
+    """Two linked objects of one name, and a local one of that name, active and selected with
+    them.
+    """
     for file in ("a.blend", "b.blend"):
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
         add(mesh_body(), "Körper")

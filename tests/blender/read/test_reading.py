@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Places of what was read, in meters, and the unions that Blender computes wherever shells stand."""
+"""Places of what was read, in meters, and the unions that Blender computes wherever shells
+stand.
+"""
 
 import bpy
 import numpy as np

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Robots written in every way that the formats have, from numbers that are known: what descriptions state of them."""
+"""Robots written in every way that the formats have, from numbers that are known: what descriptions
+state of them.
+"""
 
 import pytest
 
@@ -57,8 +59,10 @@ def test_mjcf(tmp_path, seed):
         "degree" if degrees else "radian", sequence, ["", 'meshdir="m"', 'assetdir="m"'][seed % 3]
     )
     folder = "" if seed % 3 == 0 else "m/"
-    head = """<mujoco model="bot">{}<default><mesh scale="2 3 4"/></default><asset><mesh name="own" file="own.stl"
-    scale="1 2 -3"/><mesh file="sub\\bare.stl"/><mesh name="far" file="/far.stl"/></asset><worldbody>"""
+    head = """<mujoco model="bot">{}<default><mesh scale="2 3 4"/></default><asset><mesh name="own"
+file="own.stl"
+    scale="1 2 -3"/><mesh file="sub\\bare.stl"/><mesh name="far" file="/far.stl"/></asset>
+<worldbody>"""
     bodies, inertials, truth, statement = (
         [],
         [],
@@ -133,7 +137,9 @@ def test_mjcf(tmp_path, seed):
 
 
 def test_mjcf_defaults_come_from_classes(tmp_path):
-    """Of a geom: its own class, else the nearest child class; classes in classes; what the geom has itself counts."""
+    """Of a geom: its own class, else the nearest child class; classes in classes; what the geom has
+    itself counts.
+    """
     description = read(
         tmp_path,
         """<mujoco><compiler angle="radian"/><compiler/>
@@ -142,7 +148,8 @@ def test_mjcf_defaults_come_from_classes(tmp_path):
             <default class="b"><geom type="sphere" pos="1 2 3"/></default></default>
           <default class="c"><geom conaffinity="1" euler="0 0 0.5"/></default></default>
         <worldbody><body><geom/><geom class="b"/>
-          <body name="x" childclass="a"><geom/><geom class="c" size="7 7 7"/><body childclass="b"><geom/></body>
+          <body name="x" childclass="a"><geom/><geom class="c" size="7 7 7"/><body childclass="b">
+<geom/></body>
             <body><geom type="sphere"/></body></body>
           <body name="y"><geom pos="4 5 6"/></body></body></worldbody></mujoco>""",
     )
@@ -168,22 +175,30 @@ def test_mjcf_defaults_come_from_classes(tmp_path):
 
 WRONG = {
     "robot.urdf": (
-        '<robot name="r"><link name="a"><inertial><origin xyz="1 2"/></inertial><visual><origin rpy="1"/><geometry>'
-        '<sphere radius="1"/></geometry></visual><collision><geometry><sphere radius="big"/></geometry></collision>'
+        '<robot name="r"><link name="a"><inertial><origin xyz="1 2"/></inertial><visual><origin '
+        'rpy="1"/><geometry>'
+        '<sphere radius="1"/></geometry></visual><collision><geometry><sphere '
+        'radius="big"/></geometry></collision>'
         '<collision><geometry><sphere radius="2"/></geometry></collision></link></robot>',
         ["1 2", "1", "big"],
     ),
     "robot.sdf": (
-        '<sdf><model name="m"><link name="a"><inertial><pose>1</pose></inertial><visual><geometry><box><size>1 2</size>'
-        "</box></geometry></visual><collision><pose>1 2</pose><geometry><sphere/></geometry></collision><collision>"
-        '<pose rotation_format="quat_xyzw">1 2 3 0 0 0 0</pose><geometry><sphere/></geometry></collision><collision>'
+        '<sdf><model name="m"><link '
+        'name="a"><inertial><pose>1</pose></inertial><visual><geometry><box><size>1 2</size>'
+        "</box></geometry></visual><collision><pose>1 "
+        "2</pose><geometry><sphere/></geometry></collision><collision>"
+        '<pose rotation_format="quat_xyzw">1 2 3 0 0 0 '
+        "0</pose><geometry><sphere/></geometry></collision><collision>"
         "<geometry><sphere><radius>2</radius></sphere></geometry></collision></link></model></sdf>",
         ["1", "1 2", "1 2", "1 2 3 0 0 0 0"],
     ),
     "robot.xml": (
-        '<mujoco><worldbody><body name="a"><inertial mass="1" pos="1 2"/><geom type="box" size="1 2"/><geom size="1"'
-        ' quat="0 0 0 0"/><geom type="capsule" fromto="0 0 0 0 0 1"/><geom size="1" axisangle="0 0 0 1"/><geom size="1"'
-        ' xyaxes="0 0 0 1 0 0"/><geom size="1" xyaxes="0 2 0 0 3 0"/><geom size="1" zaxis="0 0 0"/><geom size="2"/>'
+        '<mujoco><worldbody><body name="a"><inertial mass="1" pos="1 2"/><geom type="box" size="1 '
+        '2"/><geom size="1"'
+        ' quat="0 0 0 0"/><geom type="capsule" fromto="0 0 0 0 0 1"/><geom size="1" axisangle="0 0 '
+        '0 1"/><geom size="1"'
+        ' xyaxes="0 0 0 1 0 0"/><geom size="1" xyaxes="0 2 0 0 3 0"/><geom size="1" zaxis="0 0 '
+        '0"/><geom size="2"/>'
         "</body></worldbody></mujoco>",
         ["1 2", "1 2", "0 0 0 0", "", "0 0 0 1", "0 0 0 1 0 0", "0 2 0 0 3 0", "0 0 0"],
     ),
@@ -277,8 +292,10 @@ def test_urdf(tmp_path, seed):
             "",
         ),
     }
-    content = """<robot name="bot" note="a>b"><link name="first"><inertial note="'>">{}<mass value="{!r}"/><inertia {}/>
-    </inertial>{}<collision><geometry/></collision><visual/></link><link name="second"><inertial/></link>
+    content = """<robot name="bot" note="a>b"><link name="first"><inertial note="'>">
+{}<mass value="{!r}"/><inertia {}/>
+    </inertial>{}<collision><geometry/></collision><visual/></link><link name="second">
+<inertial/></link>
     <link name="third"/></robot>"""
     elements = ""
     for role in ("collision", "visual"):
@@ -386,10 +403,14 @@ def test_sdf(tmp_path, seed):
     assert near(
         np.array(angled or known), np.array([w, *xyz] if seed == 5 else angles * (seed > 1)), 1e-12
     )
-    world = """<sdf><world><model name="m"><link name="a"><inertial/>{0}</link><model name="n"><link name="b">{0}</link>
-    </model></model><model name="s"><static>true</static><link name="c">{0}</link></model><model name="t"><static> 1
-    </static><link name="d">{0}</link></model><model name="u"><static>0</static><link name="e"><inertial auto="true">
-    <mass>2</mass></inertial>{0}</link><link name="f"><inertial auto="1"/></link></model></world></sdf>"""
+    world = """<sdf><world><model name="m"><link name="a"><inertial/>{0}</link><model name="n">
+<link name="b">{0}</link>
+    </model></model><model name="s"><static>true</static><link name="c">{0}</link></model>
+<model name="t"><static> 1
+    </static><link name="d">{0}</link></model><model name="u"><static>0</static><link name="e">
+<inertial auto="true">
+    <mass>2</mass></inertial>{0}</link><link name="f"><inertial auto="1"/></link></model></world>
+</sdf>"""
     description = read(tmp_path, world.format(elements))
     assert description.name == "m" and description.format == "sdf"
     names = ["m::a", "n::b", "s::c", "t::d", "u::e", "u::f"]

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random triangles in every way that meshes of robots store them: they come back as they were placed."""
+"""Random triangles in every way that meshes of robots store them: they come back as they were
+placed.
+"""
 
 import json
 import struct
@@ -235,8 +237,10 @@ def test_glb(tmp_path, seed):
 
 
 UPRIGHT = {"Y_UP": [[1, 0, 0], [0, 0, -1], [0, 1, 0]], "X_UP": [[0, -1, 0], [0, 0, -1], [1, 0, 0]]}
-SOURCE = """<source id="{0}"><float_array>{1}</float_array><technique_common><accessor {2}/></technique_common></source>
-<vertices id="v{0}"><input semantic="NORMAL" source="#none"/><input semantic="POSITION" source="#{0}"/></vertices>"""
+SOURCE = """<source id="{0}"><float_array>{1}</float_array><technique_common>
+<accessor {2}/></technique_common></source>
+<vertices id="v{0}"><input semantic="NORMAL" source="#none"/><input semantic="POSITION"
+source="#{0}"/></vertices>"""
 
 
 @SEEDS
@@ -253,10 +257,14 @@ def test_collada(tmp_path, seed):
         whole[:, offset] = np.ravel(rows)
         return text(whole)
 
-    inputs = '<input semantic="{}" source="#n" offset="{}"/><input semantic="VERTEX" source="#v{}" offset="{}"/>'
+    inputs = (
+        '<input semantic="{}" source="#n" offset="{}"/><input semantic="VERTEX" source="#v{}" '
+        'offset="{}"/>'
+    )
     flat = [index for face in polygons for index in face]
     primitives = {
-        "a": '<lines><p>0 1</p></lines><triangles><input semantic="VERTEX" source="#va"/></triangles>'
+        "a": '<lines><p>0 1</p></lines><triangles><input semantic="VERTEX" '
+        'source="#va"/></triangles>'
         "<polylist>{}<vcount>3 4 6</vcount><p>{}</p></polylist>".format(
             inputs.format("NORMAL", 0, "a", 1), indices(flat, 1, 2)
         ),
@@ -280,11 +288,15 @@ def test_collada(tmp_path, seed):
         text(move), text(axis * 3), float(np.degrees(angle)), text(scales)
     )
     meter = [1.0, 0.01, 2.0][seed % 3]
-    content = """<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema"><asset>{}<up_axis> {} </up_axis></asset>
+    content = """<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema"><asset>{}<up_axis>
+{} </up_axis></asset>
     <library_geometries>{}</library_geometries><library_nodes><node id="n"><matrix>{}</matrix>
-    <instance_geometry url="#gb"/></node></library_nodes><library_visual_scenes><visual_scene id="s">
-    <node>{}<instance_geometry url="#ga"/><instance_geometry url="#ea"/><node><instance_node url="#n"/></node></node>
-    <node><instance_geometry url="#ga"/></node></visual_scene></library_visual_scenes>{}</COLLADA>"""
+    <instance_geometry url="#gb"/></node></library_nodes><library_visual_scenes>
+<visual_scene id="s">
+    <node>{}<instance_geometry url="#ga"/><instance_geometry url="#ea"/><node>
+<instance_node url="#n"/></node></node>
+    <node><instance_geometry url="#ga"/></node></visual_scene></library_visual_scenes>{}</COLLADA>
+"""
     unit = '<unit meter="{!r}"/>'.format(meter) if seed % 3 else ""
     scene = '<scene><instance_visual_scene url="#s"/></scene>'
     up = ["Z_UP", "Y_UP", "X_UP"][seed % 3]
@@ -322,14 +334,18 @@ def test_collada_sources_without_numbers_have_no_points(tmp_path):
     geometry = (
         '<COLLADA><library_geometries><geometry><mesh><source id="a"/><vertices id="v"><input '
     )
-    geometry += 'semantic="POSITION" source="#a"/></vertices><triangles><input semantic="VERTEX" source="#v"/>'
+    geometry += 'semantic="POSITION" source="#a"/></vertices><triangles>'
+    geometry += '<input semantic="VERTEX" source="#v"/>'
     geometry += "<p>{}</p></triangles></mesh></geometry></library_geometries></COLLADA>"
     assert refusal(tmp_path / "a.dae", geometry.format("0 1 2").encode()) == "mesh_unreadable"
     assert refusal(tmp_path / "a.dae", geometry.format("").encode()) == "mesh_unreadable"
 
 
 def test_collada_nodes_in_a_circle_are_refused(tmp_path):
-    geometry = '<library_geometries><geometry id="g"><mesh>{}<triangles><input semantic="VERTEX" source="#va"/><p>0 1 2'
+    geometry = (
+        '<library_geometries><geometry id="g"><mesh>{}<triangles><input semantic="VERTEX" '
+        'source="#va"/><p>0 1 2'
+    )
     geometry += "</p></triangles></mesh></geometry></library_geometries>"
     deep = (
         "<library_visual_scenes><visual_scene id='s'>{}{}{}</visual_scene></library_visual_scenes>"

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Robots as USD from numbers that are known, in all units and by all operations; and how much descriptions may hold."""
+"""Robots as USD from numbers that are known, in all units and by all operations; and how much
+descriptions may hold.
+"""
 
 import json
 
@@ -67,7 +69,9 @@ def rng_first(name):
 
 @SEEDS
 def test_usd(tmp_path, seed):
-    """Links in axes of their own, in meters and kilograms; shapes with all that stands above them."""
+    """Links in axes of their own, in meters and kilograms; shapes with all that stands above
+    them.
+    """
     rng = np.random.default_rng(seed)
     meters, kilograms = [(0.01, 1.0), (1.0, 0.001), (0.001, 2.0)][seed % 3]
     above, first = usd_operations(rng, 4)
@@ -90,9 +94,8 @@ def test_usd(tmp_path, seed):
         name: "({})".format(", ".join(map(repr, value.tolist()))) for name, value in values.items()
     }
     points = ", ".join("({})".format(", ".join(map(repr, point))) for point in corners.tolist())
-    mesh = "point3f[] points = [{}]\nint[] faceVertexCounts = {}\nint[] faceVertexIndices = {}\n".format(
-        points, sizes, indices.tolist()
-    )
+    mesh = "point3f[] points = [{}]\nint[] faceVertexCounts = {}\n".format(points, sizes)
+    mesh += "int[] faceVertexIndices = {}\n".format(indices.tolist())
     prims = []
     for kind, statements in (
         ("Cube", "double size = {!r}".format(radius)),
@@ -128,7 +131,9 @@ def test_usd(tmp_path, seed):
 def Xform "world" ( doc = "a }} b" )
 {{
     {above}
-    variantSet "looks" = {{ "a" {{ def Xform "no" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{}} }} }}
+    variantSet "looks" = {{
+        "a" {{ def Xform "no" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{}} }}
+    }}
     rel material:binding = </m> ( a = 1 )
     custom asset file = @a.png@
     float alone
@@ -290,7 +295,9 @@ BODY = 'def Xform "{}" (apiSchemas = ["PhysicsRigidBodyAPI"]) {{\n{}\n}}\n'
 
 
 def test_minimal_usd_has_defaults_of_the_schemas(tmp_path):
-    """Centimeters, kilograms, a center at the origin and axes along the body's; and no mass without both numbers."""
+    """Centimeters, kilograms, a center at the origin and axes along the body's; and no mass without
+    both numbers.
+    """
     mass, diagonal = "float physics:mass = 3\n", "float3 physics:diagonalInertia = (2, 3, 4)\n"
     zeros = "quatf physics:principalAxes = (0, 0, 0, 0)\n"
     for inside in (mass + diagonal, mass + diagonal + zeros):
@@ -323,7 +330,10 @@ def test_minimal_usd_has_defaults_of_the_schemas(tmp_path):
 
 
 def test_usd_statements_without_value_end_at_the_next(tmp_path):
-    inside = "float a\nfloat3 b (\ndoc = 1\n)\nfloat physics:mass = 3\nfloat3 physics:diagonalInertia = (2, 3, 4); "
+    inside = (
+        "float a\nfloat3 b (\ndoc = 1\n)\nfloat physics:mass = 3\nfloat3 physics:diagonalInertia = "
+        "(2, 3, 4); "
+    )
     (link,) = bodies(tmp_path, BODY.format("b", inside + 'int c; int[] d\ndef Cube "e" {}\nint f'))
     assert link.inertial.mass == 3.0 and [one.shape.kind for one in link.shapes] == ["box"]
 
@@ -366,7 +376,10 @@ def test_usd_shapes_are_as_large_as_each_axis_says(tmp_path):
 @pytest.mark.parametrize("is_mirrored", [False, True])
 @pytest.mark.parametrize("is_left_handed", [False, True])
 def test_usd_meshes_and_bodies_that_are_mirrored(tmp_path, is_mirrored, is_left_handed):
-    """A mirror image of a left-handed mesh is a right-handed one. A body's own axes are never mirrored."""
+    """A mirror image of a left-handed mesh is a right-handed one.
+
+    A body's own axes are never mirrored.
+    """
     scale = 'float3 xformOp:scale = ({}, 2, 2)\nuniform token[] xformOpOrder = ["xformOp:scale"]\n'
     scale = scale.format(-2 if is_mirrored else 2)
     mesh = "point3f[] points = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]\nint[] faceVertexCounts = [3]\n"

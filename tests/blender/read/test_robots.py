@@ -59,7 +59,8 @@ def dae():
       <source id="p"><float_array id="pa" count="12">{points}</float_array>
         <technique_common><accessor source="#pa" count="4" stride="3"/></technique_common></source>
       <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-      <triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/><p>{corners}</p></triangles></mesh>
+      <triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/><p>{corners}</p>
+</triangles></mesh>
     </geometry></library_geometries></COLLADA>""".format(**locals())
 
 
@@ -219,9 +220,14 @@ def test_links_out_of_the_folder_are_not_followed(tmp_path):
 
 
 def test_included_models_of_sdf_are_read_from_their_folders(tmp_path):
-    """Meshes are found beside the included file; a model that includes itself, or is none, is refused at its line."""
+    """Meshes are found beside the included file; a model that includes itself, or is none, is
+    refused at its line.
+    """
     link = '<link name="{}"><inertial><mass>{}</mass></inertial></link>'
-    world = '<sdf version="1.9"><model name="m">{}<include><uri>model://arm</uri></include></model></sdf>'
+    world = (
+        '<sdf version="1.9"><model '
+        'name="m">{}<include><uri>model://arm</uri></include></model></sdf>'
+    )
     file = write(tmp_path / "worlds" / "w.sdf", world.format("\n" + link.format("own", 1)))
     write(tmp_path / "arm" / "model.config", '<model><sdf version="1.9">arm.sdf</sdf></model>')
     model = '<sdf version="1.9"><model name="arm">\n {}</model></sdf>'

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Patches beside the mesh that Blender displays: what agrees with it, what is recovered from it, what is neither."""
+"""Patches beside the mesh that Blender displays: what agrees with it, what is recovered from it,
+what is neither.
+"""
 
 import bpy
 import numpy as np

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""IGES and .obj surfaces as surface objects: what Blender shows are points of the surfaces of the file, and what is
-measured are their volumes."""
+"""IGES and .obj surfaces as surface objects: what Blender shows are points of the surfaces of the
+file, and what is measured are their volumes.
+"""
 
 import bpy
 import numpy as np
@@ -48,7 +49,9 @@ def true_parameters(space, found):
 @pytest.mark.parametrize("weighted", [False, True])
 @pytest.mark.parametrize("order_s", range(2, 7))
 def test_the_display_mesh_lies_on_the_surface_of_the_file(tmp_path, order_s, weighted):
-    """At the parameters of the display mesh's vertices, for orders 2 to 6 and uneven knots that are not clamped."""
+    """At the parameters of the display mesh's vertices, for orders 2 to 6 and uneven knots that are
+    not clamped.
+    """
     rng = np.random.default_rng(order_s)
     for order_t in range(2, 7):
         spaces = []

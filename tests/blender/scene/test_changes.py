@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many objects are changed with few evaluations of the scene, and none is judged by what happens to another."""
+"""Many objects are changed with few evaluations of the scene, and none is judged by what happens to
+another.
+"""
 
 import bpy
 import numpy as np
@@ -90,7 +92,9 @@ def test_dependent_objects_are_reframed_and_stay_in_place(name):
 
 
 def shown_by_nodes(collection):
-    """A node group that joins what a collection shows, moved from its own place, to the geometry."""
+    """A node group that joins what a collection shows, moved from its own place, to the
+    geometry.
+    """
     tree = bpy.data.node_groups.new("Show", "GeometryNodeTree")
     for side in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
@@ -146,7 +150,9 @@ def keyed_by(obj):
 
 
 def scattering(obj):
-    """A mesh that shows the members of another object's collection at its own place, wherever they are."""
+    """A mesh that shows the members of another object's collection at its own place, wherever they
+    are.
+    """
     shower = add(mesh_body(), "Shower", (0, 9, 0))
     tree = shown_by_nodes(collect([obj]))
     info = next(node for node in tree.nodes if node.bl_idname == "GeometryNodeCollectionInfo")

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surface objects that are made of patches: points, weights, flags, and by how much float32 moves them."""
+"""Surface objects that are made of patches: points, weights, flags, and by how much float32 moves
+them.
+"""
 
 import bpy
 import numpy as np

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Other origins and axes of single objects: data of each kind in float64, refusals, what is put back."""
+"""Other origins and axes of single objects: data of each kind in float64, refusals, what is put
+back.
+"""
 
 import bpy
 import numpy as np

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Weights of posed characters: centers against sums over bones, contacts, held objects and stated masses."""
+"""Weights of posed characters: centers against sums over bones, contacts, held objects and stated
+masses.
+"""
 
 import time
 
@@ -36,7 +38,9 @@ def turn(rig, seed=1, size=0.4):
 
 
 def boxes():
-    """An armature of three bones in a chain, and a mesh of three boxes, each on one of them alone."""
+    """An armature of three bones in a chain, and a mesh of three boxes, each on one of them
+    alone.
+    """
     rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
     bpy.context.scene.collection.objects.link(rig)
     bpy.context.view_layer.objects.active = rig
@@ -91,7 +95,9 @@ def test_center_equals_sum_over_bones(scene, place, scale):
 
 
 def test_center_and_inertia_equal_those_of_rigid_skin(scene):
-    """Each box moves with one bone alone, so that the posed skin has the exact moments of the parts."""
+    """Each box moves with one bone alone, so that the posed skin has the exact moments of the
+    parts.
+    """
     rig, body = boxes()
     shown(rig)
     for number, bone in enumerate(rig.pose.bones):
@@ -221,7 +227,9 @@ def test_mesh_without_weights_is_refused_and_nothing_stored(scene):
 
 
 def tower(bones=60, rings=1000, around=100):
-    """An armature of bones in a chain, and a tube of rings × around vertices, each on the two nearest bones."""
+    """An armature of bones in a chain, and a tube of rings × around vertices, each on the two
+    nearest bones.
+    """
     rig = bpy.data.objects.new("Tower", bpy.data.armatures.new("Tower"))
     bpy.context.scene.collection.objects.link(rig)
     bpy.context.view_layer.objects.active = rig

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stored results follow a density that is one number, as measuring again would make them; what changes more than a
-factor leaves them, out of date."""
+"""Stored results follow a density that is one number, as measuring again would make them; what
+changes more than a factor leaves them, out of date.
+"""
 
 import numpy as np
 import pytest

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of moments, over the area of flat shapes: of faces, curves and text, in their own plane."""
+"""The sub-panel of moments, over the area of flat shapes: of faces, curves and text, in their own
+plane.
+"""
 
 import csv
 from fractions import Fraction

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An error that nobody foresaw ends the work on one object of many, is reported as what it is, and leaves nothing half
-done."""
+"""An error that nobody foresaw ends the work on one object of many, is reported as what it is, and
+leaves nothing half done.
+"""
 
 import os
 from dataclasses import replace
@@ -135,7 +136,9 @@ def test_internal_error_is_kept_for_the_panel(monkeypatch):
 
 
 def unwritable(monkeypatch, *names):
-    """Measurements of these objects of which Blender takes a part only: what comes before the fingerprint."""
+    """Measurements of these objects of which Blender takes a part only: what comes before the
+    fingerprint.
+    """
     real = measure.measure_body
 
     def damaged(obj, *args):

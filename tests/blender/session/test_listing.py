@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of measured objects: what it shows in which order, what a click does, and the files of their numbers."""
+"""The list of measured objects: what it shows in which order, what a click does, and the files of
+their numbers.
+"""
 
 import csv
 import io

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live numbers are those of what is shown: after a move without measuring, while it deforms, and in full afterwards."""
+"""Live numbers are those of what is shown: after a move without measuring, while it deforms, and in
+full afterwards.
+"""
 
 import itertools
 from math import dist, isclose
@@ -10,9 +12,11 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
+from body_moments.blender.session import memory
 from body_moments.blender.session.displayed import Verdict, displayed, drawn, total
-from body_moments.blender.session.live import following, live
-from body_moments.blender.session.tracking import armatures, updates
+from body_moments.blender.session.live import following, mapping
+from body_moments.blender.session.live import measuring as live
+from body_moments.blender.session.tracking import armatures
 from body_moments.core.inertia.plain_body import add_bodies
 from mathutils import Euler, Matrix
 
@@ -95,7 +99,7 @@ def test_an_object_that_moves_is_not_measured(unit, given_mass, monkeypatch):
             assert_current(obj)
             assert (
                 drawn(obj, bpy.context.scene).verdict == Verdict.EXACT
-                and following.lag(obj) == following.Lag.NONE
+                and mapping.lag(obj) == following.Lag.NONE
             )
             assert tick(patch) is None
         obj.scale = (0.5, -3.0, 2.0)
@@ -129,12 +133,12 @@ def test_deforming_object_has_live_volume_and_center(unit, monkeypatch):
         forbid_measuring(patch)
         for frame in (3, 7, 11):
             bpy.context.scene.frame_set(frame)
-            assert following.lag(obj) == following.Lag.FIRST_ORDER
+            assert mapping.lag(obj) == following.Lag.FIRST_ORDER
             assert_current(obj, inertia=False)
             obj.location.x += 1.0
             update()
             assert_current(obj, inertia=False)
-    assert tick(monkeypatch) is None and following.lag(obj) == following.Lag.NONE
+    assert tick(monkeypatch) is None and mapping.lag(obj) == following.Lag.NONE
     assert_current(obj)
     assert list(obj.keys()) == before
 
@@ -142,9 +146,9 @@ def test_deforming_object_has_live_volume_and_center(unit, monkeypatch):
 def test_update_beyond_budget_is_late_and_marked(monkeypatch):
     objects = [with_key("A"), with_key("B")]
     start(*objects)
-    following.followed.get(objects[0]).pass_seconds = 10.0
+    memory.followed.get(objects[0]).pass_seconds = 10.0
     bpy.context.scene.frame_set(5)
-    assert [following.lag(obj) for obj in objects] == [
+    assert [mapping.lag(obj) for obj in objects] == [
         following.Lag.BEHIND,
         following.Lag.FIRST_ORDER,
     ]
@@ -153,13 +157,13 @@ def test_update_beyond_budget_is_late_and_marked(monkeypatch):
         Verdict.EXACT,
     ]
     for obj in objects:
-        following.followed.get(obj).result = following.LiveResult(
+        memory.followed.get(obj).result = following.LiveResult(
             following.current_numbers(obj).measurement,
             None,
             5.0,
             following.current_numbers(obj).settings,
         )
-    assert tick(monkeypatch, idle=False) == live.POLL and following.followed[objects[0]].is_pending
+    assert tick(monkeypatch, idle=False) == live.POLL and memory.followed[objects[0]].is_pending
     assert tick(monkeypatch) is None
     for obj in objects:
         assert_current(obj)
@@ -195,7 +199,7 @@ def test_an_edit_measures_that_object_alone(change, monkeypatch):
     kept = following.current_numbers(other)
     change(obj)
     update()
-    assert following.followed[obj].is_pending and not following.followed[other].is_pending
+    assert memory.followed[obj].is_pending and not memory.followed[other].is_pending
     assert tick(monkeypatch) is None
     assert_current(obj)
     assert following.current_numbers(other) is kept
@@ -221,7 +225,7 @@ def test_live_patches_are_tracked_as_uniform_solids_only(settings, monkeypatch):
         setattr(obj.body_moments, name, value)
     start(obj)
     assert_current(obj)
-    assert (following.followed[obj].tracked is not None) == (not settings)
+    assert (memory.followed[obj].tracked is not None) == (not settings)
     obj.data.splines[0].points[9].co.x -= 0.25
     obj.data.update_tag()
     update()
@@ -276,7 +280,9 @@ def armature_with(*meshes):
 
 
 def assert_bounds_hold(shown, parts):
-    """Each body moved, grown and turned by as much as its bounds allow stays within those of the sum; hardly less."""
+    """Each body moved, grown and turned by as much as its bounds allow stays within those of the
+    sum; hardly less.
+    """
     allowed = shown.error_bound["input"]
     bounds = [part.error_bound["input"] for part in parts]
     assert allowed["volume"] == sum(bound["volume"] for bound in bounds)
@@ -347,7 +353,7 @@ def test_undo_is_followed(monkeypatch):
     assert following.is_live(obj)
     tick(monkeypatch)
     assert_current(obj)
-    assert following.followed.get(obj).number == updates.count()
+    assert memory.followed.get(obj).number == memory.state.updates
 
 
 @pytest.mark.parametrize("kind", ["SOLID", "SHELL"])

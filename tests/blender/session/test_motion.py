@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects through the frames of an animation: which are sampled by their shape keys, and which are measured."""
+"""Objects through the frames of an animation: which are sampled by their shape keys, and which are
+measured.
+"""
 
 import bpy
 import numpy as np
@@ -14,7 +16,9 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 
 def keyed(mesh=None):
-    """A prism over a quad whose base turns concave, so that it is cut otherwise, from a third of the second key on."""
+    """A prism over a quad whose base turns concave, so that it is cut otherwise, from a third of
+    the second key on.
+    """
     mesh = mesh or mesh_body(points=[(0, 0, 0), (4, 0, 0), (4, 1, 0), (0, 4, 0)])
     obj = add(mesh, location=(3, -1, 2), rotation=(0.3, 0.2, 1.0), scale=(1.0, 2.0, 0.5))
     for number, name in enumerate(("Basis", "First", "Second")):

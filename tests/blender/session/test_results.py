@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several bodies as one, and the bounds of its errors where the parts are few enough to tell them by hand."""
+"""Several bodies as one, and the bounds of its errors where the parts are few enough to tell them
+by hand.
+"""
 
 from types import SimpleNamespace
 

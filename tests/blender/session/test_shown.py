@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn of a measured object stands where the object stands, in Blender's units, and says how far it holds."""
+"""What is drawn of a measured object stands where the object stands, in Blender's units, and says
+how far it holds.
+"""
 
 import pytest
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers that no longer hold are reported as out of date, whatever made them so, and others are not."""
+"""Numbers that no longer hold are reported as out of date, whatever made them so, and others are
+not.
+"""
 
 import pytest
 

@@ -1,14 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Values that have keys, and were changed without a new one, stay as they are: Blender puts them back wherever it
-evaluates animation, and nothing here may make it do so."""
+"""Values that have keys, and were changed without a new one, stay as they are: Blender puts them
+back wherever it evaluates animation, and nothing here may make it do so.
+"""
 
 import pytest
 
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.blender.session.live import following, live
+from body_moments.blender.session import memory
+from body_moments.blender.session.live import following
+from body_moments.blender.session.live import measuring as live
 from body_moments.blender.session.tracking import staleness
 
 from tests.blender.grids import linked, mesh_to_volume
@@ -65,7 +68,9 @@ def change(obj, channel, number):
 
 
 def keyed(channel):
-    """A measured object with one keyed channel that was changed since, and a copy of it beside it."""
+    """A measured object with one keyed channel that was changed since, and a copy of it beside
+    it.
+    """
     obj = add(mesh_body())
     obj["own"] = 0.25
     obj.vertex_groups.new(name="Group").add([0, 1, 2], 1.0, "REPLACE")
@@ -179,7 +184,7 @@ def test_live_keeps_unkeyed_values_and_stops(monkeypatch):
     bpy.ops.object.body_moments_measure()
     live._tick()
     bpy.context.view_layer.update()
-    assert obj.scale.x == 2.0 and not following.followed[obj].is_pending
+    assert obj.scale.x == 2.0 and not memory.followed[obj].is_pending
     assert following.current_numbers(obj).measurement.volume == pytest.approx(
         obj["body_volume"], rel=1e-9
     )

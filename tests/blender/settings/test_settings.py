@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings: values of grids, positions of samples, given parts, acceptance, copies and linked scenes."""
+"""Settings: values of grids, positions of samples, given parts, acceptance, copies and linked
+scenes.
+"""
 
 import pytest
 from body_moments.blender.settings import properties

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files that writers make: meshes of robots, glTF, JSON, thumbnails, pages, and stored sections that are damaged."""
+"""Files that writers make: meshes of robots, glTF, JSON, thumbnails, pages, and stored sections
+that are damaged.
+"""
 
 import json
 from math import inf, nan

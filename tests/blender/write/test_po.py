@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Translations in gettext's format: the reader, and the files in `locale/`, held against msgfmt and the source."""
+"""Translations in gettext's format: the reader, and the files in `locale/`, held against msgfmt and
+the source.
+"""
 
 import ast
 import gettext

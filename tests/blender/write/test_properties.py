@@ -43,7 +43,8 @@ def test_the_tensor_is_stored_in_one_and_in_two_rows():
         ),
         '[{"code": "no_faces", "values": {"sources": 3}}]',
         '[{"code": "no_faces", "values": {}, "elements": 3}]',
-        '[{"code": "hidden_object_measured", "values": {"cause": {"code": "hidden_object_measured", "values": {}}}}]',
+        '[{"code": "hidden_object_measured", "values": '
+        '{"cause": {"code": "hidden_object_measured", "values": {}}}}]',
     ],
     ids=lambda text: text[:40],
 )

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the formats of robots cannot say or would round wrongly, and files that are none: findings, names, limits."""
+"""What the formats of robots cannot say or would round wrongly, and files that are none: findings,
+names, limits.
+"""
 
 import json
 import struct

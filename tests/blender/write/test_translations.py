@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Translation: texts are looked up before they are filled, and results are stored in English.
 
-The bpy module has no languages of its own, so that a stand-in looks up here; tests/window has the real one.
+The bpy module has no languages of its own, so that a stand-in looks up here; tests/window has the
+real one.
 """
 
 import json
@@ -18,7 +19,9 @@ from tests.panels.drawing import labels, shown
 
 
 class Languages:
-    """The translations of a Blender that has languages: what add-ons registered, by locale, context and text."""
+    """The translations of a Blender that has languages: what add-ons registered, by locale, context
+    and text.
+    """
 
     contexts = bpy.app.translations.contexts
 

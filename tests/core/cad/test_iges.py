@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""IGES files of bodies with closed forms: units, transformations, subfigures and trims; refusals by name; damaged
-files."""
+"""IGES files of bodies with closed forms: units, transformations, subfigures and trims; refusals by
+name; damaged files.
+"""
 
 import random
 
@@ -9,11 +10,11 @@ import numpy as np
 import pytest
 from body_moments.core.cad.iges_entities import UNIT_NAMES, UNITS
 from body_moments.core.cad.surface_file import read_surfaces
+from body_moments.core.files.limits import Limits
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.patch_moments import area_moments
 from body_moments.core.nurbs.solid import measure_patches
 from body_moments.core.nurbs.splines import Patch
-from body_moments.core.scans.scan_files import Limits
 from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import flux_moment, sphere, torus
@@ -43,8 +44,9 @@ def refusal(path, **limits):
 
 
 def bicubic_body():
-    """A closed polynomial body: a bicubic sheet over a square, its mirror image, and flat walls are not needed, for
-    both have the same boundary."""
+    """A closed polynomial body: a bicubic sheet over a square, its mirror image, and flat walls are
+    not needed, for both have the same boundary.
+    """
     s, t = clamped_space(4, (0.25, 0.5)), clamped_space(3, (0.75,))
     rng = np.random.default_rng(8)
     points = np.zeros((s.count, t.count, 3))
@@ -415,8 +417,9 @@ def is_kept(file, curve, tmp_path):
 
 
 def test_member_in_nested_groups_is_placed_from_inside_outward(tmp_path):
-    """The surface's own transformation, the subfigure's, the place and scale of its instance, and the instance's own
-    transformation."""
+    """The surface's own transformation, the subfigure's, the place and scale of its instance, and
+    the instance's own transformation.
+    """
     patch = Patch(
         (clamped_space(2), clamped_space(2)), np.random.default_rng(4).uniform(-1.0, 1.0, (2, 2, 3))
     )
@@ -459,7 +462,9 @@ def test_a_boundary_s_curve_with_a_transformation_trims(tmp_path):
 
 @pytest.mark.parametrize("first, count", [(0, 1), (-2, 3), (3, 0), (3, -1), (1, 1), (3, 99)])
 def test_parameters_outside_their_directory_lines_are_damage(tmp_path, first, count):
-    """The first lines belong to an entity of another type; from the last, and from none, nothing is counted."""
+    """The first lines belong to an entity of another type; from the last, and from none, nothing is
+    counted.
+    """
     file = IgesFile()
     file.add(110, [0.0] * 6)
     file.surface(unrolled(sphere()), label="FAR")
@@ -546,14 +551,15 @@ def test_a_negative_number_of_members_is_damage(tmp_path):
 
 def test_all_surfaces_of_the_specification_are_refused_by_name(tmp_path):
     """The numbers and names of IGES 5.3, section 4."""
-    names = "108 Plane|114 Parametric Spline Surface|118 Ruled Surface|120 Surface of Revolution|122 Tabulated Cylinder"
-    names += "|140 Offset Surface|143 Bounded Surface|150 Block|152 Wedge|154 Cylinder|156 Cone Frustum|158 Sphere"
-    names += "|160 Torus|162 Solid of Revolution|164 Solid of Linear Extrusion|168 Ellipsoid|180 Boolean Tree"
-    names += (
-        "|184 Solid Assembly|186 Manifold Solid B-Rep|190 Plane Surface|192 Cylindrical Surface"
+    names = (
+        "108 Plane|114 Parametric Spline Surface|118 Ruled Surface|120 Surface of Revolution|"
+        "122 Tabulated Cylinder|140 Offset Surface|143 Bounded Surface|150 Block|152 Wedge|"
+        "154 Cylinder|156 Cone Frustum|158 Sphere|160 Torus|162 Solid of Revolution|"
+        "164 Solid of Linear Extrusion|168 Ellipsoid|180 Boolean Tree|184 Solid Assembly|"
+        "186 Manifold Solid B-Rep|190 Plane Surface|192 Cylindrical Surface|194 Conical Surface|"
+        "196 Spherical Surface|198 Toroidal Surface|412 Rectangular Array|414 Circular Array|"
+        "416 External Reference|430 Solid Instance|510 Face|514 Shell"
     )
-    names += "|194 Conical Surface|196 Spherical Surface|198 Toroidal Surface|412 Rectangular Array|414 Circular Array"
-    names += "|416 External Reference|430 Solid Instance|510 Face|514 Shell"
     file = IgesFile()
     file.surface(unrolled(sphere()))
     kinds = []
@@ -566,7 +572,9 @@ def test_all_surfaces_of_the_specification_are_refused_by_name(tmp_path):
 
 
 def test_dangling_pointer_is_damage(tmp_path):
-    """A subfigure, its member, a trimmed surface and a transformation that are not there, or something else."""
+    """A subfigure, its member, a trimmed surface and a transformation that are not there, or
+    something else.
+    """
     file = IgesFile()
     ball = file.surface(unrolled(sphere()))
     far = file.add(308, [0, "1HA", 1, 99], status="00000200")

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from body_moments.core.cad.surface_file import read_meshes
+from body_moments.core.files.text_fields import parse_decimals
 from body_moments.core.streams.file_mesh import merge_equal
-from body_moments.core.streams.text_fields import parse_decimals
 
 from tests.core.bodies import rotation, torus
 from tests.core.findings import refused
@@ -129,7 +129,10 @@ def test_equal_points_become_the_first_of_them():
 
 
 def test_ply_strips_edges_and_numbers_are_read(tmp_path):
-    head = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+    head = (
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty "
+        "float z\n"
+    )
     head += "property int label\nelement tristrips 1\nproperty list int int vertex_indices\n"
     head += "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n"
     rows = "".join("{} {} 0 {}\n".format(n, n * n, 7 * n) for n in range(5))

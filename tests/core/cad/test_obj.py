@@ -90,7 +90,9 @@ def test_a_part_of_the_domain(tmp_path):
 
 @pytest.mark.parametrize("is_rational", [True, False])
 def test_a_vertex_may_lack_its_weight_or_have_a_color(tmp_path, is_rational):
-    """Coordinates, with one weight; with six numbers and more three are a color, and there is no weight."""
+    """Coordinates, with one weight; with six numbers and more three are a color, and there is no
+    weight.
+    """
     points = np.random.default_rng(6).uniform(-1.0, 1.0, (2, 2, 3))
     more = ["", " 0.5", " 0.5 9", " 0.25 0.5 0.75"]
     weights = np.array([[1.0, 0.5], [0.5, 1.0]])
@@ -167,7 +169,10 @@ def test_surfaces_are_counted_and_refused_one_by_one(tmp_path):
     "u_knots, v_knots", [(2, 4), (3, 4), (2, 2), (1, 3), (0, 1), (6, 1), (4, 2)]
 )
 def test_knots_not_fitting_the_control_points_are_damage(tmp_path, kind, count, u_knots, v_knots):
-    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ncstype {}\ndeg 1 1\nsurf 0 1 0 1 {}\nparm u {}\nparm v {}\nend\n"
+    text = (
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ncstype {}\ndeg 1 1\nsurf 0 1 0 1 {}\nparm u {}\nparm "
+        "v {}\nend\n"
+    )
     words = (
         " ".join("1234123"[:count]),
         " ".join("0011223"[:u_knots]),
@@ -200,9 +205,8 @@ def test_damaged_files_are_refused_or_read_and_nothing_else(tmp_path):
 
 @pytest.mark.parametrize("kind", ["bezier", "bspline"])
 def test_a_degree_beyond_all_memory_is_refused(tmp_path, kind):
-    text = "v 0 0 0\ncstype {}\ndeg 1000000000000 1\nsurf 0 1 0 1 1\nparm u 0 1\nparm v 0 1\nend\n".format(
-        kind
-    )
+    text = "v 0 0 0\ncstype {}\ndeg 1000000000000 1\nsurf 0 1 0 1 1\n".format(kind)
+    text += "parm u 0 1\nparm v 0 1\nend\n"
     assert cause(tmp_path, text) == "surface_order"
 
 
@@ -216,9 +220,8 @@ def test_a_statement_of_many_lines_is_read_in_time(tmp_path):
 
 @pytest.mark.parametrize("place", [2.9e38, -2.9e38, 3.1e38, -3.1e38])
 def test_coordinates_up_to_the_float32_limit_are_kept(tmp_path, place):
-    text = "v 0 0 0\nv {!r} 0 0\nv 0 1 0\nv 1 1 0\ncstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\n".format(
-        place
-    )
+    text = "v 0 0 0\nv {!r} 0 0\nv 0 1 0\nv 1 1 0\n".format(place)
+    text += "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\n"
     text += "parm u 0 1\nparm v 0 1\nend\n"
     if abs(place) < 3e38:
         assert read(tmp_path, text).bodies[0].patches[0].points[1, 0, 0] == place

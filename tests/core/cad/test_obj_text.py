@@ -4,8 +4,8 @@
 
 import pytest
 from body_moments.core.cad.obj_text import check_obj_text
-from body_moments.core.streams.text_fields import COUNT, NUMBER, VERTEX
-from body_moments.core.streams.text_fields import WHOLE as WHOLE_NUMBER
+from body_moments.core.files.text_fields import COUNT, NUMBER, VERTEX
+from body_moments.core.files.text_fields import WHOLE as WHOLE_NUMBER
 
 from tests.core.streams.test_misread import NO_NUMBERS, NO_WHOLES, NUMBERS, misread
 
@@ -23,9 +23,15 @@ vp 0.5 0.5
 g v 1
 usemtl 1.0x0
 """
-FACES = "f 1 2 3\nf 1/1 2/2 -1/-2\nf 1//1 2//-1 4//1\nf 1/1/1 -3/2/-1 4/1/1 3/2/1\nf 1/ 2/ 3/\nf 1// 2// 3//\n"
+FACES = (
+    "f 1 2 3\nf 1/1 2/2 -1/-2\nf 1//1 2//-1 4//1\nf 1/1/1 -3/2/-1 4/1/1 3/2/1\nf 1/ 2/ 3/\nf 1// "
+    "2// 3//\n"
+)
 FACES += "l 1 2/1\np 1 -4\n"
-FREE = "cstype rat bspline\ndeg 1 1\nsurf 0 1 0 1 1/1/1 2 3 -1\nparm u 0 0 1 1\nparm v 0 0 1 1\nend\ncurv 0 1 1 2\n"
+FREE = (
+    "cstype rat bspline\ndeg 1 1\nsurf 0 1 0 1 1/1/1 2 3 -1\nparm u 0 0 1 1\nparm v 0 0 1 "
+    "1\nend\ncurv 0 1 1 2\n"
+)
 FREE += "curv2 1 -1\n"
 WHOLE = START + FACES + FREE
 

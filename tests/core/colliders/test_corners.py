@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moved corners of hulls: mass, center and inertia of the body, convex, within the limit, in any place and size."""
+"""Moved corners of hulls: mass, center and inertia of the body, convex, within the limit, in any
+place and size.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Effects of colliders on the physics, and their corrected masses, against closed forms and optimality conditions."""
+"""Effects of colliders on the physics, and their corrected masses, against closed forms and
+optimality conditions.
+"""
 
 from __future__ import annotations
 

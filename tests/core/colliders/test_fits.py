@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fitted colliders, pieces and distances, against closed forms and an independent check of sampled points."""
+"""Fitted colliders, pieces and distances, against closed forms and an independent check of sampled
+points.
+"""
 
 from __future__ import annotations
 

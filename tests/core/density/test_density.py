@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of trivariate densities against exact rational arithmetic, closed forms and each other."""
+"""Moments of trivariate densities against exact rational arithmetic, closed forms and each
+other.
+"""
 
 from fractions import Fraction
 
@@ -27,7 +29,9 @@ def spline(orders, seed=0, signed=False):
 
 
 def check(moments, coefficients, axes, relative=1e-13):
-    """Against exact values: within the stated bound, and within `relative` of each moment's natural size."""
+    """Against exact values: within the stated bound, and within `relative` of each moment's natural
+    size.
+    """
     exact = exact_moments(coefficients, axes, moments.order, moments.about)
     size = exact_moments(np.abs(coefficients), axes, 0, moments.about)[0]
     reach = max(axis.reach(center) for axis, center in zip(axes, moments.about))
@@ -75,7 +79,9 @@ def test_grid_moments_to_order_20_match_fractions(order, signed):
     "place, is_near", [(6, False), (7, False), (8, True), (12, True), (13, False)]
 )
 def test_moments_of_distant_mass_are_about_a_nearby_knot(axis, value, order, place, is_near):
-    """A voxel has a variance of 1/12 about its middle: three from the middle of all is 108 of these, two is 48."""
+    """A voxel has a variance of 1/12 about its middle: three from the middle of all is 108 of
+    these, two is 48.
+    """
     values = np.zeros(np.roll([21, 1, 1], axis))
     values[tuple(np.roll([place, 0, 0], axis))] = value
     axes = [SplineAxis.uniform(count) for count in values.shape]

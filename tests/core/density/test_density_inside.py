@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces filled with a grid's density: boxes and tetrahedra with exact answers, and additivity."""
+"""Surfaces filled with a grid's density: boxes and tetrahedra with exact answers, and
+additivity.
+"""
 
 from fractions import Fraction
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A density for each triangle or corner: against rational arithmetic, closed forms, and the sum over the parts."""
+"""A density for each triangle or corner: against rational arithmetic, closed forms, and the sum
+over the parts.
+"""
 
 from fractions import Fraction
 
@@ -32,8 +34,10 @@ def sheet(part, density, dtype=np.float64, **more):
 
 
 def linear_truth(points, triangles, density, about):
-    """∫ ρ x^α dA with ρ linear on each triangle, by multiplying out: each factor of the integrand is the sum
-    of its corners' values times barycentric coordinates λ, and ∫ λ0^a λ1^b λ2^c dA = 2 A a! b! c! / (a+b+c+2)!."""
+    """∫ ρ x^α dA with ρ linear on each triangle, by multiplying out: each factor of the integrand
+    is the sum of its corners' values times barycentric coordinates λ, and ∫ λ0^a λ1^b λ2^c dA = 2 A
+    a! b! c! / (a+b+c+2)!.
+    """
     from itertools import product
     from math import factorial, isqrt
 
@@ -190,7 +194,9 @@ def test_a_density_for_each_part_is_exact():
 
 
 def test_a_two_material_dumbbell():
-    """Two boxes of steel and wood, each 1 m³, 4 m apart: the centre is at the mean weighted by their densities."""
+    """Two boxes of steel and wood, each 1 m³, 4 m apart: the centre is at the mean weighted by
+    their densities.
+    """
     part = bodies.joined(bodies.box((0, 0, 0), (1, 1, 1)), bodies.box((4, 0, 0), (5, 1, 1)))
     solid = measure_solid(bodies.surface(part))
     parts = solid.parts()
@@ -256,7 +262,9 @@ def test_no_faces_have_no_moments():
 
 @pytest.mark.parametrize("turned", [False, True])
 def test_cavity_removes_the_material_around_it(turned):
-    """A steel box with a painted hole, in which a ball of cork lies; turned inside out as a whole it is the same."""
+    """A steel box with a painted hole, in which a ball of cork lies; turned inside out as a whole
+    it is the same.
+    """
     box, hole = bodies.box((0, 0, 0), (4, 4, 4)), bodies.inverted(bodies.box((1, 1, 1), (3, 3, 3)))
     cork = bodies.box((1.5, 1.5, 1.5), (2.5, 2.5, 2.5))
     part = bodies.joined(box, hole, cork)

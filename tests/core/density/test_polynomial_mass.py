@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polynomial densities: mass moments against rational arithmetic, in any frame, at any place and size."""
+"""Polynomial densities: mass moments against rational arithmetic, in any frame, at any place and
+size.
+"""
 
 from fractions import Fraction
 from math import comb
@@ -52,7 +54,9 @@ def moments_of(points, triangles, order, about=None):
 
 
 def truth(points, triangles, terms, about):
-    """The rational mass moments to third order about a point, by developing the density's terms about it."""
+    """The rational mass moments to third order about a point, by developing the density's terms
+    about it.
+    """
     about = [Fraction(value) for value in np.asarray(about, float).tolist()]
     degree = max((sum(powers) for powers in terms), default=0)
     rows = exact.monomials(3 + degree)
@@ -101,7 +105,9 @@ def test_mass_moments_are_exact_within_their_bounds(text, offset):
 
 
 def test_a_density_given_far_away_loses_no_digits():
-    """(z - 10000)² on a body at 10000: its expanded coefficients cancel to nothing, the rational ones do not."""
+    """(z - 10000)² on a body at 10000: its expanded coefficients cancel to nothing, the rational
+    ones do not.
+    """
     points, triangles = prism((0.0, 0.0, 10000.0))
     density = parse_polynomial("(z - 10000)**2 + 1")
     found = polynomial_mass_of_images(moments_of(points, triangles, 5), density, np.eye(4)[None])
@@ -128,7 +134,9 @@ def test_bounds_hold_for_a_body_with_lost_position(text, step):
 
 
 def placed(points, matrix):
-    """Rational images of points under a map of floats, as floats; the map is chosen so that they need no rounding."""
+    """Rational images of points under a map of floats, as floats; the map is chosen so that they
+    need no rounding.
+    """
     rows = [[Fraction(float(value)) for value in row] for row in matrix]
     images = [
         [sum(a * Fraction(x) for a, x in zip(row[:3], point)) + row[3] for row in rows[:3]]
@@ -170,7 +178,9 @@ def test_world_density_stays_in_place_while_the_body_moves(name, text):
 )
 @example([1e3 / (k + 3) for k in range(165)], [8, 0, 0, 0, 8, 0, 0, 0, 8], [0, 0, 0])
 def test_the_bound_holds_for_any_density_and_any_map(coefficients, linear, offset):
-    """Maps of eighths and a body of quarters: images need no rounding, and the truth is rational."""
+    """Maps of eighths and a body of quarters: images need no rounding, and the truth is
+    rational.
+    """
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = np.reshape(linear, (3, 3)) / 8.0, offset
     points, triangles = prism()
@@ -184,7 +194,9 @@ def test_the_bound_holds_for_any_density_and_any_map(coefficients, linear, offse
 
 @pytest.mark.parametrize("name", ["moved", "turned", "mirrored", "uneven", "tiny"])
 def test_own_density_moves_turns_and_mirrors_with_the_body(name):
-    """Along its own axes a scaled body is the body with scaled coordinates: measure that, and map it rigidly."""
+    """Along its own axes a scaled body is the body with scaled coordinates: measure that, and map
+    it rigidly.
+    """
     points, triangles = prism()
     matrix = np.array(MAPS[name], float)
     density = parse_polynomial("2 + x*y + z**2")
@@ -243,7 +255,8 @@ def test_the_input_bound_follows_the_density():
 
 def test_a_cylinder_with_a_linear_density():
     """A 256-gon prism of circumradius R, 0 ≤ z ≤ h, ρ = a + b z: m = A h (a + b h / 2) and
-    z_c = (a h / 2 + b h² / 3) / (a + b h / 2); about the axis I = m k² with the polygon's own k²."""
+    z_c = (a h / 2 + b h² / 3) / (a + b h / 2); about the axis I = m k² with the polygon's own k².
+    """
     n, radius, height, a, b = 256, 0.5, 2.0, 1000.0, 20.0
     angle = 2.0 * np.pi * np.arange(n) / n
     outline = list(zip((radius * np.cos(angle)).tolist(), (radius * np.sin(angle)).tolist()))
@@ -263,8 +276,9 @@ def test_a_cylinder_with_a_linear_density():
 
 
 def test_a_ball_with_a_radial_density_by_refinement():
-    """ρ = r²: M = 4 π / 5 and I = (8 π / 3) / 7 in the limit; inscribed polyhedra come from below, four times nearer
-    with each halving of the edges."""
+    """ρ = r²: M = 4 π / 5 and I = (8 π / 3) / 7 in the limit; inscribed polyhedra come from below,
+    four times nearer with each halving of the edges.
+    """
     wrong = []
     for level in (2, 3):
         points, triangles = bodies.sphere(level)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Grids of unevenly spaced samples: their moments against rational arithmetic, their knots, their files."""
+"""Grids of unevenly spaced samples: their moments against rational arithmetic, their knots, their
+files.
+"""
 
 from fractions import Fraction
 
@@ -22,7 +24,9 @@ POSITIONS = (
 
 
 def exact_knots(row, order):
-    """Positions for even orders, middles of them for odd ones; beyond the ends the last distance again."""
+    """Positions for even orders, middles of them for odd ones; beyond the ends the last distance
+    again.
+    """
     x = [Fraction(float(value)) for value in row]
     first, last, n = x[1] - x[0], x[-1] - x[-2], len(x)
 

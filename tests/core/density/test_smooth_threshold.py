@@ -51,7 +51,9 @@ def _evaluate(knots, order, coefficients, t):
 
 
 def test_a_quadratic_s_ball_within_its_bound():
-    """Cubic splines keep quadratics but for a constant: Σ (i² ) β = x² + 1/3, so 9 - |x|² becomes 8 - |x|²."""
+    """Cubic splines keep quadratics but for a constant: Σ (i² ) β = x² + 1/3, so 9 - |x|² becomes 8
+    - |x|².
+    """
     samples = 9.0 - (X[:, None, None] ** 2 + X[:, None] ** 2 + X**2)
     found = smooth_threshold_body(samples, 0.0, 4, with_density=True)
     truth = 4.0 / 3.0 * np.pi * 8.0**1.5

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Constant sets of trilinear densities against closed forms, and against quadrature with the axes in another order."""
+"""Constant sets of trilinear densities against closed forms, and against quadrature with the axes
+in another order.
+"""
 
 import math
 
@@ -38,7 +40,8 @@ def touching_balls(n):
 BODIES = {"ball": ball, "torus": torus, "touching balls": touching_balls}
 
 
-# The oracle: columns along x, whatever the density does along them; double exponential rules between all roots.
+# The oracle: columns along x, whatever the density does along them; double exponential rules
+# between all roots.
 
 _T = np.arange(-3.2, 3.2001, 0.1)
 NODES = 0.5 + 0.5 * np.tanh(0.5 * np.pi * np.sinh(_T))
@@ -186,7 +189,9 @@ def test_sampled_balls_converge_with_the_square_of_the_spacing():
 
 
 def test_the_area_is_the_derivative_of_the_volume():
-    """d volume / d threshold = -∫ dA / |∇f|, and |∇f| = 1 along the samples of a plane's distance."""
+    """d volume / d threshold = -∫ dA / |∇f|, and |∇f| = 1 along the samples of a plane's
+    distance.
+    """
     normal = np.array([1.0, 2.0, -2.0]) / 3.0
     samples = sum(n * x for n, x in zip(normal, points(9))) * 4.0
     low, high = (threshold_body(samples, level) for level in (0.1 - 1e-4, 0.1 + 1e-4))
@@ -221,7 +226,9 @@ def test_turned_and_mirrored_samples_turn_and_mirror_the_body():
 
 
 def test_sheared_grid_has_area_and_moments_of_the_sheared_body():
-    """A plane's piece with known corners in the image of the grid; a volume and a center under the map."""
+    """A plane's piece with known corners in the image of the grid; a volume and a center under the
+    map.
+    """
     matrix = np.array(
         [
             [0.02, 0.003, 0.0, 5.0],

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Area moments of polygons against rational integration, and defects that make a polygon ambiguous."""
+"""Area moments of polygons against rational integration, and defects that make a polygon
+ambiguous.
+"""
 
 import math
 from dataclasses import replace
@@ -300,8 +302,9 @@ def test_flaws_of_random_regions_match_winding_numbers(size):
 
 
 def exact_defects(points, edges):
-    """Defects by whole numbers, for each pair of edges and both sides of each edge; the shared length alone is a
-    float."""
+    """Defects by whole numbers, for each pair of edges and both sides of each edge; the shared
+    length alone is a float.
+    """
     crossings, shared = 0, 0.0
     edges = [edge for edge in edges.tolist() if (points[edge[0]] != points[edge[1]]).any()]
     for row, (a, b) in enumerate(edges):

@@ -86,7 +86,9 @@ def test_region_scaled_by_a_power_of_two_scales_exactly(scale):
 
 @pytest.mark.parametrize("rounded, is_certain", [(0.1293, True), (0.1295, False)])
 def test_region_within_its_coordinate_error_is_refused(rounded, is_certain):
-    """A unit square: 4 w (1 + 2 w) of it with w = √2 times what coordinates are off, which is 1 for w = 0.18301."""
+    """A unit square: 4 w (1 + 2 w) of it with w = √2 times what coordinates are off, which is 1 for
+    w = 0.18301.
+    """
     square = [(3, 5), (4, 5), (4, 6), (3, 6)]
     if is_certain:
         assert region_moments(

@@ -112,7 +112,8 @@ def test_an_equal_angle_has_its_strong_axis_at_minus_45_degrees():
     second = sum(w * h**3 / 12 + w * h * (y - center) ** 2 for w, h, _, y in legs)
     product = sum(w * h * (x - center) * (y - center) for w, h, x, y in legs)
     assert close(section.second, (second, second, product), rel=1e-12)
-    # I_xy is negative, so axis 1, about which the second moment is largest, is at +45°: the angle's line of symmetry
+    # I_xy is negative, so axis 1, about which the second moment is largest, is at +45°: the angle's
+    # line of symmetry
     assert product < 0.0 and section.angle == pytest.approx(math.pi / 4, abs=1e-12)
     assert close(section.principal, (second - product, second + product), rel=1e-12)
 
@@ -304,8 +305,9 @@ def test_section_scaled_by_a_power_of_two_scales_exactly(scale):
 
 
 def tilted_strip(height=0.0):
-    """(points, triangles, unit normal) of four triangles, one of which looks the other way, none of them at the origin;
-    height: of one corner over the others."""
+    """(points, triangles, unit normal) of four triangles, one of which looks the other way, none of
+    them at the origin; height: of one corner over the others.
+    """
     turn = bodies.rotation(3)
     flat = np.array([[0, 0, 0], [4, 0, 0], [4, 1, 0], [0, 1, 0], [4, 2, height], [9, 9, 9]])
     triangles = np.array([[0, 1, 2], [0, 2, 3], [3, 2, 4], [1, 0, 2]])
@@ -351,7 +353,9 @@ def test_tilted_plane_far_away_is_flat_despite_empty_faces(more, place):
 
 
 def test_section_with_unknown_centroid_keeps_second_moments():
-    """301 by 501 of the steps that coordinates there have: the number nearest to it is half a step off."""
+    """301 by 501 of the steps that coordinates there have: the number nearest to it is half a step
+    off.
+    """
     far, step = 2.0**33, 2.0**-19
     points = far + step * np.array(rectangle(0, 0, 301, 501), float)
     section = measure_section(LEVEL, lifted(points), directed_edges([range(4)]))

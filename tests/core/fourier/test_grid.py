@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Large grids to a tolerance: the fast transform against sums and closed forms, everywhere on the grid."""
+"""Large grids to a tolerance: the fast transform against sums and closed forms, everywhere on the
+grid.
+"""
 
 from functools import partial
 

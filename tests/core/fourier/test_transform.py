@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fourier transforms of bodies and surfaces against 120 digits, closed forms, symmetries and moments."""
+"""Fourier transforms of bodies and surfaces against 120 digits, closed forms, symmetries and
+moments.
+"""
 
 import math
 from functools import partial
@@ -44,7 +46,9 @@ def truth():
 
 
 def directions(part):
-    """Random, along a face's normal, along its edge, across that edge in the face; and near each of the last three."""
+    """Random, along a face's normal, along its edge, across that edge in the face; and near each of
+    the last three.
+    """
     rng = np.random.default_rng(5)
     a, b, c = part[0][part[1][0]]
     normal, edge = np.cross(b - a, c - a), b - a
@@ -166,7 +170,8 @@ def test_the_taylor_coefficients_are_the_moments():
         for n in range(4)
     ]
     size = raw[0, 0, 0]
-    # real parts hold even orders only, imaginary ones odd orders: what is left is of fourth and of fifth order
+    # real parts hold even orders only, imaginary ones odd orders: what is left is of fourth and of
+    # fifth order
     assert np.abs(found.real - (order[0] + order[2]).real).max() <= 1e-12 * size
     assert np.abs(found.imag - (order[1] + order[3]).imag).max() <= 1e-14 * size
     assert np.abs(order[2]).min() >= 1e-8 * size and np.abs(order[3]).max() >= 1e-11 * size
@@ -260,7 +265,9 @@ def test_an_open_surface_is_refused_and_an_unwelded_one_is_not():
 
 @pytest.mark.parametrize("share, is_closed", [(0.5e-6, True), (2e-6, False)])
 def test_hole_of_a_millionth_of_the_area_is_ignored(share, is_closed):
-    """A needle along an edge of a unit cube is left out, whose normal is half along the wave that is looked at."""
+    """A needle along an edge of a unit cube is left out, whose normal is half along the wave that
+    is looked at.
+    """
     points, triangles = bodies.box()
     a, b, c = triangles[0].tolist()
     middle, edge = (points[a] + points[b]) / 2.0, np.linalg.norm(points[b] - points[a])
@@ -324,8 +331,9 @@ def test_steps_tell_how_much_is_done_and_can_be_left():
 
 
 def test_transform_is_as_exact_as_libformfactor(truth):
-    """BornAgain's form factors are libformfactor's: ∫ exp(+i q·r) over a tetrahedron that stands on its base. It is
-    large, and in the environment of one Blender."""
+    """BornAgain's form factors are libformfactor's: ∫ exp(+i q·r) over a tetrahedron that stands on
+    its base. It is large, and in the environment of one Blender.
+    """
     bornagain = pytest.importorskip("bornagain", reason="needs BornAgain")
     body = bornagain.PlatonicTetrahedron(1.0)
     around = 2 * np.pi / 3 * np.arange(1, 4)

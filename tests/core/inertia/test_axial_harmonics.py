@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Axes of prisms with seven sides and more: harmonics in exact arithmetic, frames of turned copies, groups."""
+"""Axes of prisms with seven sides and more: harmonics in exact arithmetic, frames of turned copies,
+groups.
+"""
 
 import math
 from dataclasses import replace
@@ -25,7 +27,9 @@ def harmonics_of(part, center, frame, area=False, **more):
 
 
 def exact_mean(corners, m, k):
-    """E[(x+iy)^m z^k] over a simplex, as a sum over all ways to share m + k factors out among its corners."""
+    """E[(x+iy)^m z^k] over a simplex, as a sum over all ways to share m + k factors out among its
+    corners.
+    """
     count = len(corners)
     total = [Fraction(0), Fraction(0)]
     factors = [(0, 1)] * m + [(2,)] * k
@@ -130,8 +134,9 @@ def test_turned_copies_of_a_prism_have_one_pose(part, count):
 
 
 def test_two_harmonics_without_a_common_divisor_leave_one_frame():
-    """Seven waves and eight of them around a cone: no turn takes the body to itself, nor does any moment to order six
-    say how it is turned."""
+    """Seven waves and eight of them around a cone: no turn takes the body to itself, nor does any
+    moment to order six say how it is turned.
+    """
     points, triangles = shapes.prism(360, top=0.5)
     angle = np.arctan2(points[:, 1], points[:, 0])
     waves = 1.0 + 2e-3 * (np.cos(7 * angle) + np.cos(8 * angle + 0.5))

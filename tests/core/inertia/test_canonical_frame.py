@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One pose for a body however it lies and whatever its faces; every frame that a symmetric body leaves, no other."""
+"""One pose for a body however it lies and whatever its faces; every frame that a symmetric body
+leaves, no other.
+"""
 
 from dataclasses import replace
 
@@ -155,8 +157,9 @@ def test_body_with_overflowing_moments_is_refused():
 @pytest.mark.parametrize("box", [(2, 2, 2), (3, 2, 1)], ids=["a cube", "a box"])
 @pytest.mark.parametrize("size, mass", [(-40.0, -100.0), (55.0, -100.0)])
 def test_moments_beyond_the_range_of_numbers_have_no_frames(box, size, mass):
-    """Moments of sixth order by powers of ten; moments of second order are examined first and stay well within the
-    limit."""
+    """Moments of sixth order by powers of ten; moments of second order are examined first and stay
+    well within the limit.
+    """
     known = cloud((1.0, bodies.box(-np.array(box), box)[0]))
     found = replace(known, raw=known.raw * 10.0 ** (mass + size * monomials(6).sum(axis=1)))
     with refused("moments_overflow", order=6):
@@ -228,8 +231,10 @@ def test_a_ball_takes_the_preferred_axes():
 @pytest.mark.parametrize("higher", [False, True])
 @pytest.mark.parametrize("name", ["prism", "ball", "torus"])
 def test_storage_noise_never_flips_a_nearly_free_frame(name, higher):
-    """A prism as high as it is wide, whose skewness noise mixes into an axis that has none; a stretched ball that is
-    fourfold by a thousandth; a torus that is hardly oval. Preferred are the body's own axes, in another order."""
+    """A prism as high as it is wide, whose skewness noise mixes into an axis that has none; a
+    stretched ball that is fourfold by a thousandth; a torus that is hardly oval. Preferred are the
+    body's own axes, in another order.
+    """
     if name == "prism":
         angle = 2.0 * np.pi * np.arange(3) / 3.0
         end = np.stack([np.cos(angle), 0.8 * np.sin(angle), 0.0 * angle], axis=1)
@@ -268,7 +273,9 @@ def test_storage_noise_never_flips_a_nearly_free_frame(name, higher):
 
 
 def cloud(*parts):
-    """The moments to sixth order of points with weights: (weight, (n, 3) points) each, the weight that of all n."""
+    """The moments to sixth order of points with weights: (weight, (n, 3) points) each, the weight
+    that of all n.
+    """
     raw = sum(
         weight * np.prod(points[:, None] ** monomials(6), axis=2).mean(axis=0)
         for weight, points in parts

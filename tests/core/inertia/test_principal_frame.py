@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The principal frame is right-handed, ordered, and the same however the body lies; what a symmetry leaves free is
-taken nearest to the preferred axes and said."""
+"""The principal frame is right-handed, ordered, and the same however the body lies; what a symmetry
+leaves free is taken nearest to the preferred axes and said.
+"""
 
 import numpy as np
 import pytest
@@ -32,7 +33,9 @@ def random_motion(rng, mirrored=False):
 
 
 def tetrahedron():
-    """A generic tetrahedron: the unit simplex under a shear, all products of inertia different (Tonon 2004's kind)."""
+    """A generic tetrahedron: the unit simplex under a shear, all products of inertia different
+    (Tonon 2004's kind).
+    """
     import math
 
     f = math.factorial

@@ -30,7 +30,9 @@ def refer(reference, properties):
 
 
 def box(size, center, mass=1):
-    """(Moments about a point that is not the center, exact function of (point) → tensor) of a solid box."""
+    """(Moments about a point that is not the center, exact function of (point) → tensor) of a solid
+    box.
+    """
     size, center = [Fraction(x) for x in size], [Fraction(x) for x in center]
     second = [[Fraction(0)] * 3 for _ in range(3)]
     for i in range(3):

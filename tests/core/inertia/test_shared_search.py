@@ -83,7 +83,9 @@ def test_a_body_beyond_the_range_of_numbers_is_refused(scale):
 
 @pytest.mark.parametrize(("small", "far"), [(0.1, 5.0), (0.1, 20.0), (0.05, 30.0)])
 def test_body_of_core_and_far_pieces_keeps_its_single_axes(small, far):
-    """Moments of sixth order that are thousands of times what they are for a cube, and beyond 32 bits on the grid."""
+    """Moments of sixth order that are thousands of times what they are for a cube, and beyond 32
+    bits on the grid.
+    """
     points, triangles = bodies.box((-1, -1, -1), (1, 1, 1))
     centers = np.concatenate([np.zeros((1, 3)), far * np.eye(3), -far * np.eye(3)])
     sizes = [1.0, *[small] * 6]

@@ -136,7 +136,9 @@ def test_one_body_or_some_are_taken_out_of_a_stack():
 
 @pytest.mark.parametrize("name", PARTS)
 def test_copies_share_the_axes_of_their_shape(name):
-    """Wherever a copy stands, however it is turned, scaled and mirrored: its frame is its shape's, turned with it."""
+    """Wherever a copy stands, however it is turned, scaled and mirrored: its frame is its shape's,
+    turned with it.
+    """
     shape, matrices = SIXTH[name], placed(6)
     mirrored = np.linalg.det(matrices[:, :3, :3]) < 0.0
     scale = np.cbrt(np.linalg.det(matrices[:, :3, :3]))

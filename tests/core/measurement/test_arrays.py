@@ -39,7 +39,9 @@ def test_open_box_is_capped_and_says_so():
 
 
 def test_float32_far_away_warns_or_is_refused():
-    """Half an ulp is 3e-5 there: the center of a cube of 10 cm is uncertain, and the volume of a plate of 1 mm."""
+    """Half an ulp is 3e-5 there: the center of a cube of 10 cm is uncertain, and the volume of a
+    plate of 1 mm.
+    """
     cube, plate = (
         box((1e3, 1e3, 1e3), (1e3 + thick, 1e3 + 0.1, 1e3 + 0.1)) for thick in (0.1, 1e-3)
     )

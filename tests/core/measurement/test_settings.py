@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The digest of settings: each setting that the numbers depend on changes it, and nothing else does."""
+"""The digest of settings: each setting that the numbers depend on changes it, and nothing else
+does.
+"""
 
 from body_moments.core.measurement.settings import Settings
 

@@ -80,7 +80,9 @@ def test_distances_from_a_box_match_their_closed_form(turn):
     ],
 )
 def test_needle_depth_is_limited_by_triangle_and_needle(start, end, depth, order, size):
-    """A triangle with sides of 3, 4 and 5 in the plane z = 0; beyond its sides the needle may be as low as it is."""
+    """A triangle with sides of 3, 4 and 5 in the plane z = 0; beyond its sides the needle may be as
+    low as it is.
+    """
     flat = np.array([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]])[order]
     for needle in ([start, end, end], [end, start, start]):
         needle = np.array(needle) + [[0.0] * 3, [0.0] * 3, [1e-7, -1e-7, 0.0]]

@@ -32,7 +32,9 @@ def volume(hull):
 
 
 def require_closed(hull):
-    """Each side belongs to two triangles, in opposite directions, which know each other; and there is one surface."""
+    """Each side belongs to two triangles, in opposite directions, which know each other; and there
+    is one surface.
+    """
     triangles, neighbors = hull.triangles, hull.neighbors
     for side in range(3):
         beyond = neighbors[:, side]
@@ -48,7 +50,9 @@ def require_closed(hull):
 
 
 def highest_outside(hull, points):
-    """Return the largest distance of a point outside the hull as a share of the extent, without slivers."""
+    """Return the largest distance of a point outside the hull as a share of the extent, without
+    slivers.
+    """
     a, b, c = (hull.points[hull.triangles[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=1)
@@ -194,7 +198,9 @@ def test_hull_is_independent_of_the_order_of_equal_keys(monkeypatch):
 
 @pytest.mark.parametrize("normal", [(1, 1, 1), (-1, 1, 1), (1, -1, 1), (1, 1, -1), (3, 1, 2)])
 def test_slanted_faces_full_of_points_have_their_corners_only(normal):
-    """Triangles above and below a hexagon: no point within them is a corner, though all are as far from it."""
+    """Triangles above and below a hexagon: no point within them is a corner, though all are as far
+    from it.
+    """
     normal = np.array(normal) / np.linalg.norm(normal)
     first = np.cross(normal, (0.3, 0.7, -0.6))
     first /= np.linalg.norm(first)
@@ -228,6 +234,8 @@ def test_points_are_rounded_to_2_to_the_29_steps_of_the_extent(steps, corners):
 @pytest.mark.parametrize("offset", [(0.0, 0.0), (0.0, 1e6), (-1e6, 0.0), (1e6, -1e6)])
 @pytest.mark.parametrize("height, corners", [(0.09, [0, 2, 3, 4]), (0.11, [0, 1, 2, 3, 4])])
 def test_distance_outside_a_polygon_is_relative_to_its_extent(offset, height, corners):
-    """A rectangle of 10 by 4 with a point below one side by more or less than a hundredth of ten."""
+    """A rectangle of 10 by 4 with a point below one side by more or less than a hundredth of
+    ten.
+    """
     points = np.array([[0, 0], [5, -height], [10, 0], [10, 4], [0, 4]]) + offset
     assert convex_polygon(points, 0.01).tolist() == corners

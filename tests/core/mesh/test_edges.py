@@ -74,7 +74,9 @@ def test_edges_match_a_dictionary():
 
 
 def mixed_mesh():
-    """A cube: its top a fan of four triangles, its bottom and front pentagons with a common bent edge."""
+    """A cube: its top a fan of four triangles, its bottom and front pentagons with a common bent
+    edge.
+    """
     points = np.concatenate([CORNERS, [[0.5, 0.5, 1.0], [0.5, 0.0, 0.0]]])
     faces = [
         [0, 2, 3, 1, 9],

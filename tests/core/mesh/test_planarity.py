@@ -53,7 +53,9 @@ def one_by_one(surface, error):
 
 
 def quads(kind, dtype):
-    """A torus of 1800 quads: flat but for rounding, bent, some of them bent or folded, or without area."""
+    """A torus of 1800 quads: flat but for rounding, bent, some of them bent or folded, or without
+    area.
+    """
     points, faces = ring(60, 30)
     rng = np.random.default_rng(3)
     loose = points[faces].reshape(

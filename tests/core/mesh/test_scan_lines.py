@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lines through bodies: crossings at the expected places, none lost, independent of other bodies."""
+"""Lines through bodies: crossings at the expected places, none lost, independent of other
+bodies.
+"""
 
 import numpy as np
 import pytest

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bare arrays are proved closed by pairing the sides of their faces, compared with a dictionary of sides."""
+"""Bare arrays are proved closed by pairing the sides of their faces, compared with a dictionary of
+sides.
+"""
 
 from collections import defaultdict
 
@@ -44,7 +46,9 @@ def shuffled(part):
 
 
 def across_by_search(faces):
-    """Return the faces across by a dictionary of sides, or None if an edge lacks two sides in opposite directions."""
+    """Return the faces across by a dictionary of sides, or None if an edge lacks two sides in
+    opposite directions.
+    """
     at = defaultdict(list)
     for face, corners in enumerate(faces.tolist()):
         for start, stop in zip(corners, [*corners[1:], corners[0]]):
@@ -92,7 +96,8 @@ def test_open_or_inconsistent_mesh_is_not_proved_closed(name, damage):
 def test_faces_at_random_are_judged_as_by_a_search():
     """Few vertices, so that sides meet by chance, in both directions, once and more often.
 
-    A closed torus beside them makes the mesh large enough to be looked up in a table instead of being sorted.
+    A closed torus beside them makes the mesh large enough to be looked up in a table instead of
+    being sorted.
     """
     beside = bodies.torus(40, 30)
     proved = 0

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Areas under maps that are similarities up to float32: each face has its own factor, within the bound."""
+"""Areas under maps that are similarities up to float32: each face has its own factor, within the
+bound.
+"""
 
 import numpy as np
 import pytest
@@ -12,7 +14,8 @@ from body_moments.core.moments.exponents import monomials
 from body_moments.core.moments.images import sum_of_images
 from body_moments.core.polyhedron import polyhedron_moments
 
-# No symmetry: the faces on one side are stretched more than those on the other, and the center moves.
+# No symmetry: the faces on one side are stretched more than those on the other, and the center
+# moves.
 POINTS = np.array([[1, 0, 0], [-0.5, 0.8, 0], [-0.5, -0.9, 0], [0.2, 0.1, 1.5]])
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments add, scale and map exactly; their bounds hold. The oracle is rational arithmetic on boxes and simplices."""
+"""Moments add, scale and map exactly; their bounds hold.
+
+The oracle is rational arithmetic on boxes and simplices.
+"""
 
 import json
 import math
@@ -46,7 +49,9 @@ def simplex_moments(order=ORDER):
 
 
 def mapped_exactly(exact, matrix, about, order=ORDER):
-    """The image of exact moments (about 0) under an affine map, by expanding the polynomials term by term."""
+    """The image of exact moments (about 0) under an affine map, by expanding the polynomials term
+    by term.
+    """
     linear = [[Fraction(float(x)) for x in row] for row in np.asarray(matrix)[:3, :3]]
     offset = [
         Fraction(float(t)) - Fraction(float(o)) for t, o in zip(np.asarray(matrix)[:3, 3], about)
@@ -405,7 +410,9 @@ def test_iteration_over_moments_yields_their_exponents():
 
 
 def test_dense_moments_of_a_box_are_products():
-    """The array of an image: array[p, q, r] = Σ x^p y^q z^r, zero if p + q + r exceeds the order."""
+    """The array of an image: array[p, q, r] = Σ x^p y^q z^r, zero if p + q + r exceeds the
+    order.
+    """
     raw = np.array(box_moments((0, 0, 0), (1, 2, 3), 4), float)
     dense = Moments(raw, np.zeros(3)).to_dense()
     powers = [np.array([side ** (n + 1) / (n + 1) for n in range(5)]) for side in (1.0, 2.0, 3.0)]
@@ -507,7 +514,9 @@ def test_invalid_points_are_refused(point):
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("count", [1, 7, 300])
 def test_bounds_of_sums_of_images_say_something(size, count):
-    """They are some roundings of the moments of the absolute values, which all images have about the sum's center."""
+    """They are some roundings of the moments of the absolute values, which all images have about
+    the sum's center.
+    """
     rng = np.random.default_rng(count)
     body = floats(box_moments((0, 0, 0), (1, 2, 3)))
     matrices = np.tile(np.eye(4), (count, 1, 1))

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solid harmonics of single points against their polynomials, and the symbols that couple them against known ones."""
+"""Solid harmonics of single points against their polynomials, and the symbols that couple them
+against known ones.
+"""
 
 from math import pi, sqrt
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bézier patches cut from B-spline ones, against exact polynomials and against the patches themselves."""
+"""Bézier patches cut from B-spline ones, against exact polynomials and against the patches
+themselves.
+"""
 
 from fractions import Fraction
 from math import comb

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Patches with Blender's knots in the place of others, against knots inserted one by one in rational arithmetic."""
+"""Patches with Blender's knots in the place of others, against knots inserted one by one in
+rational arithmetic.
+"""
 
 from fractions import Fraction
 
@@ -40,7 +42,9 @@ def insert_knot(knots, points, order, t):
 
 
 def exact_bezier_points(space, points, low, high):
-    """Control points of the part [low, high] with every knot in it repeated as often as the degree says."""
+    """Control points of the part [low, high] with every knot in it repeated as often as the degree
+    says.
+    """
     order = space.order
     knots = [Fraction(knot) for knot in space.knots]
     rows = [

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curves as wires and as rims of flat regions, against closed forms and polygons of straight pieces."""
+"""Curves as wires and as rims of flat regions, against closed forms and polygons of straight
+pieces.
+"""
 
 from fractions import Fraction
 from math import comb
@@ -158,8 +160,9 @@ def test_lengths_follow_a_similarity_and_no_other_map():
 
 @pytest.mark.parametrize("weight", [1e-6, 1e-3, 1e3, 1e5, 1e7])
 def test_heavy_and_light_weights_are_measured_to_rounding(weight):
-    """The arc of a conic, P' = 2 (w (1 - t)² (P1 - P0) + t (1 - t) (P2 - P0) + w t² (P2 - P1)) / W², in pieces that
-    grow finer towards its end."""
+    """The arc of a conic, P' = 2 (w (1 - t)² (P1 - P0) + t (1 - t) (P2 - P0) + w t² (P2 - P1)) /
+    W², in pieces that grow finer towards its end.
+    """
     weights = ring().weights.copy()
     weights[1] = weight
     steps = np.concatenate([[0.0], 0.5 ** np.arange(60.0, 0.0, -1.0)])
@@ -202,8 +205,10 @@ def test_length_estimate_of_reversing_lines_holds():
 
 @pytest.mark.parametrize("ratio", [1.0, 0.25, 4.0])
 def test_turns_between_rule_points_are_found(ratio):
-    """x' = (t - 0.5)² - h², negative for a moment: rules without a point there agree upon a wrong length. Weights that
-    each are so many times the one before make the same curve by other parameters."""
+    """x' = (t - 0.5)² - h², negative for a moment: rules without a point there agree upon a wrong
+    length. Weights that each are so many times the one before make the same curve by other
+    parameters.
+    """
     for h in (0.1, 0.01, 1e-3):
         # Control points of t³/3 - t²/2 + (1/4 - h²) t.
         x = np.array([0.0, (0.25 - h * h) / 3.0, 0.0, 1.0 / 12.0 - h * h])

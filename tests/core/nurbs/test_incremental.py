@@ -307,7 +307,9 @@ def test_the_estimate_of_a_followed_rational_body_holds(spread):
 
 
 def test_rewritten_input_arrays_change_no_patch():
-    """Else the body that is followed would see no difference, and a patch whose weights were steady would stay so."""
+    """Else the body that is followed would see no difference, and a patch whose weights were steady
+    would stay so.
+    """
     spaces = clamped_space(2), clamped_space(2)
     nets = [
         np.array([[corners[0], corners[3]], [corners[1], corners[2]]])

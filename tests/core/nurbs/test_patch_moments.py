@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of patches against rational arithmetic and closed forms; estimates against finer rules."""
+"""Moments of patches against rational arithmetic and closed forms; estimates against finer
+rules.
+"""
 
 import numpy as np
 import pytest
@@ -33,9 +35,10 @@ def random_patch(rng, spaces, weights=None):
 
 
 def z_flux_difference(patch, exponents):
-    """Return the flux of the cone from the origin over the rim that completes the z-flux of the patch. The radial
-    flux belongs to the patch alone, and both agree for a closed body; the rim's cones are measured exactly as
-    patches too."""
+    """Return the flux of the cone from the origin over the rim that completes the z-flux of the
+    patch. The radial flux belongs to the patch alone, and both agree for a closed body; the rim's
+    cones are measured exactly as patches too.
+    """
     total = flux_moment(patch, exponents)
     for axis, end, forward in ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False)):
         curve = patch.side(axis, end)
@@ -201,7 +204,9 @@ def test_area_estimate_of_spheres_and_tori_holds():
 
 
 def test_area_estimate_of_a_folded_patch_holds():
-    """A line that runs forth and back, dragged aside: its length, between its turns, is the area."""
+    """A line that runs forth and back, dragged aside: its length, between its turns, is the
+    area.
+    """
     for third in (
         0.4,
         -0.1,
@@ -397,7 +402,9 @@ def test_the_slope_of_the_area_is_the_same_far_away(rational):
     "last, counts", [(-2.0, True), (-1e-8, True), (-1e-10, False), (2.0, False)]
 )
 def test_area_between_points_of_a_turning_patch_counts(swapped, last, counts, size):
-    """The second of three cells turns over along one direction, between two points; at a pole all is rounding."""
+    """The second of three cells turns over along one direction, between two points; at a pole all
+    is rounding.
+    """
     counts_along = (5, 3)
     nodes, weights = zip(*(gauss_legendre_with_ends(points) for points in counts_along))
     height = np.ones((7, 3, 5))

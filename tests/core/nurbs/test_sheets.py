@@ -31,7 +31,9 @@ SHEETS = {
 @pytest.mark.parametrize("name", SHEETS)
 @pytest.mark.parametrize("place", [0.0, 7.0])
 def test_storage_error_stays_within_a_tight_bound(name, place):
-    """Stretched along each axis by as much, and along all, and a rectangle's control points anyhow."""
+    """Stretched along each axis by as much, and along all, and a rectangle's control points
+    anyhow.
+    """
     patch, inner, outer = SHEETS[name]
     patch = Patch(patch.spaces, patch.points + place, patch.weights)
     sheet, area, _ = measure_sheet([patch], inner, outer, stored=STORED)

@@ -26,8 +26,9 @@ BALL = 4.0 * np.pi / 3.0
 
 
 def flat(corners, orders=(2, 2), inner=((), ())):
-    """A bilinear patch over four corners (00, 10, 11, 01), of higher order and with more knots if asked: its control
-    points are at the Greville abscissae, so that its parameters stay even."""
+    """A bilinear patch over four corners (00, 10, 11, 01), of higher order and with more knots if
+    asked: its control points are at the Greville abscissae, so that its parameters stay even.
+    """
     spaces = tuple(clamped_space(order, knots) for order, knots in zip(orders, inner))
     steps = [
         np.array(
@@ -143,7 +144,9 @@ def test_the_cap_of_a_flat_rim_is_exact_whatever_the_rims_shape():
 @pytest.mark.parametrize("shift", [0.0, 0.1])
 @pytest.mark.parametrize("crossing", [True, False])
 def test_self_crossing_rims_are_reported(crossing, shift):
-    """A prism over a lying eight that crosses itself in a corner or beside it, and over two touching lobes."""
+    """A prism over a lying eight that crosses itself in a corner or beside it, and over two
+    touching lobes.
+    """
     t = np.linspace(0.0, 2.0 * np.pi, 33) + shift
     x = np.sin(t) * (1.0 + 0.5 * (np.sin(t) > 0.0))
     y = np.sin(t) * np.cos(t) if crossing else np.abs(np.sin(t)) * np.cos(t)
@@ -263,7 +266,9 @@ def test_a_part_faces_as_most_of_its_patches_do(turned):
 
 @pytest.mark.parametrize(("side", "slight"), [(1e-3, {"slight": True}), (0.1, {})])
 def test_negligible_finding_is_a_note(side, slight):
-    """Beside a box of 1 by 2 by 3, a small one that is inside out, or has a patch that faces against the others."""
+    """Beside a box of 1 by 2 by 3, a small one that is inside out, or has a patch that faces
+    against the others.
+    """
     small = box((side, side, side), (7.0, -3.0, 2.0))
     inverted = [patch.reverse_orientation() for patch in small]
     misoriented = [small[0], small[1].reverse_orientation(), *small[2:]]
@@ -319,7 +324,9 @@ TOUCHING = {
 @given(seed=seeds)
 @pytest.mark.parametrize("name", TOUCHING)
 def test_touching_bodies_are_measured_in_any_order_of_patches(name, seed):
-    """More than two sides meet there; joined as they came, they made bodies that were flat or open."""
+    """More than two sides meet there; joined as they came, they made bodies that were flat or
+    open.
+    """
     patches, method = TOUCHING[name]
     order = np.random.default_rng(seed).permutation(len(patches))
     found = measure_patches([patches[k] for k in order], order=0)
@@ -563,7 +570,9 @@ def test_all_points_in_one_place_are_refused():
 
 
 def test_tearing_knots_are_refused():
-    """Two strips of one patch, apart: their inner sides are no sides of the patch, and would not be seen to be open."""
+    """Two strips of one patch, apart: their inner sides are no sides of the patch, and would not be
+    seen to be open.
+    """
     space = SplineSpace((0.0, 0.0, 1.0, 1.0, 2.0, 2.0), 2, 4)
     with refused("discontinuous_patch"):
         measure_patches(
@@ -580,7 +589,9 @@ def test_tearing_knots_are_refused():
 
 
 def test_float32_storage_error_comes_near_its_bound():
-    """All control points moved outward: the volume grows by the skin times that, the area as it does on any ball."""
+    """All control points moved outward: the volume grows by the skin times that, the area as it
+    does on any ball.
+    """
     patches, stored = [sphere()], 1e-6
     given = measure_patches(patches, stored=stored)
     farthest = max(float(np.linalg.norm(patch.points, axis=2).max()) for patch in patches)

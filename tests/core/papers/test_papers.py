@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The papers' formulae against each other and against plain integration, in rational arithmetic: zero difference."""
+"""The papers' formulae against each other and against plain integration, in rational arithmetic:
+zero difference.
+"""
 
 import random
 from fractions import Fraction
@@ -36,7 +38,9 @@ def box():
 
 
 def prism():
-    """A concave eight-pointed star prism, sheared and moved off the origin: two concave n-gons and eight quads."""
+    """A concave eight-pointed star prism, sheared and moved off the origin: two concave n-gons and
+    eight quads.
+    """
     n = len(STAR)
     flat = [(F(x), F(y), F(z)) for z in (2, 5) for x, y in STAR]
     points = [(x + z / 3 + 4, y - z / 5 + 1, z + x / 7 - 3) for x, y, z in flat]

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of any order against rational arithmetic, which has no tolerance: the numbers' own bounds, and the promised
-share of the absolute moment. Small blocks make small meshes take the path of large ones."""
+"""Moments of any order against rational arithmetic, which has no tolerance: the numbers' own
+bounds, and the promised share of the absolute moment. Small blocks make small meshes take the path
+of large ones.
+"""
 
 import math
 import tracemalloc
@@ -40,7 +42,9 @@ def path(request, monkeypatch):
 
 
 def octahedron(level=2, noise=0.0, seed=0):
-    """A star-shaped body without triangles across a coordinate plane, its box centered on the origin."""
+    """A star-shaped body without triangles across a coordinate plane, its box centered on the
+    origin.
+    """
     points = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, -1, 0), (0, 0, -1)]
     faces = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
     for _ in range(level):
@@ -331,7 +335,9 @@ def test_overflowing_moments_are_refused():
 
 
 def test_moments_may_be_a_thousand_powers_of_two_large():
-    """At order 17, with 20 factors, the reach may have 50 of them; in a stream 48 more than stated."""
+    """At order 17, with 20 factors, the reach may have 50 of them; in a stream 48 more than
+    stated.
+    """
     points, faces = octahedron()
     points *= 0.75
     for exponent, is_measured in ((50, True), (51, False)):

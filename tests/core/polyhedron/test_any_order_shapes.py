@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments to order 12 against closed forms: the box exactly; round bodies in the limit of finer meshes, whose moments
-come nearer with the square of the step, so that three meshes tell the limit to many more digits.
+"""Moments to order 12 against closed forms: the box exactly; round bodies in the limit of finer
+meshes, whose moments come nearer with the square of the step, so that three meshes tell the limit
+to many more digits.
 
-With G = Γ: A_pq = ∫ cos^p sin^q = 2 G((p+1)/2) G((q+1)/2) / G((p+q+2)/2), and the disc's moments are
-R^(p+q+2) A_pq / (p+q+2), p and q even.
+With G = Γ: A_pq = ∫ cos^p sin^q = 2 G((p+1)/2) G((q+1)/2) / G((p+q+2)/2), and the disc's moments
+are R^(p+q+2) A_pq / (p+q+2), p and q even.
 """
 
 from fractions import Fraction
@@ -93,7 +94,9 @@ def slice_volume(p, q, r, radius=1.0, low=-0.5, high=0.75):
 
 
 def lathe(profile, n):
-    """The body that an outline in the half-plane (radius, z), from the axis to the axis, sweeps in n steps."""
+    """The body that an outline in the half-plane (radius, z), from the axis to the axis, sweeps in
+    n steps.
+    """
     turn = np.arange(n) * (2.0 * np.pi / n)
     rings = [
         np.stack([r * np.cos(turn), r * np.sin(turn), np.full(n, z)], axis=1)

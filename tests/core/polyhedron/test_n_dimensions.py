@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments in n dimensions against closed forms and rational integration, and their bounds against the truth."""
+"""Moments in n dimensions against closed forms and rational integration, and their bounds against
+the truth.
+"""
 
 import math
 from fractions import Fraction
@@ -27,7 +29,9 @@ U = 2.0**-53
 
 
 def unit_simplex(n):
-    """The corners of the simplex 0, e_1 … e_n and its outward facets; on a line the facets' signs."""
+    """The corners of the simplex 0, e_1 … e_n and its outward facets; on a line the facets'
+    signs.
+    """
     points = np.vstack([np.zeros(n), np.eye(n)])
     facets, signs = [], []
     for left_out in range(n + 1):
@@ -106,7 +110,8 @@ def test_facets_of_unit_simplices_match_dirichlet(n):
     truth = []
     for row in multi_indices(n, 12).tolist():
         value = math.prod(map(math.factorial, row)) / math.factorial(sum(row) + n - 1)
-        # The slanted facet, √n larger than those in the coordinate planes, of which x^α sees those with α_i = 0.
+        # The slanted facet, √n larger than those in the coordinate planes, of which x^α sees those
+        # with α_i = 0.
         truth.append(value * (math.sqrt(n) + row.count(0)))
     assert np.abs(found.raw / truth - 1.0).max() < 1e-14
     assert (np.abs(found.raw - truth) <= found.rounding_error + 8 * U * np.array(truth)).all()
@@ -294,7 +299,9 @@ def test_empty_boundary_encloses_nothing():
 
 
 def test_a_body_far_away_is_bounded_as_at_home():
-    """The farther it is, the more its size to the 28th would leave the range of numbers beside that."""
+    """The farther it is, the more its size to the 28th would leave the range of numbers beside
+    that.
+    """
     points, facets, _ = cube(2)
     here, there = (enclosed_moments(points + far, facets, 26) for far in (0.0, 2.0**40))
     assert np.array_equal(here.raw, there.raw) and np.array_equal(

@@ -1,7 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of meshes against rational arithmetic and closed forms. Small blocks make small meshes take the path of large
-ones; the bounds that come with the numbers are the tolerance wherever there is one."""
+"""Moments of meshes against rational arithmetic and closed forms.
+
+Small blocks make small meshes take the path of large ones; the bounds that come with the numbers
+are the tolerance wherever there is one.
+"""
 
 from fractions import Fraction
 from functools import partial
@@ -69,7 +72,9 @@ def assert_within(moments, truth, error=None):
 
 
 def assert_bounds_hold(surface):
-    """The moments of the volume, with and without areas, and of the area are as near to the truth as they say."""
+    """The moments of the volume, with and without areas, and of the area are as near to the truth
+    as they say.
+    """
     triangles = surface.all_triangles()[0]
     volume, area = polyhedron_moments(surface, area_order=3)
     truth = exact.volume_moments(surface.points, triangles, volume.about)
@@ -79,7 +84,9 @@ def assert_bounds_hold(surface):
 
 
 def assert_exact(surface, truth_at_origin, ulps=8):
-    """The moments about the origin equal the closed form to rounding: `ulps` of the largest of their order."""
+    """The moments about the origin equal the closed form to rounding: `ulps` of the largest of
+    their order.
+    """
     moments = polyhedron_moments(surface)[0].about_point(np.zeros(3))
     truth = np.array([float(value) for value in truth_at_origin])
     for order in range(3):
@@ -172,7 +179,9 @@ def test_the_bound_holds_for_slivers(path, seed):
 
 
 def fine_box(n):
-    """Quads of the box from (1, 2, 3) to (3, 5, 8) with n² on each side, n a power of two: points and quads."""
+    """Quads of the box from (1, 2, 3) to (3, 5, 8) with n² on each side, n a power of two: points
+    and quads.
+    """
     i, j = (values.ravel() for values in np.meshgrid(np.arange(n), np.arange(n), indexing="ij"))
     corners = np.stack([[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]])  # (4, 2, n²)
     sides = []
@@ -393,7 +402,9 @@ def cut_alike(points, quads):
 
 
 def test_quads_overflowing_the_rule_are_decided_in_float32():
-    """The products of the normals' components are -3.5e38 and twice 3.3e38: float32 takes their sum for less than 0."""
+    """The products of the normals' components are -3.5e38 and twice 3.3e38: float32 takes their sum
+    for less than 0.
+    """
     first, second = np.array([3.5e38, 3.3e38, 3.3e38]) ** 0.5 * [[1, 1, 1], [-1, 1, 1]]
     edge = np.cross(first, second) / np.linalg.norm(np.cross(first, second))
     length = 4e9
@@ -412,7 +423,9 @@ def test_corners_beyond_float32_are_cut_without_a_warning():
 
 
 def test_quads_on_the_edge_of_the_rule_are_decided_in_float32(path):
-    """Arrow heads with normals at right angles to within rounding: float64 alone would often decide otherwise."""
+    """Arrow heads with normals at right angles to within rounding: float64 alone would often decide
+    otherwise.
+    """
     rng = np.random.default_rng(3)
     count = 300
     a, c = np.array([0.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0])

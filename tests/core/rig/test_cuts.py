@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bones' pieces are closed and add up to the whole; boxes give boxes, a chain of cylinders cylinders."""
+"""Bones' pieces are closed and add up to the whole; boxes give boxes, a chain of cylinders
+cylinders.
+"""
 
 from collections import Counter
 

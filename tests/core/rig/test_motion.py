@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Momenta of moving parts against closed forms: tumbling tops, tucking bodies, floaty jumps and rolling balls."""
+"""Momenta of moving parts against closed forms: tumbling tops, tucking bodies, floaty jumps and
+rolling balls.
+"""
 
 import numpy as np
 import pytest
@@ -55,7 +57,9 @@ def tucking(turns=None, path=FALL):
 
 
 def discrete_momentum(body):
-    """Return (f - 1, 3) angular momenta from differences of particles, six a part, of fine motion."""
+    """Return (f - 1, 3) angular momenta from differences of particles, six a part, of fine
+    motion.
+    """
     values, axes = np.linalg.eigh(body.spreads[0])
     arms = axes * np.sqrt(3.0 * values / body.masses[:, None])[:, None]
     local = np.concatenate([arms, -arms], axis=2)
@@ -127,7 +131,9 @@ def test_floaty_jump_is_unexplained_and_its_impulse_is_told():
 
 
 def recorded_jump(rate, noise, gravity=GRAVITY):
-    """Return a simulated jump of four spheres on springs, spun and shaken, as captured at a rate with noise, in m."""
+    """Return a simulated jump of four spheres on springs, spun and shaken, as captured at a rate
+    with noise, in m.
+    """
     random, fine, seconds = np.random.default_rng(8), 1.0 / 4800.0, 0.7
     masses = np.array([30.0, 15.0, 12.0, 18.0])
     places = np.array([[0.0, 0.0, 1.0], [0.1, 0.0, 1.5], [-0.1, 0.3, 0.7], [0.0, -0.2, 0.4]])

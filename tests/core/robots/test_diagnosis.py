@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each mistake that a robot description may have is made, found, named and repaired; from both sides of each limit."""
+"""Each mistake that a robot description may have is made, found, named and repaired; from both
+sides of each limit.
+"""
 
 from dataclasses import replace
 from itertools import compress, permutations, product
@@ -180,7 +182,9 @@ def said(stated=TRUTH, *references, otherwise=()):
 
 
 def test_two_mistakes_are_both_named():
-    """A wrong center beside another mistake: each has its change, and the second one the inertial of both."""
+    """A wrong center beside another mistake: each has its change, and the second one the inertial
+    of both.
+    """
     for wrong in (CENTER / 1e-2, CENTER * (1, -1, 1), CENTER[[1, 0, 2]]):
         for tensor in (
             INERTIA / 1e-6,

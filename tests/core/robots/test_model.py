@@ -103,7 +103,10 @@ def test_inertials_add_by_the_theorem_of_parallel_axes():
 
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e12])
 def test_principal_axes_reproduce_the_tensor(scale):
-    """Moments that differ by less stay as given. Axes along the link's own make every product exact."""
+    """Moments that differ by less stay as given.
+
+    Axes along the link's own make every product exact.
+    """
     axes, true = np.roll(np.eye(3), 1, axis=1), scale * np.array([0.2, 0.3, 0.4])
     for units, stays in ((6.0, True), (12.0, False)):
         moments = true + [0.0, 0.0, units * np.finfo(float).eps * true[2]]

@@ -84,7 +84,9 @@ def test_moment_within_rounding_is_called_zero(seed, scale):
 
 
 def test_excess_spread_between_axes_is_found():
-    """An octahedron is thinnest along the diagonals, of a third of the variance that it allows along its axes."""
+    """An octahedron is thinnest along the diagonals, of a third of the variance that it allows
+    along its axes.
+    """
     directions, draw = spread_directions(400), np.random.default_rng(2).normal(size=(1000, 3))
     assert directions.shape == (400, 3) and close((directions**2).sum(axis=1), 1.0, 1e-14)
     assert (

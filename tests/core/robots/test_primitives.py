@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The box, the ellipsoid and the capsule of a link have its mass, center and inertia, by closed forms."""
+"""The box, the ellipsoid and the capsule of a link have its mass, center and inertia, by closed
+forms.
+"""
 
 import numpy as np
 import pytest
@@ -19,13 +21,17 @@ SIZES = [(3.0, 2.0, 1.0), (1.0, 1.0, 1.0), (9.0, 8.0, 0.25), (1e-3, 7e-4, 2e-5),
 
 
 def moments_of(size, mass, share):
-    """Principal moments of a box with these sides (1/12) or an ellipsoid with these semi-axes (1/5)."""
+    """Principal moments of a box with these sides (1/12) or an ellipsoid with these semi-axes
+    (1/5).
+    """
     squares = np.square(size)
     return mass * share * (squares.sum() - squares)
 
 
 def capsule_moments(radius, length, mass):
-    """Along the axis, and across: of a cylinder and of two half balls, each about the capsule's center."""
+    """Along the axis, and across: of a cylinder and of two half balls, each about the capsule's
+    center.
+    """
     cylinder, ball = np.pi * radius**2 * length, 4.0 / 3.0 * np.pi * radius**3
     density = mass / (cylinder + ball)
     along = density * (cylinder * radius**2 / 2.0 + ball * 0.4 * radius**2)

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The headers of NumPy's arrays, of each version of the format: how long they may be, and that no more is read."""
+"""The headers of NumPy's arrays, of each version of the format: how long they may be, and that no
+more is read.
+"""
 
 import io
 import zipfile

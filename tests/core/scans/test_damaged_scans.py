@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A damaged scan is refused or gives the numbers of the whole one: every bit flipped, cut everywhere, and overlong.
+"""A damaged scan is refused or gives the numbers of the whole one: every bit flipped, cut
+everywhere, and overlong.
 
-Formats without a checksum are named in UNCHECKED: there a flipped bit of a sample goes unnoticed, a wrong length does
-not.
+Formats without a checksum are named in UNCHECKED: there a flipped bit of a sample goes unnoticed, a
+wrong length does not.
 """
 
 import gzip
@@ -57,7 +58,8 @@ def members(data: bytes) -> bytes:
 
 
 GZ_NRRD = nrrd(VALUES, "spacings: 2 3 4", encoding="gzip")
-# the file that is read, the one that is damaged, what it holds, and from which byte on a checksum holds good
+# the file that is read, the one that is damaged, what it holds, and from which byte on a checksum
+# holds good
 CHECKED = {
     "npz stored": ("a.npz", "a.npz", npz(io.BytesIO(), zipfile.ZIP_STORED, npy()), 0),
     "npz deflated": ("a.npz", "a.npz", npz(io.BytesIO(), zipfile.ZIP_DEFLATED, npy()), 0),

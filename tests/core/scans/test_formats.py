@@ -56,7 +56,8 @@ def test_nrrd_of_every_type(tmp_path, kind, order, encoding):
         "u2": "ushort,unsigned short,unsigned short int,uint16,uint16_t",
         "i4": "int,signed int,int32,int32_t",
         "u4": "uint,unsigned int,uint32,uint32_t",
-        "i8": "longlong,long long,long long int,signed long long,signed long long int,int64,int64_t",
+        "i8": "longlong,long long,long long int,signed long long,signed long long "
+        "int,int64,int64_t",
         "u8": "ulonglong,unsigned long long,unsigned long long int,uint64,uint64_t",
         "f4": "float",
         "f8": "double",
@@ -457,7 +458,9 @@ def rotation(text):
 
 
 def directions(text, shown=None):
-    """A header with these directions, and its refusal for their count, or for the one that is shown."""
+    """A header with these directions, and its refusal for their count, or for the one that is
+    shown.
+    """
     wanted = "vectors of three numbers" if shown else "three vectors"
     return nrrd(values(), "space directions: " + text), field(
         "space directions", wanted, shown or text

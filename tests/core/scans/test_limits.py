@@ -14,9 +14,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from body_moments.core.files.limits import Limits
 from body_moments.core.scans.formats import read_scan
 from body_moments.core.scans.numpy_files import read_raw
-from body_moments.core.scans.scan_files import Limits
 from body_moments.core.verdict.finding import FileError, MeasureError
 from body_moments.tests.core.scan_files import nifti, nrrd, written
 
@@ -168,7 +168,9 @@ FORMS = {"arrays": "a.npz"}
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_the_time_to_read_is_proportional_to_the_bytes(tmp_path, name):
-    """A hundred times the bytes may take three hundred times as long; quadratic work takes ten thousand times."""
+    """A hundred times the bytes may take three hundred times as long; quadratic work takes ten
+    thousand times.
+    """
     limits = Limits(entries=10**6, header_bytes=1 << 30)
     paths = [
         written(tmp_path / (str(n) + FORMS.get(name, "a.nrrd")), HOSTILE[name](n))

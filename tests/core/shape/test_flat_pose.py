@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Flat shapes: their Zernike moments by quadrature, the turn between two of them, and symmetries in any plane."""
+"""Flat shapes: their Zernike moments by quadrature, the turn between two of them, and symmetries in
+any plane.
+"""
 
 import numpy as np
 import pytest

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One signature for a shape however it lies, whatever its size and faces; mirror images told from copies."""
+"""One signature for a shape however it lies, whatever its size and faces; mirror images told from
+copies.
+"""
 
 import json
 from dataclasses import replace
@@ -212,8 +214,9 @@ def test_flat_record_restores_the_signature_to_order_20():
 @pytest.mark.parametrize("scale", [1e-4, 1.0, 30.0])
 @pytest.mark.parametrize("is_mirrored", [False, True])
 def test_flat_invariants_are_products_of_complex_moments(turn, scale, is_mirrored):
-    """c_pq = E[z^p conj(z)^q] of z about the centroid by the radius of gyration; of two of them with one p - q, and of
-    three, one of which has the p - q of both others."""
+    """c_pq = E[z^p conj(z)^q] of z about the centroid by the radius of gyration; of two of them
+    with one p - q, and of three, one of which has the p - q of both others.
+    """
     corners = np.array([0.0, 3.0 + 0.25j, 2.5 + 1.0j, 1.0 + 1.0j, 1.25 + 2.5j, 2.0j])
     shares, weights = triangle_rule(8)
     pieces = [corners[[0, k, k + 1]] for k in range(1, 5)]

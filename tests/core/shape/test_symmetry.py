@@ -190,7 +190,9 @@ def test_ball_of_facets_is_round_within_a_tolerance(axis):
 
 
 def test_geometry_rules_out_symmetry_of_moments_alone():
-    """A box with small dents that spoil all symmetry by less than the noise of moments, and more than the tolerance."""
+    """A box with small dents that spoil all symmetry by less than the noise of moments, and more
+    than the tolerance.
+    """
     part = shapes.refined(bodies.box((0, 0, 0), (3, 2, 1)))
     points = part[0].copy()
     points[8:] += np.random.default_rng(0).normal(size=(12, 3)) * 1e-6

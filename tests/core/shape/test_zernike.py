@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solid harmonics, Zernike moments and radial power against closed forms of balls, and by two ways of the same body."""
+"""Solid harmonics, Zernike moments and radial power against closed forms of balls, and by two ways
+of the same body.
+"""
 
 from fractions import Fraction
 from math import gamma, pi, sqrt
@@ -78,7 +80,9 @@ def test_a_point_shows_the_addition_theorem():
 
 
 def test_three_points_couple_to_their_spanned_scalar():
-    """(1 1 1) of three vectors is their determinant, by a known factor, and changes its sign in a mirror."""
+    """(1 1 1) of three vectors is their determinant, by a known factor, and changes its sign in a
+    mirror.
+    """
     vectors = np.random.default_rng(1).normal(size=(3, 3))
     ones = [harmonic_moments(np.prod(v ** monomials(1), axis=1), 1)[1, 1] for v in vectors]
     wanted = (3 / (4 * pi)) ** 1.5 / sqrt(6) * np.linalg.det(vectors)
@@ -105,7 +109,9 @@ def test_moments_and_quadrature_agree_to_the_reported_loss(part):
 
 
 def test_quadrature_continues_beyond_the_moments():
-    """Order 40 of an octahedron: the same turned, and of ever finer faces; and Parseval's sum is never passed."""
+    """Order 40 of an octahedron: the same turned, and of ever finer faces; and Parseval's sum is
+    never passed.
+    """
     body, _ = in_ball(bodies.sphere(0))
     first = zernike_quadrature(*body, 40)
     turned = zernike_quadrature(*bodies.moved(body, bodies.rotation(1)), 40)

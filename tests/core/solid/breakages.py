@@ -259,8 +259,10 @@ def label(result):
 
 
 def trial(seed):
-    """One body, broken and placed at random: the breakage, its label, and how far its volume is from the true one, as a
-    share of that, 0 within what rounding and storing the coordinates explain; None where no volume is true."""
+    """One body, broken and placed at random: the breakage, its label, and how far its volume is
+    from the true one, as a share of that, 0 within what rounding and storing the coordinates
+    explain; None where no volume is true.
+    """
     rng = np.random.default_rng(seed)
     breakage = BREAKAGES[seed % len(BREAKAGES)]
     (points, triangles), true = breakage(rng)

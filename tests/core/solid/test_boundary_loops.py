@@ -79,7 +79,8 @@ def test_edges_running_back_along_an_edge_enclose_no_area():
         loops = loops_of(points, sides, directed)
         assert len(loops.cone_area) == 4 and loops.complete.all()
         assert np.all(loops.cone_area < 1e-15)
-    # If the shorter ones run the same way, the loops are the same, and the links say that the two sides disagree.
+    # If the shorter ones run the same way, the loops are the same, and the links say that the two
+    # sides disagree.
     flipped = [side if k % 4 == 0 else side[::-1] for k, side in enumerate(sides)]
     assert len(loops_of(points, flipped, directed=False).cone_area) == 4
     start, stop = np.array(flipped).T
@@ -112,7 +113,9 @@ def test_hundreds_of_sides_at_one_vertex_are_joined_in_pairs():
 
 @pytest.mark.parametrize("scale", [1e-160, 1e-100, 1.0, 1e40])
 def test_rim_without_area_has_no_plane_and_a_curved_cap(scale):
-    """Two squares that run around oppositely, and so small ones that their area's square is no number."""
+    """Two squares that run around oppositely, and so small ones that their area's square is no
+    number.
+    """
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
     bow = np.array([[0, 0, 0], [1, 1, 0], [1, 0, 0], [0, 1, 0]], float)
     with np.errstate(under="ignore"):

@@ -52,7 +52,8 @@ def test_part_in_a_cavity_is_in_no_material(way):
     assert not len(compared((hollow, places(way)), (cube(0.25), places(np.eye(3)))).nested)
     in_wall = compared((hollow, places(way)), (cube(0.125), places((np.eye(3), (0.75, 0.0, 0.0)))))
     assert in_wall.nested.tolist() == [[1, 0]]
-    # a body around both: the outer shell of the hollow one is in it, a cavity is none of what counts twice
+    # a body around both: the outer shell of the hollow one is in it, a cavity is none of what
+    # counts twice
     around = compared((cube(3.0), places(way)), (hollow, places(way)))
     assert around.nested.tolist() == [[1, 0]] and not len(around.overlapping)
 

@@ -269,7 +269,9 @@ def test_boxes_welded_along_a_face_or_an_edge_are_closed():
 )
 @pytest.mark.parametrize("turn", range(3))
 def test_copied_face_with_mostly_odd_edges_is_left_out(others, is_left_out, turn):
-    """Other faces stand on its edges like the pages of a book; without any, the copy does not matter."""
+    """Other faces stand on its edges like the pages of a book; without any, the copy does not
+    matter.
+    """
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
     points, faces = [*corners], [[0, 1, 2]]
     for edge, count in enumerate(np.roll(others, turn)):
@@ -379,7 +381,9 @@ def test_flat_mesh_encloses_nothing(part, dtype):
 
 @pytest.mark.parametrize("corners", [3, 4, 5, 8])
 def test_two_sided_polygon_turned_in_float32_is_flat(corners):
-    """Front and back are cut along different diagonals; alone, and beside a box as another component."""
+    """Front and back are cut along different diagonals; alone, and beside a box as another
+    component.
+    """
     angle, turns = 2.0 * np.pi * np.arange(corners) / corners, np.arange(1, corners - 1)
     front = np.stack([0 * turns, turns, turns + 1], axis=1)
     polygon = (
@@ -500,7 +504,9 @@ def test_a_box_with_one_side_subdivided_is_closed_in_space(spin, dtype, rel, fli
 
 
 def test_the_sides_of_a_box_may_all_be_cut_differently():
-    """Each side is a grid of its own: along every edge two rows of vertices meet that have only the ends in common."""
+    """Each side is a grid of its own: along every edge two rows of vertices meet that have only the
+    ends in common.
+    """
     turns = [
         np.eye(3),
         [[1, 0, 0], [0, -1, 0], [0, 0, -1]],
@@ -632,7 +638,8 @@ def test_spread_of_polygons_is_reported():
     assert measure_solid(mesh(*prism([1.0] * 6))).health.volume_spread == 0.0
     raised = measure_solid(mesh(*prism([1, 1, 1, 1.3, 1, 1])))
     assert raised.health.non_planar_faces == 1
-    # The raised corner is in two of the tetrahedra between the fans, over the triangles 0, 1, 2 and 0, 1, 4.
+    # The raised corner is in two of the tetrahedra between the fans, over the triangles 0, 1, 2 and
+    # 0, 1, 4.
     assert close(
         raised.health.volume_spread, 0.3 * (np.sqrt(3) / 4 + np.sqrt(3) / 2) / 3, rel=1e-14
     )
@@ -727,7 +734,9 @@ BREAKAGES.append("inverted")
 
 
 def broken(seed):
-    """A convex body, broken in a few ways: (points, triangles), its true volume, and what was done."""
+    """A convex body, broken in a few ways: (points, triangles), its true volume, and what was
+    done.
+    """
     rng = np.random.default_rng(seed)
     points, triangles = sphere(int(rng.integers(0, 4))) if rng.random() < 0.7 else CUBE
     points = (points * rng.uniform(0.3, 2, 3)) @ rotation(seed).T * 10.0 ** rng.integers(-6, 6)
@@ -897,7 +906,9 @@ REGION = np.array([[0, 1, 3], [3, 2, 0], [2, 3, 4], [4, 5, 2], [0, 2, 5]])
 
 
 def letter(outline, height=0.5):
-    """An extruded outline as Blender makes it of a glyph: walls along the outline, caps over the region."""
+    """An extruded outline as Blender makes it of a glyph: walls along the outline, caps over the
+    region.
+    """
     count = len(outline)
     points = np.concatenate(
         [np.c_[outline, np.zeros(count)], np.c_[outline, np.full(count, height)]]

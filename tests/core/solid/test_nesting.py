@@ -232,7 +232,9 @@ def test_nested_shells_are_turned_outside_any_material(signs, turned, nested, ca
 
 @pytest.mark.parametrize("turn", range(6))
 def test_caps_in_one_plane_do_not_pierce_each_other(turn):
-    """A pipe without end faces: the caps of its outer and inner walls lie in the same planes, to float32."""
+    """A pipe without end faces: the caps of its outer and inner walls lie in the same planes, to
+    float32.
+    """
     count = np.array([1000, 12])
     outer, inner = (np.arange(n) for n in count)
     loops = []
@@ -269,7 +271,9 @@ def test_caps_in_one_plane_do_not_pierce_each_other(turn):
 
 @pytest.mark.parametrize("scale", [1e-4, 1.0, 1e4])
 def test_a_copy_is_one_though_its_volume_is_rounded_otherwise(scale):
-    """Its triangles are added up in another order; which orders round otherwise depends on the processor."""
+    """Its triangles are added up in another order; which orders round otherwise depends on the
+    processor.
+    """
     points, triangles = moved(sphere(2), scale * rotation(2))
     orders = [(points, np.random.default_rng(seed).permutation(triangles)) for seed in range(64)]
     _, shells = shells_of(*orders)
@@ -327,7 +331,9 @@ def test_rod_in_a_drilled_hole_breaks_through_nothing():
 @holds(30)
 @given(seed=seeds)
 def test_cavities_take_material_away_as_brackets_close(seed):
-    """Components one in another, from the outermost inward: each cavity is one of the innermost that has none yet."""
+    """Components one in another, from the outermost inward: each cavity is one of the innermost
+    that has none yet.
+    """
     rng = np.random.default_rng(seed)
     count, open_ones = 12, []
     cavity, host = np.zeros(count, bool), np.arange(count)

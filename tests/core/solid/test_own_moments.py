@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A measured body has moments of its own to any order; faces that do not close have none by accident."""
+"""A measured body has moments of its own to any order; faces that do not close have none by
+accident.
+"""
 
 import pytest
 from body_moments.core import MassProperties, measure_solid, polyhedron_moments
@@ -78,7 +80,9 @@ def test_nearly_flat_body_has_no_moments_within_bounds(order):
 )
 @pytest.mark.parametrize("order", [0, 3, 8])
 def test_open_faces_are_refused_unless_intended(part, order):
-    """The README's example measured a repaired copy and took the moments of the input: 0.333 beside a mass of 1."""
+    """The README's example measured a repaired copy and took the moments of the input: 0.333 beside
+    a mass of 1.
+    """
     with refused("boundary_open"):
         polyhedron_moments(surface(part), order)
     with refused("boundary_open"):

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shells that go through themselves are found and weighed; bodies that do not are proved, or raise no alarm."""
+"""Shells that go through themselves are found and weighed; bodies that do not are proved, or raise
+no alarm.
+"""
 
 from dataclasses import replace
 
@@ -67,7 +69,9 @@ def pushed(far, level=2):
 
 
 def twice_around(count=24, rings=12):
-    """A closed surface that goes around its center twice, all its faces outward: two balls, branched at the poles."""
+    """A closed surface that goes around its center twice, all its faces outward: two balls,
+    branched at the poles.
+    """
     longitude = np.arange(2 * count) * 2.0 * np.pi / count
     latitude = np.linspace(-np.pi / 2.0, np.pi / 2.0, rings + 1)[1:-1]
     points = [
@@ -116,8 +120,11 @@ def test_convex_bodies_are_proved(part, scale, turned):
 
 
 def hourglass(heavy):
-    """A prism on two wedges that meet in a narrow waist. All of its sides are seen from the middle of its box there;
-    from its center, in the wider one of the wedges, those of the other are seen from behind."""
+    """A prism on two wedges that meet in a narrow waist.
+
+    All of its sides are seen from the middle of its box there; from its center, in the wider one of
+    the wedges, those of the other are seen from behind.
+    """
     outline = [(-3.0, -heavy), (0.0, -0.05), (3.0, -1.5), (3.0, 1.5), (0.0, 0.05), (-3.0, heavy)]
     points = np.array([(x, y, z) for z in (-1.0, 1.0) for x, y in outline])
     lids = [(0, 5, 4, 1), (1, 4, 3, 2), (6, 7, 10, 11), (7, 8, 9, 10)]
@@ -132,7 +139,9 @@ def hourglass(heavy):
 @pytest.mark.parametrize("first", [False, True])
 @pytest.mark.parametrize("turn, others", [(0, 0), (0, 2), (2, 0), (2, 2)])
 def test_one_reversed_triangle_leaves_a_body_unproved(tip, height, agree, first, turn, others):
-    """A cube with a corner that leans over a side next to it, for each face and each half of a quad."""
+    """A cube with a corner that leans over a side next to it, for each face and each half of a
+    quad.
+    """
     points = 2.0 * CORNERS - 1.0
     points[4, 2], points[7] = height, tip
     quads = np.array(

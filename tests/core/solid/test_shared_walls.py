@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Welded bodies that touch, each with its own layer of the wall between them: whichever of them are inside out."""
+"""Welded bodies that touch, each with its own layer of the wall between them: whichever of them are
+inside out.
+"""
 
 import itertools
 

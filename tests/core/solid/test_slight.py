@@ -69,7 +69,9 @@ def test_inverted_body_is_never_negligible():
     "height, level", [(0.25, Severity.WARNING), (8e-4, Severity.WARNING), (4e-4, Severity.NOTE)]
 )
 def test_spread_of_diagonals_is_a_share_of_the_volume(size, height, level):
-    """A cube with one raised corner: the diagonals of its side differ by a pyramid of a sixth of that."""
+    """A cube with one raised corner: the diagonals of its side differ by a pyramid of a sixth of
+    that.
+    """
     points = np.array(CORNERS, float)
     raised = (points == [1.0, 1.0, 1.0]).all(axis=1)
     assert raised.sum() == 1
@@ -82,7 +84,9 @@ def test_spread_of_diagonals_is_a_share_of_the_volume(size, height, level):
 
 @pytest.mark.parametrize("count, level", [(4, Severity.WARNING), (24, Severity.NOTE)])
 def test_spread_over_many_faces_of_a_smooth_body_is_a_note(count, level):
-    """A torus of twisted quads; a few that are bent as much, or many that are bent more, are a warning."""
+    """A torus of twisted quads; a few that are bent as much, or many that are bent more, are a
+    warning.
+    """
     u, v = np.meshgrid(*2 * [np.arange(count) * 2.0 * np.pi / count], indexing="ij")
     radius = 2.0 + np.cos(u + v)
     points = np.stack([radius * np.cos(u), radius * np.sin(u), np.sin(u + v)], axis=-1).reshape(

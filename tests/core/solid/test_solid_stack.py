@@ -107,7 +107,9 @@ def body(rng):
 
 
 def agree(one, other):
-    """Compare nested values; floats to a relative 1e-9, because a stack may add in another order."""
+    """Compare nested values; floats to a relative 1e-9, because a stack may add in another
+    order.
+    """
     if isinstance(one, dict):
         return one.keys() == other.keys() and all(
             agree(value, other[key]) for key, value in one.items()

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Derivatives of first moments by vertices: identities, rational arithmetic, and differences of measurements."""
+"""Derivatives of first moments by vertices: identities, rational arithmetic, and differences of
+measurements.
+"""
 
 from fractions import Fraction
 

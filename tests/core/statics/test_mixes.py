@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volume and center of mixed shapes: polynomials, exact inside the range of the samples and beyond it."""
+"""Volume and center of mixed shapes: polynomials, exact inside the range of the samples and beyond
+it.
+"""
 
 from dataclasses import replace
 
@@ -14,7 +16,9 @@ from tests.close import close
 
 
 def body(seed=1):
-    """A lumpy closed surface of 48 triangles away from the origin, and offsets that change all of it."""
+    """A lumpy closed surface of 48 triangles away from the origin, and offsets that change all of
+    it.
+    """
     random = np.random.default_rng(seed)
     grid = np.array(
         [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Resting poses against known answers: dice, boxes, cylinders, cones, L prisms; wherever and however large they are."""
+"""Resting poses against known answers: dice, boxes, cylinders, cones, L prisms; wherever and
+however large they are.
+"""
 
 from itertools import product
 from math import acos, atan, cos, hypot, pi, sin, sqrt, tan
@@ -219,7 +221,9 @@ def test_a_center_above_an_edge_is_not_stable():
 
 
 def test_a_round_side_is_no_face():
-    """A dome on a base: its facets are smaller than the tolerance, and together they are not flat."""
+    """A dome on a base: its facets are smaller than the tolerance, and together they are not
+    flat.
+    """
     angles, heights = np.meshgrid(2.0 * pi / 160 * np.arange(160), np.linspace(0.0, 1.0, 60)[:-1])
     radius = np.sqrt(1.0 - heights**2)
     dome = np.stack([radius * np.cos(angles), radius * np.sin(angles), heights], axis=-1).reshape(

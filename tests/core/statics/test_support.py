@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Support polygons: boxes, wedges and tables that stand, lean and fall, under gravity along any direction."""
+"""Support polygons: boxes, wedges and tables that stand, lean and fall, under gravity along any
+direction.
+"""
 
 from itertools import product
 from math import atan2, hypot, pi

@@ -1,16 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Words of .stl and .ply files in text that importers would misread, and the lines that they stand on."""
+"""Words of .stl and .ply files in text that importers would misread, and the lines that they stand
+on.
+"""
 
 import time
 
 import pytest
+from body_moments.core.files.number_text import parse_number, parse_numbers, parse_whole
+from body_moments.core.files.text_fields import (
+    COUNT,
+    NUMBER,
+    VERTEX,
+    WHOLE,
+)
 from body_moments.core.streams.measure import open_mesh_file
 from body_moments.core.streams.ply import check_ply_text
 from body_moments.core.streams.ply_rows import parse_header
 from body_moments.core.streams.stl import check_stl_text
-from body_moments.core.streams.text_fields import COUNT, NUMBER, VERTEX, WHOLE
-from body_moments.core.verdict.number_text import parse_number, parse_numbers, parse_whole
 
 from tests.core.findings import refused
 
@@ -64,7 +71,10 @@ NUMBERS = [
 ]
 NO_WHOLES = ["1.0", "1e0", "x", "1_0", "٣", "--1", "1/1", "0x1", ""]
 
-FACET = "facet normal {} {} {}\n outer loop\n  vertex {} {} {}\n  vertex {} {} {}\n  vertex {} {} {}\n endloop\nendfacet\n"
+FACET = (
+    "facet normal {} {} {}\n outer loop\n  vertex {} {} {}\n  vertex {} {} {}\n  vertex {} {} {}\n "
+    "endloop\nendfacet\n"
+)
 FIELDS = [*"001", *"000", *"100", *"010"]
 LINES = [2, 2, 2, 4, 4, 4, 5, 5, 5, 6, 6, 6]
 HEADER = """ply
@@ -198,7 +208,8 @@ def ply(number, place, word):
     return HEADER + "\n".join(map(" ".join, rows)) + "\n"
 
 
-# Row, field and whether it is a number that places a point ("point"), another one, a whole one, or an index.
+# Row, field and whether it is a number that places a point ("point"), another one, a whole one, or
+# an index.
 PLY_FIELDS = [
     (0, 0, "number"),
     (0, 1, "whole"),

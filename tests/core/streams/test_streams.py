@@ -359,7 +359,9 @@ def test_coordinates_beyond_float32(tmp_path, order):
 
 @pytest.mark.parametrize("size", [1e-13, 6e12])
 def test_a_body_of_any_size_has_moments_of_twentieth_order(tmp_path, size):
-    """Moments are computed at the body's own scale; in meters they would under- or overflow on the way."""
+    """Moments are computed at the body's own scale; in meters they would under- or overflow on the
+    way.
+    """
     points, faces = box((-1, -1, -1), (1, 1, 1))
     found = measured(tmp_path, "a.ply", ply(points * size, faces, kind="f8"), 20)
     for powers in ((0, 0, 0), (20, 0, 0), (4, 6, 10)):

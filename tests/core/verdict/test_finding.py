@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings are data; their codes are declared beside the code that makes them, with severity and sentence."""
+"""Findings are data; their codes are declared beside the code that makes them, with severity and
+sentence.
+"""
 
 import ast
 import json
@@ -120,7 +122,8 @@ def test_declarations_need_no_numpy_and_stand_in_the_catalog():
     assert {place for place in found if not place.startswith("tests")} == set(catalog.PACKAGES)
     code = (
         "import importlib, importlib.util, sys\n"
-        "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + '/__init__.py', "
+        "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + "
+        "'/__init__.py', "
         "submodule_search_locations=[sys.argv[1]])\n"
         "sys.modules['body_moments'] = module = importlib.util.module_from_spec(spec)\n"
         "spec.loader.exec_module(module)\n"

@@ -12,7 +12,9 @@ from body_moments.core.wall.walls import first_positive_root
 
 
 def exact_root(a, b, c, error=(0, 0, 0)):
-    """Return the first positive root of a + b s + c s² less an error, in fractions to 60 digits, or None."""
+    """Return the first positive root of a + b s + c s² less an error, in fractions to 60 digits, or
+    None.
+    """
     a, b, c = (Fraction(float(x)) - Fraction(float(e)) for x, e in zip((a, b, c), error))
     if a <= 0:
         return Fraction(0)
@@ -29,7 +31,9 @@ def exact_root(a, b, c, error=(0, 0, 0)):
 @pytest.mark.parametrize("scale", [1.0, 2.0**-40, 2.0**40])
 @pytest.mark.parametrize("unit", [1.0, 2.0**-12, 2.0**12])
 def test_a_prism_is_good_up_to_the_first_root_and_no_farther(scale, unit):
-    """Real roots of either sign, of sizes far apart; none; double ones, which rounding may have split."""
+    """Real roots of either sign, of sizes far apart; none; double ones, which rounding may have
+    split.
+    """
     roots = [
         (3.0, 7.0),
         (3.0, -7.0),

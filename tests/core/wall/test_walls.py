@@ -536,9 +536,10 @@ def test_thin_walls_of_facing_skins_meet_at_their_thickness(gap, meet):
     [(True, 0.0109, True), (True, 0.0112, False), (False, 0.0099, True), (False, 0.0102, False)],
 )
 def test_tip_of_a_spike_piercing_another_side_is_found(faces_down, gap, meet, inverted):
-    """A sheet with a spike that points at another sheet: while each side moves by 0.001 its tip goes ahead by ten times
-    as much, to where the other sheet faces it, or to its back, which stays. Hardly a point within the wall is in what
-    pierces."""
+    """A sheet with a spike that points at another sheet: while each side moves by 0.001 its tip
+    goes ahead by ten times as much, to where the other sheet faces it, or to its back, which stays.
+    Hardly a point within the wall is in what pierces.
+    """
     x, y = 0.3, 0.1
     lower = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
     base = [

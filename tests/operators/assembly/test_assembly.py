@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Assemblies at work: what is stored and driven, when it is out of date, its tree, its table and its snaps."""
+"""Assemblies at work: what is stored and driven, when it is out of date, its tree, its table and
+its snaps.
+"""
 
 import csv
 
@@ -215,7 +217,9 @@ def test_children_stay_in_place_at_any_size(size):
 @pytest.mark.parametrize("share", [0.8, 1.25])
 @pytest.mark.parametrize("at", [0.3, 10.0])
 def test_children_that_would_move_keep_their_empty(at, share, reported):
-    """Cubes a unit away from their center, one of which follows a little of the way of the empty, which is a unit."""
+    """Cubes a unit away from their center, one of which follows a little of the way of the empty,
+    which is a unit.
+    """
     root = empty(bpy.context.scene.collection, "Root", (at, 1, 0))
     children = [box(bpy.context.scene.collection, (0.5, 0.5, 0.5), (at + x, 0, 0)) for x in (-1, 1)]
     bpy.context.view_layer.update()

@@ -19,8 +19,10 @@ from tests.core.bodies import box as cube
 
 pytestmark = pytest.mark.usefixtures("scene")
 BOX = (
-    '<robot name="r"><link name="a"><inertial><mass value="8000"/><inertia ixx="{0}" iyy="{0}" izz="{0}" ixy="0" '
-    'ixz="0" iyz="0"/></inertial><collision><geometry><box size="2 2 2"/></geometry></collision></link></robot>'
+    '<robot name="r"><link name="a"><inertial><mass value="8000"/><inertia ixx="{0}" iyy="{0}" '
+    'izz="{0}" ixy="0" '
+    'ixz="0" iyz="0"/></inertial><collision><geometry><box size="2 2 '
+    '2"/></geometry></collision></link></robot>'
 )
 
 

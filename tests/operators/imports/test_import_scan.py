@@ -152,7 +152,10 @@ def test_outside_samples_need_permission(tmp_path):
     (tmp_path / "headers").mkdir()
     values = samples("f4", 1)
     (tmp_path / "a.raw").write_bytes(values.tobytes(order="F"))
-    header = "NRRD0004\ntype: float\ndimension: 3\nsizes: {} {} {}\nendian: little\nencoding: raw\nspacings: 1 1 1\n"
+    header = (
+        "NRRD0004\ntype: float\ndimension: 3\nsizes: {} {} {}\nendian: little\nencoding: "
+        "raw\nspacings: 1 1 1\n"
+    )
     path = tmp_path / "headers" / "a.nhdr"
     path.write_text(header.format(*values.shape) + "data file: ../a.raw\n")
     with pytest.raises(RuntimeError, match="turn on Allow Outside"):

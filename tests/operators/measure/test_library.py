@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure Library: the files of a folder in other processes, a report, and the metadata of assets."""
+"""Measure Library: the files of a folder in other processes, a report, and the metadata of
+assets.
+"""
 
 import json
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of meshes, curves and texts against closed forms, their refusals, and when they are out of date."""
+"""Sections of meshes, curves and texts against closed forms, their refusals, and when they are out
+of date.
+"""
 
 import math
 

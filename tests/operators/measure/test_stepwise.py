@@ -23,7 +23,9 @@ TIMER, ESC, MOUSE = (SimpleNamespace(type=name) for name in ("TIMER", "ESC", "MO
 
 
 def stand_in(cls, report, **settings):
-    """Return an object with the functions and default settings of an operator class; `report` gets its reports."""
+    """Return an object with the functions and default settings of an operator class; `report` gets
+    its reports.
+    """
     functions = {
         name: value for name, value in vars(cls).items() if name not in ("__dict__", "__weakref__")
     }
@@ -77,7 +79,9 @@ def one_step_at_a_time(monkeypatch):
 
 
 def pressed(cls, **settings):
-    """An operator as its button starts it, without Blender's own part, and the window that it has."""
+    """An operator as its button starts it, without Blender's own part, and the window that it
+    has.
+    """
     reports = []
     operator = stand_in(cls, lambda kind, text: reports.append((*kind, text)), **settings)
     operator.reports = reports

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Record a jump of a figure of boxes in MuJoCo as jump.bvh: servos crouch, push off, tuck, and land.
+"""Record a jump of a figure of boxes in MuJoCo as jump.bvh: servos crouch, push off, tuck, and
+land.
 
-Run it in the robots' environment: `python tests/operators/rig/simulate_jump.py`. test_motion.py builds the same boxes
-around the imported bones, so that the parts have the masses of the simulated ones.
+Run it in the robots' environment: `python tests/operators/rig/simulate_jump.py`. test_motion.py
+builds the same boxes around the imported bones, so that the parts have the masses of the simulated
+ones.
 """
 
 from pathlib import Path
@@ -11,7 +13,9 @@ from pathlib import Path
 import numpy as np
 
 DENSITY, RATE, SECONDS = 1000.0, 60, 1.5
-TRUNK = (  # name, the part above, the joint in the world, the box's half extents, and its center from the joint
+# name, the part above, the joint in the world, the box's half extents, and its center from the
+# joint
+TRUNK = (
     ("hips", "", (0, 0, 0.95), (0.16, 0.10, 0.10), (0, 0, 0.03)),
     ("spine", "hips", (0, 0, 1.08), (0.17, 0.11, 0.20), (0, 0, 0.22)),
     ("head", "spine", (0, 0, 1.52), (0.08, 0.09, 0.12), (0, 0, 0.13)),
@@ -35,7 +39,9 @@ POSES = (  # seconds, and the servos' angles at that time
 
 
 def parts():
-    """Return (name, the part above, joint, half extents, center from the joint) of all parts, those above first."""
+    """Return (name, the part above, joint, half extents, center from the joint) of all parts, those
+    above first.
+    """
     pairs = {limb[0] for limb in LIMBS}
     both = [
         (name + side, above + side if above in pairs else above, (sign * x, y, z), half, center)
@@ -52,7 +58,9 @@ def servo(name):
 
 
 def simulate():
-    """Return the (f, c) values of the recording's channels: the hips' place and turn, and the angle of each joint."""
+    """Return the (f, c) values of the recording's channels: the hips' place and turn, and the angle
+    of each joint.
+    """
     import mujoco
 
     spec = mujoco.MjSpec()

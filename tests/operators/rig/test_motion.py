@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Put on Parabola, Keep Spin, Bake Curves and Trace: keyed figures against independent sums over their bones."""
+"""Put on Parabola, Keep Spin, Bake Curves and Trace: keyed figures against independent sums over
+their bones.
+"""
 
 from pathlib import Path
 
@@ -72,7 +74,9 @@ def keyed(obj):
 
 
 def followed(rig, frames):
-    """Return masses (p,), tensors (p, 3, 3), and (f, p, 4, 4) places of the bones' parts, by their stored results."""
+    """Return masses (p,), tensors (p, 3, 3), and (f, p, 4, 4) places of the bones' parts, by their
+    stored results.
+    """
     bones = [bone for bone in rig.pose.bones if "body_mass" in bone]
     xx, yy, zz, xy, xz, yz = np.array([bone["body_inertia"] for bone in bones]).T
     tensors = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).transpose(2, 0, 1)
@@ -268,7 +272,9 @@ def test_floaty_jump_is_listed_and_its_parabola_is_not(scene):
 
 
 def test_simulated_jump_is_plausible_and_floats_if_slowed(scene):
-    """A recording from MuJoCo, whose boxes are built around the imported bones; slowed, it takes 1.7 times as long."""
+    """A recording from MuJoCo, whose boxes are built around the imported bones; slowed, it takes
+    1.7 times as long.
+    """
     bpy.ops.preferences.addon_enable(module="io_anim_bvh")
     path = str(Path(__file__).with_name("jump.bvh"))
     bpy.ops.import_anim.bvh(filepath=path, axis_forward="Y", axis_up="Z", update_scene_fps=True)
@@ -421,7 +427,9 @@ def test_refusal_keys_nothing(scene, prepare, options):
 
 
 def linked(tmp_path, rig, override):
-    """Save the file, link the character from it into an empty one, and return it, or its override."""
+    """Save the file, link the character from it into an empty one, and return it, or its
+    override.
+    """
     path = str(tmp_path / "jumper.blend")
     bpy.ops.object.mode_set(mode="OBJECT")
     collection = bpy.data.collections.new("Jumper")

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bones of skinned characters: what each part weighs, in rest pose and the bone's rest frame, however it is posed."""
+"""Bones of skinned characters: what each part weighs, in rest pose and the bone's rest frame,
+however it is posed.
+"""
 
 from math import inf
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Show Weight and Balance Pose: margins reached, contacts that stay, refusals that change nothing."""
+"""Show Weight and Balance Pose: margins reached, contacts that stay, refusals that change
+nothing.
+"""
 
 import bpy
 import numpy as np

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colliders as objects: made, named, updated in place, removed; what they do is stored; refusals name the object."""
+"""Colliders as objects: made, named, updated in place, removed; what they do is stored; refusals
+name the object.
+"""
 
 import bpy
 import numpy as np

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Node groups of other files and versions, and rigid bodies of which some cannot be what was asked for."""
+"""Node groups of other files and versions, and rigid bodies of which some cannot be what was asked
+for.
+"""
 
 import bpy
 import numpy as np
@@ -38,7 +40,9 @@ def test_linked_or_older_node_group_is_not_reused(tmp_path):
 
 @pytest.mark.parametrize("frame", ["AXES", "ORIGIN", "KEEP"])
 def test_rigid_body_keeps_material_results_current(frame):
-    """Blender says that its geometry has changed, and there is no digest of what the density was."""
+    """Blender says that its geometry has changed, and there is no digest of what the density
+    was.
+    """
     obj = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.2, 0.1))
     obj.data.materials.append(bpy.data.materials.new("Steel"))
     obj.body_moments.density_from = "MATERIALS"

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The node group for geometry nodes finds the center that the add-on measures, at every frame, without its handlers."""
+"""The node group for geometry nodes finds the center that the add-on measures, at every frame,
+without its handlers.
+"""
 
 import bpy
 import numpy as np

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The buttons beside warnings: each does its remedy in one step, and nothing else; accepted findings are notes."""
+"""The buttons beside warnings: each does its remedy in one step, and nothing else; accepted
+findings are notes.
+"""
 
 import bpy
 import pytest
@@ -44,7 +46,9 @@ def orders(mesh):
 
 
 def test_recalculate_outside_turns_faces_and_keeps_cavity():
-    """Flipped faces of an outer box, all of a second box beside it, and a cavity that is right as it is."""
+    """Flipped faces of an outer box, all of a second box beside it, and a cavity that is right as
+    it is.
+    """
     import bmesh
 
     mesh = boxes(2.0, 1.0, 4.0, reverse=[0, *range(6, 12)])

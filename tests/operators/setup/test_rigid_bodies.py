@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rigid bodies: exact mass, origin and axes in one step; compounds, joints; nothing visible moves."""
+"""Rigid bodies: exact mass, origin and axes in one step; compounds, joints; nothing visible
+moves.
+"""
 
 import bpy
 import numpy as np

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Of the letters and digits of two fonts, moved, turned, scaled, of another resolution and noisy, each is found again.
+"""Of the letters and digits of two fonts, moved, turned, scaled, of another resolution and noisy,
+each is found again.
 
 `python3 tests/project.py soak letters` tries more of them, and noise of 0.1 %.
 """

@@ -40,7 +40,9 @@ def turn(seed, scale=1.0, mirrored=False):
 
 
 def moved_copy(mesh, matrix, name="Copy"):
-    """An object that shows the mesh in place, with the matrix in its vertices and undone by its transform."""
+    """An object that shows the mesh in place, with the matrix in its vertices and undone by its
+    transform.
+    """
     copy = mesh.copy()
     copy.transform(matrix)
     if matrix.determinant() < 0.0:

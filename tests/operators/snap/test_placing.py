@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Snapping: orders of axes, empties that stay as they were, libraries, free axes and rounding of scales."""
+"""Snapping: orders of axes, empties that stay as they were, libraries, free axes and rounding of
+scales.
+"""
 
 import bpy
 import numpy as np

@@ -451,7 +451,9 @@ def test_strict_rule_poses_prism_and_refuses_cube(name):
 @pytest.mark.parametrize("name", [AXES, ALIGN])
 @pytest.mark.parametrize(("side", "answer"), [(0.0228, "CANCELLED"), (0.028, "FINISHED")])
 def test_strict_rule_needs_third_moments_beyond_rounding(name, side, answer, reported):
-    """Of a box with a small one aside, whose third moments are hardly more than rounding may leave."""
+    """Of a box with a small one aside, whose third moments are hardly more than rounding may
+    leave.
+    """
     corners = np.array(list(product((-0.5, 0.5), repeat=3)))
     faces = np.array(
         [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fields of text files: decimal numbers as arrays; refusals, with line and text, of fields that would be misread.
+"""Fields of text files: decimal numbers as arrays; refusals, with line and text, of fields that
+would be misread.
 
-Most lines match a regular expression that allows only short numbers; all others are checked word by word.
+Most lines match a regular expression that allows only short numbers; all others are checked word by
+word.
 """
 
 from __future__ import annotations
@@ -16,14 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError
-from ..verdict.number_text import parse_number, parse_whole
 from .findings import LINE_MISREAD
+from .number_text import parse_number, parse_whole
 
 MAX_FLOAT32 = 3.4028235677973366e38  # larger numbers are infinite in float32
 MAX_TEXT = 60  # letters of a line that are shown
 BLOCK = 1 << 18  # bytes
 MARK = b"\xef\xbb\xbf"  # byte order mark
-# Decimal numbers that are so short that they are below 1e38 without being computed; the same, or NaN.
+# Decimal numbers that are so short that they are below 1e38 without being computed; the same, or
+# NaN.
 SHORT = rb"[+-]?(?:[0-9]{1,8}+(?:\.[0-9]*+)?+|\.[0-9]++)(?:[eE](?:-[0-9]++|\+?0?[0-2]?[0-9]))?+"
 SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
 SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
@@ -52,7 +55,9 @@ def map_file(path: str | Path) -> mmap.mmap:
 
 
 def find_number_fault(word: bytes, places_point: bool) -> Fault | None:
-    """Return the fault of a word that is no number, or None. places_point: it must be finite in float32, too."""
+    """Return the fault of a word that is no number, or None. places_point: it must be finite in
+    float32, too.
+    """
     try:
         value = parse_number(word.decode("utf-8", "replace"))
     except ValueError:
@@ -90,10 +95,12 @@ def refuse_line(data: Data, at: int, fault: Fault) -> NoReturn:
 
 
 def parse_decimals(text: bytes) -> tuple[NDArray[np.float64], NDArray[np.intp], int]:
-    """Return the (n,) decimal numbers of a text, the offsets of their first letters, and the count of exponents.
+    """Return the (n,) decimal numbers of a text, the offsets of their first letters, and the count
+    of exponents.
 
-    Numbers of up to 15 digits that need no higher power of ten than 22 are correctly rounded, others to two units in
-    the last place. Words of letters separate numbers. ValueError if another word is no number, or touches a letter.
+    Numbers of up to 15 digits that need no higher power of ten than 22 are correctly rounded,
+    others to two units in the last place. Words of letters separate numbers. ValueError if another
+    word is no number, or touches a letter.
     """
     letters = np.frombuffer(text, np.uint8)
     is_part = (letters > _SPACE) & (letters <= _NINE)

@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of objects that follow their edits while Live is on: shown, never stored.
 
-Nothing is written to any data. A moving object is not measured again: its numbers are mapped to its new place. An
-object that deforms during playback or posing gets volume and center at once, in a light pass over its faces
-(`MovingSurface`), within the budget of a redraw. Full numbers come from a timer, never from a handler: at once if
-they take no longer than the budget, else when updates and frames have ceased. Until then the panel says that the
-numbers lag. B-spline patches are tracked (core/nurbs/tracked_solid.py). Only seconds of this thread count, so that
-other work on a busy machine makes no numbers lag.
+Nothing is written to any data. A moving object is not measured again: its numbers are mapped to its
+new place. An object that deforms during playback or posing gets volume and center at once, in a
+light pass over its faces (`MovingSurface`), within the budget of a redraw. Full numbers come from a
+timer, never from a handler: at once if they take no longer than the budget, else when updates and
+frames have ceased. Until then the panel says that the numbers lag. B-spline patches are tracked
+(core/nurbs/tracked_solid.py). Only seconds of this thread count, so that other work on a busy
+machine makes no numbers lag.
 
-The switch is kept in memory, too: a property of the object would make Blender report an edit of its geometry.
+The switch is kept in memory, too: a property of the object would make Blender report an edit of its
+geometry.
 """
 
 from __future__ import annotations
@@ -20,18 +22,13 @@ from operator import itemgetter
 
 import bpy
 import numpy as np
-from bpy.types import Depsgraph, Object, Scene
+from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
 from ....core.bodies.mesh_body import MeshBody
 from ....core.bodies.reading import Reading, float64_matrix
-from ....core.inertia.mass_properties import affine_image
-from ....core.inertia.plain_body import PlainBody
 from ....core.measurement.measurement import Body, Measurement
 from ....core.mesh.surface import Surface
-from ....core.moments.affine_maps import are_singular
-from ....core.numerics.float32 import shortest_decimal
-from ....core.numerics.rotations import rotation_matrix
 from ....core.nurbs.splines import Patch
 from ....core.nurbs.tracked_solid import TrackedSolid
 from ....core.polyhedron.integration import volume_and_center
@@ -44,120 +41,23 @@ from ...read.fingerprint import has_transform, settings_hash, transform_key
 from ...read.mesh import mesh_points
 from ...read.objects import read_patches
 from ...read.visibility import evaluated_geometry
-from ...settings.options import MeasureOptions, object_settings
+from ...settings.options import MeasureOptions
 from ...settings.preferences import preferences
+from .. import memory
 from ..tracking import handlers, updates
-from .following import LiveResult, followed
+from .following import Followed, LiveResult
 
 BUDGET = 0.01  # s per redraw, if there are no preferences
 MAX_PASS = 5.0  # limit for the first pass of a redraw, in budgets
 RETRY = 0.7  # factor for the remembered time of a skipped pass, so that it is tried again
 IDLE = 0.25  # s without an update before measurements that take longer than the budget
 POLL = 0.1  # s between two checks whether these can begin
-_last_event = 0.0  # time of the last update
 FOLLOWED = {Procedure.EXACT, Procedure.CAPPED, Procedure.REORIENTED}
-
-
-@dataclass(eq=False)
-class Followed:
-    """An object with Live on.
-
-    matrix, transform, number: at the measurement, matrix_world, transform key and number of the last update. tracked:
-    the body, if edits are followed rather than measured anew. surface: the faces, if a light pass can follow them.
-    first_order: volume and center in the object's coordinates by the last light pass. pass_seconds: its duration.
-    shows_others: whether the object shows instances. is_pending: whether the object changed since the measurement.
-    """
-
-    result: LiveResult | None = None
-    matrix: NDArray[np.float64] | None = None
-    transform: str = ""
-    number: int = 0
-    tracked: TrackedSolid | None = None
-    surface: MovingSurface | None = None
-    first_order: tuple[float, NDArray[np.float64]] | None = None
-    pass_seconds: float = 0.0
-    shows_others: bool = False
-    is_pending: bool = False
-
-
-def map_properties(
-    obj: Object, current: Followed, measured: Measurement, scene: Scene
-) -> PlainBody:
-    """Return the numbers of an object with Live on, in its own frame, mapped to its place and stretch."""
-    shown = PlainBody.of_body(
-        measured.in_object_frame(),
-        measured.density,
-        measured.volume,
-        measured.area,
-        measured.error_bound,
-    )
-    if current.first_order is None and has_transform(obj, current.transform):
-        return shown
-    return _mapped(obj, current, measured, shown, scene)
-
-
-def is_of_another_scale(obj: Object, current: Followed) -> bool:
-    """Return whether the object was scaled since its measurement in a way that the numbers cannot follow."""
-    measured = None if current.result is None else current.result.measurement
-    if measured is None or has_transform(obj, current.transform):
-        return False
-    return _linear_map(obj, current, measured) is None
-
-
-def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArray | None:
-    """Return the linear map from the measured object to its current state, or None without one."""
-    assert current.matrix is not None
-    before = current.matrix[:3, :3]
-    now = float64_matrix(obj.matrix_world)[:3, :3]
-    if (
-        measured.kind != "solid"
-        or not np.isfinite(now).all()
-        or are_singular(np.stack([before, now])).any()
-    ):
-        return None
-    return now @ np.linalg.inv(before)
-
-
-def _mapped(
-    obj: Object, current: Followed, measured: Measurement, shown: PlainBody, scene: Scene
-) -> PlainBody:
-    """Return the numbers mapped to the current matrix; volume and center are those of the last light pass, if any."""
-    linear = _linear_map(obj, current, measured)
-    if linear is None or current.matrix is None:
-        return shown
-    now = float64_matrix(obj.matrix_world)
-    unit = shortest_decimal(scene.unit_settings.scale_length)
-    stretch = abs(np.linalg.det(linear))
-    center = measured.mass_properties.center / unit
-    if current.first_order is None:
-        volume = measured.volume * stretch
-        center = (
-            now[:3, :3] @ np.linalg.solve(current.matrix[:3, :3], center - current.matrix[:3, 3])
-            + now[:3, 3]
-        )
-    else:
-        volume, center = current.first_order
-        volume = volume * abs(np.linalg.det(now[:3, :3])) * unit**3
-        center = now[:3, :3] @ center + now[:3, 3]
-    if not volume > 0.0:
-        return shown
-    mass = measured.mass_properties.mass
-    if object_settings(obj, scene).mass is None:
-        mass *= volume / measured.volume
-    turn = rotation_matrix(obj.matrix_world.to_quaternion())
-    image = affine_image(
-        measured.mass_properties, linear, center * unit, mass, turn @ np.transpose(shown.axes)
-    )
-    location = now[:3, 3] * unit
-    area = shown.area * stretch ** (2.0 / 3.0)
-    return PlainBody.of_body(
-        image.in_frame(turn, location), mass / volume, volume, area, shown.error_bound
-    )
 
 
 def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Measure an object with Live on as it is now, and keep the outcome to be shown."""
-    current = followed[obj]
+    current = memory.followed[obj]
     start = time.thread_time()
     measurement, refusal = None, None
     try:
@@ -175,20 +75,20 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     current.transform = transform_key(obj)
     current.first_order = None
     current.is_pending = False
-    current.number = updates.count()
+    current.number = memory.state.updates
     handlers.count_change(obj)
     return result
 
 
 def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Turn Live on for an object, and return the result of its first measurement."""
-    followed[obj] = Followed(shows_others=next(updates.shown_by(obj), None) is not None)
+    memory.followed[obj] = Followed(shows_others=next(updates.shown_by(obj), None) is not None)
     return update(obj, depsgraph)
 
 
 def stop(obj: Object) -> None:
     """Turn Live off for an object."""
-    followed.forget(obj)
+    memory.followed.forget(obj)
     handlers.count_change(obj)
 
 
@@ -239,38 +139,45 @@ def _budget() -> float:
 
 
 def note_updates(events: handlers.Updates) -> None:
-    """Follow updated objects at once, as far as the budget allows, and schedule their measurement."""
-    global _last_event
-    _last_event = time.monotonic()
+    """Follow updated objects at once, as far as the budget allows, and schedule their
+    measurement.
+    """
+    memory.state.last_event = time.monotonic()
     changed = {
-        uid: current for uid in events.reshaped if (current := followed.by_uid(uid)) is not None
+        uid: current
+        for uid in events.reshaped
+        if (current := memory.followed.by_uid(uid)) is not None
     }
     active = events.depsgraph.view_layer.objects.active
     if (
         active is not None
         and active.mode == "SCULPT"
-        and active in followed
+        and active in memory.followed
         and active.session_uid in events.others
     ):
-        changed[active.session_uid] = followed[active]  # strokes are drawn without evaluating
+        changed[active.session_uid] = memory.followed[
+            active
+        ]  # strokes are drawn without evaluating
     for current in changed.values():
         current.is_pending = True
-    moved = any(followed.by_uid(uid) is not None for uid in events.moved)
+    moved = any(memory.followed.by_uid(uid) is not None for uid in events.moved)
     if changed and not bpy.app.is_job_running("RENDER"):
         _follow_at_once(events, set(changed))
     others = events.collections or events.moved or events.reshaped
-    is_due = changed or moved or others and any(current.shows_others for current in followed)
+    is_due = changed or moved or others and any(current.shows_others for current in memory.followed)
     if is_due and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
         bpy.app.timers.register(_tick)
 
 
 def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
-    """Follow one object, and as many others as the budget of a redraw allows, quickest passes first."""
+    """Follow one object, and as many others as the budget of a redraw allows, quickest passes
+    first.
+    """
     budget = _budget()
     is_first = True
     objects = [obj for obj in events.depsgraph.view_layer.objects if obj.session_uid in changed]
-    for obj in sorted(objects, key=lambda obj: followed[obj].pass_seconds):
-        current = followed[obj]
+    for obj in sorted(objects, key=lambda obj: memory.followed[obj].pass_seconds):
+        current = memory.followed[obj]
         start = time.thread_time()
         allowed = MAX_PASS * _budget() if is_first else budget
         if current.surface is None or current.pass_seconds > allowed:
@@ -284,18 +191,18 @@ def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
 
 
 def _tick() -> float | None:
-    if not len(followed):  # none is any more, or the add-on is disabled
+    if not len(memory.followed):  # none is any more, or the add-on is disabled
         return None
     if bpy.app.is_job_running("RENDER"):
         return 0.5
     layer = bpy.context.view_layer
     depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
-    due = [obj for obj in layer.objects if obj in followed and _is_due(obj)]
+    due = [obj for obj in layer.objects if obj in memory.followed and _is_due(obj)]
     is_playing = any(
         window.screen.is_animation_playing for window in bpy.context.window_manager.windows
     )
     budget = _budget()
-    idle = time.monotonic() - _last_event >= IDLE and not is_playing
+    idle = time.monotonic() - memory.state.last_event >= IDLE and not is_playing
     waiting = False
     for seconds, obj in sorted(((_seconds(obj), obj) for obj in due), key=itemgetter(0)):
         if (seconds <= budget or idle) and not _is_stroking(obj):
@@ -325,13 +232,13 @@ def _is_stroking(obj: Object) -> bool:
 
 def _seconds(obj: Object) -> float:
     """Return the duration of an object's last measurement in seconds, 0 if there is none."""
-    result = followed[obj].result
+    result = memory.followed[obj].result
     return 0.0 if result is None else result.seconds
 
 
 def _is_due(obj: Object) -> bool:
     """Return whether an object has to be measured again: more than its place has changed."""
-    current = followed[obj]
+    current = memory.followed[obj]
     if not current.is_pending:
         is_edited = updates.last_edit(obj).number > current.number
         current.is_pending = is_edited or not has_transform(obj, current.transform)
@@ -351,7 +258,9 @@ class MovingSurface:
 
     @classmethod
     def from_measured(cls, measured: Measured) -> MovingSurface | None:
-        """Return the faces of a measured body, or None unless it is one exact or repaired mesh in its own place."""
+        """Return the faces of a measured body, or None unless it is one exact or repaired mesh in
+        its own place.
+        """
         reading = measured.reading
         body = measured.body
         method = measured.measurement.method
@@ -381,7 +290,9 @@ class MovingSurface:
         return cls(surface, read.corner_vertices)
 
     def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]] | None:
-        """Return the object's current volume and (3,) center, in its own coordinates; None if it shows other faces."""
+        """Return the object's current volume and (3,) center, in its own coordinates; None if it
+        shows other faces.
+        """
         if (
             obj.type != "MESH"
             or obj.mode not in {"OBJECT", "POSE", "WEIGHT_PAINT"}

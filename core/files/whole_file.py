@@ -14,10 +14,12 @@ from typing import BinaryIO
 
 @contextmanager
 def whole_file(path: Path, check: Callable[[Path], None] | None = None) -> Iterator[BinaryIO]:
-    """Yield an open file that replaces `path` once the block is complete, and is removed if it fails.
+    """Yield an open file that replaces `path` once the block is complete, and is removed if it
+    fails.
 
-    A pipe or a device is written to directly. check: raises FileExistsError if `path` must not be replaced. It is
-    called just before the replacement, because the file may have appeared meanwhile. Raises OSError.
+    A pipe or a device is written to directly. check: raises FileExistsError if `path` must not be
+    replaced. It is called just before the replacement, because the file may have appeared
+    meanwhile. Raises OSError.
     """
     if path.exists() and not path.is_file():
         with open(path, "wb") as file:
@@ -34,7 +36,9 @@ def whole_file(path: Path, check: Callable[[Path], None] | None = None) -> Itera
 
 @contextmanager
 def partial_file(path: Path) -> Iterator[Path]:
-    """Yield the path of a hidden file beside `path` for incomplete data; remove that file when the block ends."""
+    """Yield the path of a hidden file beside `path` for incomplete data; remove that file when the
+    block ends.
+    """
     partial = hidden_path(path, "{}.partial".format(os.getpid()))
     try:
         yield partial
@@ -52,7 +56,10 @@ def hidden_path(path: Path, ending: str) -> Path:
 
 
 def replace(partial: Path, path: Path) -> None:
-    """Flush a complete file to the disk, copy the mode of `path` to it, and replace `path` by it. Raises OSError."""
+    """Flush a complete file to the disk, copy the mode of `path` to it, and replace `path` by it.
+
+    Raises OSError.
+    """
     with open(partial, "rb+") as file:
         os.fsync(file.fileno())
     with suppress(FileNotFoundError):

@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Live numbers at the present place and stretch of their object, and their lag behind it."""
+
+from __future__ import annotations
+
+import numpy as np
+from bpy.types import Object, Scene
+from numpy.typing import NDArray
+
+from ....core.bodies.reading import float64_matrix
+from ....core.inertia.mass_properties import affine_image
+from ....core.inertia.plain_body import PlainBody
+from ....core.measurement.measurement import Measurement
+from ....core.moments.affine_maps import are_singular
+from ....core.numerics.rotations import rotation_matrix
+from ...read.fingerprint import has_transform
+from ...scale import meters_per_unit
+from ...settings.options import object_settings
+from .. import memory
+from .following import Followed, Lag
+
+
+def map_properties(
+    obj: Object, current: Followed, measured: Measurement, scene: Scene
+) -> PlainBody:
+    """Return the numbers of an object with Live on, in its own frame, mapped to its place and
+    stretch.
+    """
+    shown = PlainBody.of_body(
+        measured.in_object_frame(),
+        measured.density,
+        measured.volume,
+        measured.area,
+        measured.error_bound,
+    )
+    if current.first_order is None and has_transform(obj, current.transform):
+        return shown
+    return _mapped(obj, current, measured, shown, scene)
+
+
+def is_of_another_scale(obj: Object, current: Followed) -> bool:
+    """Return whether the object was scaled since its measurement in a way that the numbers cannot
+    follow.
+    """
+    measured = None if current.result is None else current.result.measurement
+    if measured is None or has_transform(obj, current.transform):
+        return False
+    return _linear_map(obj, current, measured) is None
+
+
+def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArray | None:
+    """Return the linear map from the measured object to its current state, or None without one."""
+    assert current.matrix is not None
+    before = current.matrix[:3, :3]
+    now = float64_matrix(obj.matrix_world)[:3, :3]
+    if (
+        measured.kind != "solid"
+        or not np.isfinite(now).all()
+        or are_singular(np.stack([before, now])).any()
+    ):
+        return None
+    return now @ np.linalg.inv(before)
+
+
+def _mapped(
+    obj: Object, current: Followed, measured: Measurement, shown: PlainBody, scene: Scene
+) -> PlainBody:
+    """Return the numbers mapped to the current matrix; volume and center are those of the last
+    light pass, if any.
+    """
+    linear = _linear_map(obj, current, measured)
+    if linear is None or current.matrix is None:
+        return shown
+    now = float64_matrix(obj.matrix_world)
+    unit = meters_per_unit(scene)
+    stretch = abs(np.linalg.det(linear))
+    center = measured.mass_properties.center / unit
+    if current.first_order is None:
+        volume = measured.volume * stretch
+        center = (
+            now[:3, :3] @ np.linalg.solve(current.matrix[:3, :3], center - current.matrix[:3, 3])
+            + now[:3, 3]
+        )
+    else:
+        volume, center = current.first_order
+        volume = volume * abs(np.linalg.det(now[:3, :3])) * unit**3
+        center = now[:3, :3] @ center + now[:3, 3]
+    if not volume > 0.0:
+        return shown
+    mass = measured.mass_properties.mass
+    if object_settings(obj, scene).mass is None:
+        mass *= volume / measured.volume
+    turn = rotation_matrix(obj.matrix_world.to_quaternion())
+    image = affine_image(
+        measured.mass_properties, linear, center * unit, mass, turn @ np.transpose(shown.axes)
+    )
+    location = now[:3, 3] * unit
+    area = shown.area * stretch ** (2.0 / 3.0)
+    return PlainBody.of_body(
+        image.in_frame(turn, location), mass / volume, volume, area, shown.error_bound
+    )
+
+
+def lag(obj: Object) -> Lag:
+    """Return the lag of an object's live numbers behind the displayed object."""
+    current = memory.followed.get(obj)
+    if current is None or not (current.is_pending or is_of_another_scale(obj, current)):
+        return Lag.NONE
+    return Lag.BEHIND if current.first_order is None else Lag.FIRST_ORDER

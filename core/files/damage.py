@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Refusals of damaged files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ..verdict.finding import FileError, finding
+from .findings import AT_ROW, DAMAGE_SIZE, FILE_DAMAGED, HEADER_FIELD, NON_FINITE_COORDINATES
+
+
+def damaged(path: Path, code: str, **values: Any) -> FileError:
+    """Return the error for a damaged file, with the code of the fault."""
+    return FileError(FILE_DAMAGED, file=path.name, cause=finding(code, **values).as_record())
+
+
+def wrong_field(format: str, name: str, wanted: str, *values: float) -> FileError:
+    """Return the error for numbers of a header's field."""
+    return FileError(
+        HEADER_FIELD,
+        format=format,
+        field=name,
+        wanted=wanted,
+        text=" ".join(map("{:g}".format, values)),
+    )
+
+
+def check_length(path: Path, held: int, wanted: int) -> None:
+    """Raise FileError unless a file holds exactly the bytes of its samples; more bytes mean wrong
+    sizes.
+    """
+    if held != wanted:
+        raise damaged(path, DAMAGE_SIZE, bytes=held, total=wanted)
+
+
+def refuse_non_finite(count: int, element: str, row: int | str) -> None:
+    """Raise FileError if the count is not zero. row: the first element with such a number, or its
+    name.
+    """
+    if count:
+        place = finding(AT_ROW, element=element, row=row).as_record()
+        raise FileError(NON_FINITE_COORDINATES, count=count, place=place)
