@@ -37,6 +37,7 @@ KEY = np.dtype(
 HANDLES = ("handle_left", "handle_right")
 SAME_TIME = 1e-3  # frames; Blender itself takes closer keys for one
 SAME_VALUE = 1e-4
+MOVED = 1e-3  # of a curve's range: a smaller move of a handle does not matter
 JUMP = 1.0 / 64.0  # frames from a key to the one that takes up another turn of the same rotation
 Channel = tuple[str, int]  # data path and index
 
@@ -46,12 +47,14 @@ def time_scale(scene: Scene) -> float:
     return scene.render.frame_map_old / scene.render.frame_map_new
 
 
-def ensure_curves(obj: Object):
-    """Return the F-curves of an object's action, which is created if there is none, and copied if it is linked."""
+def ensure_curves(obj: Object, alone: bool = False):
+    """Return the F-curves of an object's action, which is created if there is none, and copied if
+    it is linked, or animates others, too, but shall not.
+    """
     animation = obj.animation_data_create()
     if animation.action is None:
         animation.action = bpy.data.actions.new(obj.name)
-    elif animation.action.library is not None:
+    elif animation.action.library is not None or alone and sharing(obj):
         slot = animation.action_slot.identifier
         animation.action = animation.action.copy()
         animation.action_slot = animation.action.slots[slot]
@@ -118,9 +121,10 @@ def has_strips(obj: Object) -> bool:
     )
 
 
-def ensure_keyed(obj: Object, path: str, values: NDArray, time: float) -> None:
-    """Key the components of a property that have no keys, neither in the action nor in strips of the NLA."""
-    keyed = {curve.array_index for curve in all_curves(obj) if curve.data_path == path}
+def ensure_keyed(obj: Object, path: str, values: NDArray, time: float, in_strips: bool) -> None:
+    """Key the components of a property that have no keys, neither in the action nor, if these count, in strips."""
+    curves = all_curves(obj) if in_strips else existing_curves(obj)
+    keyed = {curve.array_index for curve in curves if curve.data_path == path}
     for axis, value in enumerate(values):
         if axis not in keyed:
             write_keys(ensure_curves(obj), (path, axis), np.array([time]), np.array([value]))
@@ -170,22 +174,34 @@ def read(curve: FCurve) -> NDArray:
 
 
 def write(curve: FCurve, keys: NDArray) -> None:
-    """Put keys on a curve in place of all earlier ones; handles that Blender would move become free."""
+    """Put keys on a curve in place of all earlier ones, with the handles as they are.
+
+    Automatic handles become free if Blender would move them, and the curve, at its next edit.
+    """
     points = curve.keyframe_points
     points.clear()
     points.add(len(keys))
     keys = keys.copy()
+    tolerance = MOVED * max(float(np.ptp(keys["co"][:, 1])), np.finfo(np.float32).tiny)
+    curved = np.concatenate([[False], keys["interpolation"] == BEZIER])
     while True:
-        for name in KEY.names:
-            points.foreach_set(name, np.ascontiguousarray(keys[name]).ravel())
+        _put(points, keys, KEY.names)
         curve.update()
-        found = read(curve)
-        moved = {name: (found[name] != keys[name]).any(axis=1) for name in HANDLES}
-        moved = {name: rows & (keys[name + "_type"] != FREE) for name, rows in moved.items()}
-        if not any(rows.any() for rows in moved.values()):
-            return
-        for name, rows in moved.items():
+        freed = False
+        for name, bends in zip(HANDLES, (curved[:-1], curved[1:])):
+            moved = np.abs(read(curve)[name] - keys[name])[:, 1] > tolerance
+            rows = moved & bends & (keys[name + "_type"] != FREE)
             keys[name + "_type"][rows] = FREE
+            freed |= bool(rows.any())
+        if not freed:
+            _put(points, keys, HANDLES)
+            curve.id_data.update_tag()
+            return
+
+
+def _put(points: bpy.types.FCurveKeyframePoints, keys: NDArray, names: Iterable[str]) -> None:
+    for name in names:
+        points.foreach_set(name, np.ascontiguousarray(keys[name]).ravel())
 
 
 def backup(obj: Object) -> Callable[[], None]:

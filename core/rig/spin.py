@@ -103,25 +103,24 @@ class CarriedParts:
         scale = size if size > SPINLESS * parts else max(parts, np.finfo(float).tiny)
         return np.linalg.norm(self.momenta.sum(axis=2) - kept, axis=-1) / scale
 
-    def constant_spin(self, kept: NDArray) -> tuple[NDArray[np.float64], float]:
-        """Return (f, n, 3, 3) rotations of the carrier with a constant momentum, and their error, rad.
+    def constant_spin(self, kept: NDArray) -> NDArray[np.float64]:
+        """Return (f, n, 3, 3) rotations of the carrier with a constant momentum, from its own on.
 
-        They begin with the carrier's own. The error is infinite if the integration does not converge.
+        Steps are halved until no rotation changes by more than 1e-6.
         """
         before = self._integrate(kept, 1)
         for halving in range(1, MAX_HALVINGS + 1):
             after = self._integrate(kept, 2**halving)
-            change = float(np.abs(after - before).max())
-            if change <= CONVERGED:
-                return after, change
+            if np.abs(after - before).max() <= CONVERGED:
+                break
             before = after
-        return before, np.inf
+        return after
 
     def _integrate(self, kept: NDArray, steps: int) -> NDArray[np.float64]:
         """Return the rotations by this number of steps from node to node."""
         shares = np.arange(2 * steps + 1) / (2.0 * steps)
         places = PLACES[:-1, None] + np.diff(PLACES)[:, None] * shares
-        weights = (places[..., None] ** np.arange(len(NODES))) @ _FIT
+        weights = node_weights((places + 1.0) / 2.0)
         own = np.einsum("msn,fni->fmsi", weights, self.own_momenta.sum(axis=2))
         inertia = np.einsum("msn,fnij->fmsij", weights, self.inertia.sum(axis=2))
         inverse = np.linalg.pinv(inertia, hermitian=True)
@@ -151,6 +150,11 @@ class CarriedParts:
                     turn = turn @ rotation(length * total)
                 turns[frame, node + 1] = turn
         return turns
+
+
+def node_weights(shares: NDArray) -> NDArray[np.float64]:
+    """Return the (..., n) weights of values at the nodes that interpolate at shares of a frame."""
+    return (2.0 * shares[..., None] - 1.0) ** np.arange(len(NODES)) @ _FIT
 
 
 def rotation(vector: NDArray) -> NDArray[np.float64]:

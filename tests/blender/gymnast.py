@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A gymnast of boxes, 1.7 m tall, in somersaults with one tuck; momenta by differences of evaluated parts."""
+"""A gymnast of boxes, 1.7 m tall, in somersaults with one tuck; momenta by differences of evaluated
+parts.
+"""
 
 import bpy
 import numpy as np
@@ -25,7 +27,10 @@ FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (
 
 
 def gymnast(root=True, scale=(1.0, 1.0, 1.0)):
-    """The armature object, in Pose Mode, measured; its boxes are one skin. root: whether one bone carries all."""
+    """The armature object, in Pose Mode, measured; its boxes are one skin.
+
+    root: whether one bone carries all.
+    """
     data = bpy.data.armatures.new("Gymnast")
     rig = bpy.data.objects.new("Gymnast", data)
     bpy.context.scene.collection.objects.link(rig)
@@ -115,17 +120,26 @@ def somersault(
     return first, last
 
 
+def curves_of(obj):
+    animation = obj.animation_data
+    return list(animation.action.layers[0].strips[0].channelbag(animation.action_slot).fcurves)
+
+
 def frame_set(time):
     bpy.context.scene.frame_set(int(np.floor(time)), subframe=float(time % 1.0))
 
 
 def parts_at(rig, times):
-    """Return masses (p,), tensors (p, 3, 3) in the bones' axes, and (f, p, 4, 4) places of the parts' centers."""
+    """Return masses (p,), tensors (p, 3, 3) in the bones' axes, and (f, p, 4, 4) places of the
+    parts' centers.
+    """
     bones = [bone for bone in rig.pose.bones if "body_mass" in bone]
     xx, yy, zz, xy, xz, yz = np.array([bone["body_inertia"] for bone in bones]).T
     tensors = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).transpose(2, 0, 1)
     scale = rig.matrix_world.to_scale()
-    arms = [Matrix.Translation([c / s for c, s in zip(b["body_center_of_mass"], scale)]) for b in bones]
+    arms = [
+        Matrix.Translation([c / s for c, s in zip(b["body_center_of_mass"], scale)]) for b in bones
+    ]
     places = []
     for time in times:
         frame_set(time)
