@@ -10,7 +10,7 @@ from bpy.types import Context, Operator
 from ..blender import bodies, read, scene, session
 from ..blender.bodies.findings import BONE_PARTS_IMPOSSIBLE
 from ..blender.read.tracking import tracking_paused
-from ..blender.session import live, stored
+from ..blender.session import character, stored
 from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.write import reports
 from ..core.verdict.finding import Severity
@@ -138,7 +138,7 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
         ]
         shown = not context.object.body_moments_weight.show
         rigs = list(
-            filter(None, [live.character.prepare(context, armature) for armature in armatures])
+            filter(None, [character.weight.prepare(context, armature) for armature in armatures])
         )
         shown = shown or bool(rigs)  # numbers that were out of date are shown anew
         for armature in armatures:

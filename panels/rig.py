@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from bpy.types import Context, Panel, PoseBone, UILayout
 
 from ..blender.scale import meters_per_unit
-from ..blender.session import live
+from ..blender.session import character
 from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
@@ -21,7 +21,7 @@ from . import rows
 from .places import AmongProperties, in_both_places
 
 if TYPE_CHECKING:
-    from ..blender.session.live.character import Weight
+    from ..blender.session.character.weight import Weight
 
 LISTED = 60  # bones that the sub-panel lists
 
@@ -86,13 +86,9 @@ class WeightPanel:
         row.operator("pose.body_moments_show_weight", icon="CON_FLOOR", depress=settings.show)
         if not settings.show:
             return
-        character = loaded_module(live, "character")
+        posed = loaded_module(character, "weight")
         depsgraph = context.view_layer.depsgraph
-        weight = (
-            None
-            if character is None or depsgraph is None
-            else character.weight(armature, depsgraph)
-        )
+        weight = None if posed is None or depsgraph is None else posed.weight(armature, depsgraph)
         rows.stale_row(layout, stale_reason(armature, context.scene))
         if weight is None:
             rows.remark(layout, "The bones have not been measured. Show the weight again.")

@@ -28,7 +28,7 @@ from ..read.fingerprint import has_transform
 from ..scale import meters_per_unit
 from ..write import properties
 from ..write.units import Units
-from . import live, memory
+from . import character, live, memory
 from .live import following
 from .live.following import Lag, LiveResult
 from .tracking import armatures, handlers
@@ -252,10 +252,10 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     others.
     """
     depsgraph = bpy.context.view_layer.depsgraph
-    character = loaded_module(live, "character")
-    if not armature.body_moments_weight.show or character is None or depsgraph is None:
+    posed = loaded_module(character, "weight")
+    if not armature.body_moments_weight.show or posed is None or depsgraph is None:
         return None
-    weight = character.weight(armature, depsgraph)
+    weight = posed.weight(armature, depsgraph)
     if weight is None:
         return None
     unit = meters_per_unit(scene)

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from ...core.statics.support import Support
+    from .character.weight import Character, Weight
     from .displayed import Displayed, Listing, Total
-    from .live.character import Character, Weight
     from .live.following import Followed
     from .stored.computed_moments import ComputedMoments
     from .stored.faults import Faults

@@ -16,7 +16,7 @@ from bpy.types import Context, Object, Operator
 from ...blender import bodies, session, write
 from ...blender.read.visibility import has_shape, measurable
 from ...blender.scene.changes import require_editable
-from ...blender.session import live
+from ...blender.session import character, live
 from ...blender.session.tracking import armatures, staleness, stamps
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import properties, reports
@@ -120,7 +120,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
         """
         failed = session.store_measured(context, self._results)
         for armature in filter(armatures.stands_for_meshes, context.selected_objects):
-            live.character.store_rest(context, armature)
+            character.weight.store_rest(context, armature)
         refusals = self._refusals | failed
         self._failures = [
             reports.failure(obj.name_full, refusals[obj])

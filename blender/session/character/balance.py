@@ -16,14 +16,14 @@ from bpy.types import Context, Object, PoseBone
 from mathutils import Quaternion, Vector
 from numpy.typing import NDArray
 
-from ...core.statics.support import ground_axes
-from ...core.verdict.finding import EditRefusedError
-from ..read.tracking import tracking_paused
-from ..scale import meters_per_unit
-from ..write.reports import Refused
-from .findings import NO_SUCH_NAME
-from .live import character
-from .live.character import Character, Weight, bone_matrices
+from ....core.statics.support import ground_axes
+from ....core.verdict.finding import EditRefusedError
+from ...read.tracking import tracking_paused
+from ...scale import meters_per_unit
+from ...write.reports import Refused
+from ..findings import NO_SUCH_NAME
+from . import weight as character
+from .weight import Character, Weight, bone_matrices
 
 # Relative to the character's size.
 NUDGE = 1e-3
@@ -249,14 +249,14 @@ def _handles(context: Context, armature: Object, known: Character, name: str) ->
     then rotations.
     """
     chosen = context.active_pose_bone
-    masses = dict(zip(known.names, known.masses))
+    masses = dict(zip(known.names, known.model.masses))
     bones = [bone for bone in context.visible_pose_bones or () if bone.id_data == armature]
     bones.sort(key=lambda bone: (bone != chosen, len(bone.parent_recursive)))
     bones = [armature.pose.bones[name]] if name else bones
     for bone in bones:
         if (
             sum(masses.get(above.name, 0.0) for above in bone.parent_recursive)
-            <= TORN * known.masses.sum()
+            <= TORN * known.model.masses.sum()
         ):
             yield _Handle(bone, turns=False)
     for bone in bones:
