@@ -119,7 +119,7 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
     """Follow the center of mass of several objects over the frame range."""
 
     bl_idname = "object.body_moments_balance_group"
-    bl_label = "Balance Group"
+    bl_label = "Follow Center"
     bl_description = (
         "Follow the common center of mass of the selected objects, of a collection, or of the "
         "meshes that the selected "

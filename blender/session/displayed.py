@@ -17,6 +17,7 @@ from typing import NamedTuple
 import bpy
 from bpy.types import ID, Context, Object, PoseBone, Scene, ViewLayer
 
+from ...core.bodies.findings import DENSITY_DEFAULTED
 from ...core.inertia.plain_body import PlainBody, add_bodies
 from ...core.lazy import loaded_module
 from ...core.verdict.finding import Finding
@@ -26,9 +27,10 @@ from ...core.verdict.verdict import Verdict, find_verdict, open_body_caveats
 from .. import read
 from ..read.fingerprint import has_transform
 from ..scale import meters_per_unit
+from ..settings.chosen import chosen_objects, pinned_object
 from ..write import properties
 from ..write.units import Units
-from . import character, live, memory
+from . import character, live, memory, stored
 from .live import following
 from .live.following import Lag, LiveResult
 from .tracking import armatures, handlers
@@ -60,6 +62,11 @@ class Displayed(NamedTuple):
     lag: Lag = Lag.NONE
     is_posed: bool = False
 
+    @property
+    def is_assumed(self) -> bool:
+        """True if nobody has set the density."""
+        return any(found.code == DENSITY_DEFAULTED for found in self.findings)
+
     def in_frame(self, frame: str) -> PlainBody:
         """Return the numbers in the frame of a setting, "OBJECT" or "WORLD"."""
         return self.numbers if frame == "OBJECT" else self.world
@@ -70,8 +77,9 @@ class Total:
     """Selected objects as one body.
 
     count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names
-    of objects without results; stale: names of objects with outdated results; findings: caveats
-    about the sum; verdict: the least of any object; groups: the objects' own findings.
+    of objects without results; stale: names of objects with outdated results; assumed: the number
+    of objects whose density nobody has set; findings: caveats about the sum; verdict: incomplete if
+    some objects have no results, else the least of any object; groups: the objects' own findings.
     """
 
     count: int
@@ -80,6 +88,7 @@ class Total:
     numbers: PlainBody | None
     missing: tuple[str, ...]
     stale: tuple[str, ...]
+    assumed: int
     findings: tuple[Finding, ...]
     verdict: Verdict | None
     groups: tuple[Group, ...]
@@ -106,7 +115,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
     if current is not None and now is not None and (measurement := now.measurement) is not None:
         own = live.mapping.map_properties(obj, current, measurement, scene)
         method = measurement.method
-        findings = measurement.findings
+        findings = stored.density.noted(obj, measurement, scene).findings
         lag = live.mapping.lag(obj)
         reason = stale_reason(obj, scene, following.stamp_of)
         is_behind = reason is not None or lag == Lag.BEHIND
@@ -268,21 +277,19 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
 
 
 def shown_objects(context: Context) -> list[Object]:
-    """Return the objects that the panel is about: the selected ones if there are several, else the
-    active one.
+    """Return the objects whose numbers the panel shows: the chosen ones.
 
     The meshes of a posed armature stand in its place.
     """
-    selected = context.view_layer.objects.selected
-    chosen = armatures.subjects(selected)
-    return chosen if max(len(selected), len(chosen)) > 1 else armatures.subjects([context.object])
+    return armatures.subjects(chosen_objects(context))
 
 
 def total(context: Context) -> Total:
     """Return the selected objects as one body, by the parallel-axis theorem, from displayed
     numbers.
     """
-    key = memory.state.generation, context.view_layer.name
+    pinned = pinned_object(context)
+    key = memory.state.generation, context.view_layer.name, pinned and pinned.session_uid
     return memory.current_value(memory.totals, context.scene, key, lambda: _sum(context))
 
 
@@ -294,7 +301,7 @@ def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
 
 
 def _sum(context: Context) -> Total:
-    chosen = armatures.subjects(context.view_layer.objects.selected)
+    chosen = shown_objects(context)
     selected = set(chosen)
     parts = {}
     missing = []
@@ -316,11 +323,14 @@ def _sum(context: Context) -> Total:
         add_bodies(worlds) if len(worlds) > 1 else alone,
         tuple(missing),
         stale,
+        sum(shown.is_assumed for shown in parts.values()),
         (
             *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
             *read.assembly.total_caveats(parts, context.view_layer),
         ),
-        max((shown.verdict for shown in parts.values()), key=tuple(Verdict).index, default=None),
+        Verdict.INCOMPLETE
+        if missing and parts
+        else max((shown.verdict for shown in parts.values()), key=RANKS.__getitem__, default=None),
         tuple(
             grouped(
                 (obj.name_full, found) for obj, shown in parts.items() for found in shown.findings

@@ -135,6 +135,8 @@ moved: set[int] = _remembered(set())
 totals: SessionCache[tuple[tuple, Total]] = SessionCache()
 masses: SessionCache[tuple[tuple, dict[int, str]]] = SessionCache()
 listings: SessionCache[tuple[tuple, Listing]] = SessionCache()
+# scene → the selection, the objects whose settings are shown, and names of settings that differ
+chosen: SessionCache[tuple[tuple, tuple[list[Object], dict[str, bool]]]] = SessionCache()
 
 # ---------------------------------------------------------------- Results too large to store
 

@@ -9,6 +9,7 @@ settings.
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Collection, Context, Object, PoseBone, PropertyGroup
 
+from .chosen import chosen_objects
 from .given import (
     GivenPartProperties,
     choice_property,
@@ -85,9 +86,11 @@ def is_assembly(data: Root) -> bool:
 
 def active_assembly(context: Context) -> Root:
     """Return the active empty if it has children, else a collection of the active object, else the
-    active one.
+    active one. An unselected active object gives way to a selected one.
     """
-    obj, active = context.object, context.collection
+    chosen = chosen_objects(context)
+    active = context.collection
+    obj = context.object if context.object in chosen or not chosen else chosen[0]
     if obj is None or is_assembly(obj):
         return active if obj is None else obj
     collections = obj.users_collection

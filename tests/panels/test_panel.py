@@ -140,7 +140,7 @@ def test_objects_without_a_shape_are_passed_over():
         bpy.context.scene.collection.objects.link(other)
     only(*others, obj)
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"} and outcome.last() is None
-    assert {"1 Object", "Exact"} <= {*labels(shown())}
+    assert {"Body", "Exact"} <= {*labels(shown())}
     only(*others)
     bpy.ops.object.body_moments_measure()
     codes = {group.finding.code for group in outcome.last().groups}
