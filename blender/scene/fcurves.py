@@ -9,6 +9,7 @@ Times are those of F-curves, which a scene stretches from its frames.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from math import ceil, floor
 
 import bpy
 import numpy as np
@@ -366,6 +367,11 @@ def stretch(curve: FCurve, first: float, last: float, shift: float) -> None:
 
 def add_layer(obj: Object, name: str, times: NDArray, channels: Mapping[Channel, NDArray]) -> None:
     """Add a strip of sections that is combined with the animation below; the action becomes a strip, too."""
+    scene = bpy.context.scene
+    scale = time_scale(scene)
+    beyond = int(
+        scale != 1.0
+    )  # stretched times are single precision, so their last one may be later
     animation = obj.animation_data_create()
     action = animation.action
     if action is not None:
@@ -381,12 +387,10 @@ def add_layer(obj: Object, name: str, times: NDArray, channels: Mapping[Channel,
             strip.use_animated_influence = True
             strip.extrapolation = animation.action_extrapolation
         # Cycles and keys outside a manual frame range go on.
-        scene = bpy.context.scene
-        scale = time_scale(scene)
         start, end = action.curve_frame_range
-        strip.action_frame_start = min(start, scale * scene.frame_start)
-        strip.action_frame_end = max(end, scale * scene.frame_end)
-        strip.frame_start_ui = strip.action_frame_start
+        _span(
+            strip, min(start, scale * scene.frame_start), max(end, scale * scene.frame_end), beyond
+        )
         animation.action = None
     layer = bpy.data.actions.new(name)
     slot = layer.slots.new("OBJECT", obj.name)
@@ -397,8 +401,13 @@ def add_layer(obj: Object, name: str, times: NDArray, channels: Mapping[Channel,
     track.name = name
     strip = track.strips.new(name, int(times[0]), layer)
     strip.action_slot = slot
-    strip.action_frame_start = times[0]
-    strip.action_frame_end = times[-1]
-    strip.frame_start_ui = times[0]
+    _span(strip, times[0], times[-1], beyond)
     strip.blend_type = "COMBINE"
     strip.extrapolation = "NOTHING"
+
+
+def _span(strip: bpy.types.NlaStrip, start: float, end: float, beyond: int) -> None:
+    """Let a strip show its action from a time to another, and some whole frames beyond."""
+    strip.action_frame_start = floor(start) - beyond
+    strip.action_frame_end = ceil(end) + beyond
+    strip.frame_start_ui = strip.action_frame_start

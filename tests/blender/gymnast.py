@@ -147,6 +147,11 @@ def parts_at(rig, times):
     return np.array([bone["body_mass"] for bone in bones]), tensors, np.array(places)
 
 
+def centers_at(rig, times):
+    masses, _, places = parts_at(rig, times)
+    return np.einsum("p,fpi->fi", masses / masses.sum(), places[..., :3, 3])
+
+
 def momenta_at(rig, times, fps, width=0.125):
     """Return (f, 3) angular momenta about the center by central differences over `width` frames."""
     pairs = np.stack([np.subtract(times, width / 2.0), np.add(times, width / 2.0)], axis=1)

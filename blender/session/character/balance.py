@@ -235,7 +235,7 @@ def balance_pose(
     if moved is None:
         raise search.failure
     if context.scene.tool_settings.use_keyframe_insert_auto:
-        moved.bone.keyframe_insert(moved.channel)
+        moved.bone.keyframe_insert(moved.channel, frame=context.scene.frame_current_final)
     armature.update_tag()
     context.view_layer.update()
     after = character.weight(armature, context.evaluated_depsgraph_get())

@@ -32,8 +32,7 @@ NOT_FREE = (
     "“{name}” cannot be keyed: its {channel:word} is {state:word}. Free it, or choose another bone."
 )
 SHARED = (
-    "The action of “{name}” also animates {others}. Make it a single user in the Action Editor, or "
-    "turn on As Layer."
+    "The action of “{name}” also animates {others}. Make it a single user in the Action Editor."
 )
 
 
@@ -78,11 +77,11 @@ class Carrier:
         }
         self.frames.append((world, float64_matrix(owner.matrix_basis), values))
 
-    def require_free(self, turns: bool, as_layer: bool) -> None:
+    def require_free(self, turns: bool) -> None:
         """Raise Refused unless keys on the channels have an effect and are allowed."""
         require_editable(self.armature)
         owner = self.owner
-        if not as_layer and (others := fcurves.sharing(self.armature)):
+        if others := fcurves.sharing(self.armature):
             raise Refused(SHARED, name=self.armature.name, others=others)
         for channel in ("location", "rotation")[: 1 + turns]:
             path = self.path("location" if channel == "location" else self.rotation)

@@ -139,7 +139,7 @@ class CharacterMotion(BalanceGroup):
         )
         for owner in owners:
             self.found = Carrier(self.armature, owner)
-            self.found.require_free(turns, self.is_layered)
+            self.found.require_free(turns)
             part = self.found.left_behind(context, self.known, turns)
             if not part:
                 return

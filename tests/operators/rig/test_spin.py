@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 
-from tests.blender.gymnast import curves_of, gymnast, momenta_at, somersault
+from tests.blender.gymnast import centers_at, curves_of, gymnast, momenta_at, somersault
 
 SPIN = bpy.ops.pose.body_moments_keep_spin
 PARABOLA = bpy.ops.pose.body_moments_parabola
@@ -223,4 +223,52 @@ def test_easing_across_the_take_off_is_refused_by_name(scene):
     before = everything(rig)
     with pytest.raises(RuntimeError, match="root.*Bézier"):
         PARABOLA(**typed((first + 2, last)))
+    assert everything(rig) == before
+
+
+@pytest.mark.parametrize(
+    "operator, layer",
+    [(PARABOLA, False), (PARABOLA, True), (SPIN, False)],
+    ids=["parabola", "layer", "spin"],
+)
+@pytest.mark.parametrize("old, new", [(100, 200), (100, 50), (50, 75)])
+def test_keys_are_at_the_times_of_a_stretched_scene(scene, old, new, layer, operator):
+    rig = gymnast()
+    flight = somersault(rig, 8, 24, "QUATERNION")
+    factor = old / new
+    scene.render.frame_map_old, scene.render.frame_map_new = old, new
+    first, last = (int(np.ceil(frame / factor)) for frame in flight)
+    scene.frame_end = last + 9
+    assert operator(use_layer=layer, **typed((first, last))) == {"FINISHED"}
+    if operator == SPIN:
+        times = times_of((first, last))
+        found = momenta_at(rig, times, 24)
+        assert np.abs(found - found[0]).max() < 0.01 * np.linalg.norm(found[0])
+        return
+    path = centers_at(rig, range(first, last + 1))
+    share = np.linspace(0.0, 1.0, len(path))[:, None]
+    fall = 0.5 * share * (1.0 - share) * ((last - first) / 24.0) ** 2 * np.array([0, 0, 9.81])
+    assert np.abs(path - path[0] - share * (path[-1] - path[0]) - fall).max() < 1e-5
+    assert bpy.ops.pose.body_moments_trace() == {"FINISHED"}
+    (empty,) = (obj for obj in scene.objects if "body_balance_group" in obj)
+    for frame in (first, first + 3, last):
+        scene.frame_set(frame)
+        assert np.abs(np.subtract(empty.location, centers_at(rig, [frame])[0])).max() < 1e-5
+
+
+def test_action_of_two_characters_is_refused_by_name(scene):
+    """The root has no keys yet."""
+    rig = gymnast()
+    flight = somersault(rig, 8, 24, "XYZ")
+    for curve in curves_of(rig):
+        if "root" in curve.data_path:
+            rig.animation_data.action.layers[0].strips[0].channelbags[0].fcurves.remove(curve)
+    other = bpy.data.objects.new("Twin", rig.data)
+    animation = other.animation_data_create()
+    animation.action = rig.animation_data.action
+    animation.action_slot = rig.animation_data.action_slot
+    before = everything(rig)
+    for operator in (PARABOLA, SPIN):
+        with pytest.raises(RuntimeError, match="“Twin”.*single user"):
+            operator(**typed(flight))
     assert everything(rig) == before
