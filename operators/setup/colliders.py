@@ -53,11 +53,15 @@ HULLS = {"AUTOMATIC", "HULL", "PIECES"}  # shapes with tolerances and limits
 ENGINES = (
     ("NONE", "None", "Names that no engine interprets"),
     ("UNREAL", "Unreal", "Prefixes by shape: UBX_, USP_, UCP_ and UCX_"),
-    ("GODOT", "Godot, Convex", "Suffix -convcolonly: a convex shape, for bodies that move"),
+    (
+        "GODOT",
+        "Godot, Convex",
+        "Suffix -convcolonly: a static body with a convex shape; move the shape to a RigidBody3D",
+    ),
     (
         "GODOT_MESH",
         "Godot, Triangles",
-        "Suffix -colonly: the triangles, for bodies that do not move",
+        "Suffix -colonly: a static body with the triangles",
     ),
     ("UNITY", "Unity", "One child for each collider, to which its Collider component is added"),
 )

@@ -7,9 +7,11 @@ name the object.
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.read.mesh import mesh_surface
 from body_moments.blender.session.tracking.staleness import stale_reason
 from body_moments.blender.session.tracking.stamps import Stale, of_colliders
 from body_moments.blender.settings.given import COLLIDER, COLLIDERS
+from body_moments.core.polyhedron.integration import volume_and_center
 
 from tests.blender.objects import add, measured, mesh_body, only, seen
 
@@ -248,3 +250,56 @@ def test_sphere_keeps_its_shape_without_vertices_to_move():
     size = list(colliders(body)[0][COLLIDER]["size"])
     make(shape="SPHERE", correct="VERTICES")
     assert list(colliders(body)[0][COLLIDER]["size"]) == size
+
+
+def test_curve_with_path_animation_is_inside_its_colliders():
+    curve = bpy.data.curves.new("Wire", "CURVE")
+    curve.dimensions = "3D"
+    curve.bevel_depth, curve.use_fill_caps, curve.use_path = 0.2, True, True
+    spline = curve.splines.new("POLY")
+    spline.points.add(2)
+    for point, place in zip(spline.points, ((1, 2, 3), (2, 2, 3), (3, 3, 3))):
+        point.co = *place, 1.0
+    body = add(curve, "Wire", (5, 6, 7), (0.3, 0.2, 0.1), (1, 2, 1.5))
+    only(body)
+    for _ in range(2):  # made, and renewed
+        make(shape="HULL")
+        points = seen(colliders(body)[0])
+        assert np.abs(points.min(axis=0) - seen(body).min(axis=0)).max() < 1e-5
+        assert np.abs(points.max(axis=0) - seen(body).max(axis=0)).max() < 1e-5
+
+
+def test_turning_a_sheared_body_keeps_its_colliders_valid():
+    parent = add(None, "Parent", scale=(1, 2, 0.7))
+    body = add(mesh_body(), "Body", rotation=(0.4, 0.6, 0.8))
+    body.parent = parent
+    only(body)
+    make(shape="HULL")
+    parent.rotation_euler = 1, 2, 3
+    bpy.context.view_layer.update()
+    assert stale_reason(body, bpy.context.scene, of_colliders) is None
+    parent.scale = 1, 1, 1
+    bpy.context.view_layer.update()
+    assert stale_reason(body, bpy.context.scene, of_colliders) == Stale.TRANSFORM
+
+
+def test_hull_has_its_origin_at_its_own_center():
+    body = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.4, 0.5), (1.0, 2.0, -0.5))
+    make(shape="PIECES", engine="GODOT")
+    for collider in colliders(body):
+        assert np.array(collider.matrix_world.to_scale()) == pytest.approx(1.0, abs=1e-5)
+        surface = mesh_surface(collider.data, edges=False)
+        assert np.abs(volume_and_center(surface)[1]).max() < 1e-5
+
+
+def test_rod_of_a_hundred_thousand_diameters_is_cut():
+    body = add(mesh_body(), "Rod", scale=(1e5, 1, 1))
+    assert make(shape="PIECES") == {"FINISHED"} and colliders(body)
+
+
+@pytest.mark.parametrize("correct", ["NONE", "VERTICES", "MASSES"])
+def test_colliders_of_a_flat_shell_are_refused(correct, reported):
+    bpy.ops.mesh.primitive_plane_add()
+    bpy.context.object.body_moments.kind = "SHELL"
+    assert make(shape="HULL", correct=correct) == {"CANCELLED"}
+    assert not any("Internal" in str(one.values) for one in reported)
