@@ -102,6 +102,8 @@ class WeightPanel:
         rows.setting(column, settings, "ground")
         if context.active_pose_bone is not None:
             column.prop(context.active_pose_bone.body_moments, "is_contact")
+        else:
+            column.label(text="")  # nothing below moves when a bone is selected
         _motion(layout, context)
 
 
