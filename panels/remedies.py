@@ -102,6 +102,8 @@ def _remedies(context: Context, group: Group) -> tuple[str, ...]:
     """Return the remedies of a group about the subject alone; otherwise its objects can be
     selected.
     """
+    if not group.objects and group.finding.values.get("objects"):
+        return (SELECT,)  # a caveat about a total
     obj = subject(context)  # a collection may be shown without an object
     if group.objects and (obj is None or group.objects != (obj.name_full,)):
         return (SELECT,)

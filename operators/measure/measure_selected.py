@@ -70,6 +70,14 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
         options={"SKIP_SAVE"},
     )
 
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        may_have_mass = any(
+            has_shape(obj) or measurable(obj) or armatures.stands_for_meshes(obj)
+            for obj in context.selected_objects
+        )
+        return may_have_mass or reports.unavailable(cls, "Nothing selected can be measured")
+
     def _begin(self, context: bpy.types.Context) -> int:
         """Apply the settings of the redo panel and prepare the steps; return the number of selected
         objects.

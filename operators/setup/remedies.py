@@ -228,7 +228,11 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
             if self.code in ("", group.finding.code)
             for name in group.objects
         }
-        objects = [obj for obj in context.view_layer.objects if obj.name_full in names]
+        for caveat in displayed.total(context).findings if self.code else ():
+            if caveat.code == self.code:
+                listed = caveat.values.get("objects", ())
+                names.update(name if isinstance(name, str) else name[0] for name in listed)
+        objects = [obj for obj in context.view_layer.objects if names & {obj.name_full, obj.name}]
         if not objects:
             return {"CANCELLED"}
         selection.select_only(context, objects, objects[0])

@@ -139,3 +139,20 @@ def test_presets_are_given_to_the_selection_alone(mixed, tmp_path):
     bpy.ops.object.body_moments_preset_apply(filepath=str(path))
     assert {obj.body_moments.thickness for obj in selected} == {0.25}
     assert set_of(active) == before
+
+
+def test_copy_left_in_place_is_a_warning_with_select():
+    body = add(mesh_body(), "Body")
+    linked, other = bpy.data.objects.new("Linked", body.data), add(mesh_body(), "Other", (9, 0, 0))
+    bpy.context.scene.collection.objects.link(linked)
+    copied = add(body.data.copy(), "Copied")
+    only(body, linked, copied, other)
+    bpy.ops.object.body_moments_measure()
+    assert "Copies at an equal place count again" in " ".join(labels(shown()))
+    bpy.ops.object.body_moments_select_refused(code="total_copies_in_place")
+    assert sorted(obj.name for obj in bpy.context.selected_objects) == ["Copied", "Linked"]
+    copied.location.x = linked.location.x = 4.0
+    linked.location.y = 5.0
+    only(body, linked, copied, other)
+    bpy.context.view_layer.update()
+    assert "Copies at an equal place" not in " ".join(labels(shown()))
