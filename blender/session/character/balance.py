@@ -187,8 +187,8 @@ class _Search:
         return False
 
     def _solve(self, handle: _Handle, units: NDArray, change: NDArray, head: NDArray) -> bool:
-        """Find the least move from a first change of the units on; return whether the center is over
-        the target, the bone no higher than it was, and the contacts in place.
+        """Find the least move from a first change of the units on; return whether the center is
+        over the target, the bone no higher than it was, and the contacts in place.
         """
         size = self.known.size
         up = self.axes[:, 2]
