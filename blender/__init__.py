@@ -10,5 +10,6 @@ SETTINGS = ("settings.properties", "settings.scene", "settings.assembly")
 MODULES = (
     "write.translations",
     *SETTINGS,
+    "session.selected",
     "session.tracking.handlers",
 )

@@ -199,8 +199,8 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
         except OSError as error:
             file = str(options.write_baseline)
             raise FileError(FILE_NOT_WRITTEN, file=file, error=system_reason(error)) from error
-    fails = audit_gate.fails(documents, options.fail_on)
-    return [audit_report.FORMATS[options.format](documents)], 70 if internal else 1 if fails else 0
+    code = 70 if internal else int(audit_gate.fails(documents, options.fail_on))
+    return [audit_report.FORMATS[options.format](documents)], code
 
 
 def _documents(options: argparse.Namespace) -> Iterator[dict[str, Any]]:

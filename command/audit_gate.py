@@ -46,12 +46,12 @@ def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
             if found["code"] in options.ignore:
                 continue
             if is_light:
-                found = {**found, "severity": str(Severity.NOTE)}
+                found = found | {"severity": str(Severity.NOTE)}
             if options.known is not None and _key(found, link, options.baseline) in options.known:
-                found = {**found, "known": True}
+                found = found | {"known": True}
             findings.append(found)
-        links.append({**link, "findings": findings})
-    return audit_report.with_status({**document, "links": links})
+        links.append(link | {"findings": findings})
+    return audit_report.with_status(document | {"links": links})
 
 
 def fails(documents: Iterable[dict[str, Any]], level: str) -> bool:

@@ -16,6 +16,7 @@ MODULES = (
     "statics",
     *("export." + name for name in ("robot", "audit")),
     "rig",
+    "motion",
     *("shape." + name for name in ("match_pose", "find_similar", "find_symmetry", "link_copies")),
     "batch",
     # is removed first: its last notes need the properties of all others

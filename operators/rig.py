@@ -10,7 +10,7 @@ from bpy.types import Context, Operator
 from ..blender import bodies, read, scene, session
 from ..blender.bodies.findings import BONE_PARTS_IMPOSSIBLE
 from ..blender.read.tracking import tracking_paused
-from ..blender.session import live, stored
+from ..blender.session import character, stored
 from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.write import reports
 from ..core.verdict.finding import Severity
@@ -138,7 +138,7 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
         ]
         shown = not context.object.body_moments_weight.show
         rigs = list(
-            filter(None, [live.character.prepare(context, armature) for armature in armatures])
+            filter(None, [character.weight.prepare(context, armature) for armature in armatures])
         )
         shown = shown or bool(rigs)  # numbers that were out of date are shown anew
         for armature in armatures:
@@ -169,7 +169,7 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
             ("MIDDLE", "Middle", "Over the middle of the support polygon"),
             ("INSIDE", "Inside", "Over the nearest point with the margin from the edge"),
         ),
-        default="MIDDLE",
+        default="INSIDE",
     )
     margin: FloatProperty(
         name="Margin",
@@ -179,14 +179,19 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
         unit="LENGTH",
     )
 
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop_search(self, "bone", context.object.pose, "bones", icon="BONE_DATA")
+        layout.prop(self, "target")
+        if self.target == "INSIDE":
+            layout.prop(self, "margin")
+
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         margin = self.margin if self.target == "INSIDE" else None
         values = session.balance_pose(context, context.object, self.bone, margin)
-        text = (
-            "Moved “{bone}”: the center is {gap:length} from its target, {margin:length} inside "
-            "the support"
-        )
+        text = "Moved “{bone}”: the center is {gap} from its target, {margin} inside the support"
         selection.report(self, reports.phrase(text if values else BALANCED, **values))
         return {"FINISHED" if values else "CANCELLED"}
 

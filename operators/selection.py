@@ -237,7 +237,7 @@ def apply_to_all(
 def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
     """Write a file, whole or not at all. FileError if it cannot be written."""
     try:
-        with core.whole_file.whole_file(path) as file:
+        with core.files.whole_file.whole_file(path) as file:
             file.writelines(
                 piece if isinstance(piece, bytes) else piece.encode() for piece in pieces
             )

@@ -6,20 +6,17 @@ from math import degrees
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
-from bpy.types import Context, Object, Operator, Scene
+from bpy.types import Context, Object, Operator
 
 from ..blender import session
 from ..blender.session import stored
 from ..blender.session.tracking import staleness
 from ..blender.write import reports
 from ..blender.write.translations import localized
-from ..core.verdict.finding import Finding, Severity, finding
+from ..core.verdict.finding import Finding, finding
 from . import selection
 from .findings import OBJECTS_TIP
-from .modal import ModalDialog, ModalSteps
-from .rig import OnArmature
-
-EMPTY_FLIGHT = "Landing must be at least two frames after Take-off. Change one of them."
+from .modal import ModalDialog
 
 
 class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
@@ -122,7 +119,7 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
     """Follow the center of mass of several objects over the frame range."""
 
     bl_idname = "object.body_moments_balance_group"
-    bl_label = "Balance Group"
+    bl_label = "Follow Center"
     bl_description = (
         "Follow the common center of mass of the selected objects, of a collection, or of the "
         "meshes that the selected "
@@ -217,178 +214,8 @@ class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
         return selection.report(self, *texts)
 
 
-def _scene_frames(scene: Scene) -> range:
-    """Return the frames that are played."""
-    if scene.use_preview_range:
-        return range(scene.frame_preview_start, scene.frame_preview_end + 1)
-    return range(scene.frame_start, scene.frame_end + 1)
-
-
-class KeyedFlight(ModalDialog, OnArmature):
-    """Base of operators that key a character between take-off and landing."""
-
-    TURNS = False
-    DONE = ""
-    # properties of subclasses
-    lead = 0
-    blend = 0
-    keep = "TIMES"
-
-    use_contacts: BoolProperty(
-        name="Find by Contacts",
-        description=(
-            "Find take-off and landing by the contacts with the ground: of the flight at the "
-            "current frame, or the "
-            "longest one"
-        ),
-        default=True,
-    )
-    take_off: IntProperty(name="Take-off", description="Last frame on the ground", default=1)
-    landing: IntProperty(name="Landing", description="First frame on the ground again", default=24)
-    bone: StringProperty(
-        name="Bone",
-        description="Bone that carries the whole character. If empty, its root, or the armature "
-        "object",
-        search=lambda _self, context, _text: [bone.name for bone in context.object.pose.bones],
-    )
-    use_layer: BoolProperty(
-        name="As Layer",
-        description="Put the keys into a strip of the NLA that is combined with the action, which "
-        "becomes a strip, too",
-    )
-
-    def _begin(self, context: Context) -> int:
-        frames = _scene_frames(context.scene)
-        flight = None
-        if not self.use_contacts:
-            flight = self.take_off, self.landing
-            if self.landing < self.take_off + 2:
-                raise reports.Refused(EMPTY_FLIGHT)
-            frames = range(self.take_off - self.lead, self.landing + self.blend + 1)
-        followed = session.CharacterMotion(context, frames)
-        followed.find_carrier(context, self.bone, self.TURNS, self.use_layer)
-        self._steps = followed.follow_flight(
-            context.scene, flight, self.keep == "HEIGHT", self.lead, self.blend
-        )
-        self._followed = followed
-        return len(frames)
-
-    def _finish(self, context: Context) -> set[str]:
-        followed = self._followed
-        off = followed.key(context, self.TURNS)
-        texts = [
-            reports.phrase(
-                self.DONE, name=followed.armature.name, start=followed.first, end=followed.last
-            )
-        ]
-        if followed.landing != followed.last:
-            text = "The landing moves from frame {old} to {new}, as the fall takes {count} frames"
-            values = {
-                "old": followed.last,
-                "new": followed.landing,
-                "count": followed.landing - followed.first,
-            }
-            texts.append(reports.phrase(text, **values))
-        if off > 0.0:
-            text = "The center is off by up to {off:length}: constraints hold parts in the world"
-            texts.append(reports.phrase(text, off=off))
-        return selection.report(
-            self, *texts, level=Severity.WARNING if off > 0.0 else Severity.NOTE
-        )
-
-
-class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
-    """Key the root for a free fall of the center of mass from take-off to landing; poses stay"""
-
-    bl_idname = "pose.body_moments_parabola"
-    bl_label = "Put on Parabola"
-    DONE = "The center of “{name}” falls freely from frame {start} to {end}"
-
-    keep: EnumProperty(
-        name="Keep",
-        description="What stays as it is",
-        items=(
-            ("TIMES", "Times", "Take-off and landing stay at their frames, and the height changes"),
-            (
-                "HEIGHT",
-                "Height",
-                "The center rises as high as before; the landing and all later keys move",
-            ),
-        ),
-        default="TIMES",
-    )
-
-
-class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
-    """Turn the root so that angular momentum stays that of take-off: a tucked body spins faster"""
-
-    bl_idname = "pose.body_moments_keep_spin"
-    bl_label = "Keep Spin"
-    DONE = "“{name}” keeps its angular momentum from frame {start} to {end}"
-    TURNS = True
-
-    lead: IntProperty(
-        name="Lead",
-        description=(
-            "Frames before take-off over which the character turns already, so that less is left "
-            "after the landing. "
-            "If 0, the turn begins at take-off"
-        ),
-        default=8,
-        min=0,
-    )
-    blend: IntProperty(
-        name="Blend",
-        description="Frames after the landing over which the turn goes back",
-        default=8,
-        min=1,
-    )
-
-
-class KeyedPath(ModalSteps, OnArmature):
-    """Base of operators that key the path of a character's center on an empty."""
-
-    CURVES = False
-
-    def _begin(self, context: Context) -> int:
-        frames = _scene_frames(context.scene)
-        self._followed = session.CharacterMotion(context, frames)
-        self._steps = self._followed.follow(context.scene, frames)
-        return len(frames)
-
-    def _finish(self, context: Context) -> set[str]:
-        followed = self._followed
-        empty, spans = followed.bake(context, self.CURVES)
-        text = (
-            "Keys of the center of mass on “{empty}”: {count}. Spans with momentum from nothing: "
-            "{spans}"
-        )
-        return selection.report(
-            self, reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans)
-        )
-
-
-class POSE_OT_body_moments_bake_curves(KeyedPath, Operator):
-    """Key the character's momentum and balance on an empty, and list momentum from nothing"""
-
-    bl_idname = "pose.body_moments_bake_curves"
-    bl_label = "Bake Curves"
-    CURVES = True
-
-
-class POSE_OT_body_moments_trace(KeyedPath, Operator):
-    """Key the path of the center of mass on an empty, and draw it beside the arcs of free fall"""
-
-    bl_idname = "pose.body_moments_trace"
-    bl_label = "Trace"
-
-
 CLASSES = (
     OBJECT_OT_body_moments_stability,
     OBJECT_OT_body_moments_rest_on_ground,
     OBJECT_OT_body_moments_balance_group,
-    POSE_OT_body_moments_parabola,
-    POSE_OT_body_moments_keep_spin,
-    POSE_OT_body_moments_bake_curves,
-    POSE_OT_body_moments_trace,
 )

@@ -11,6 +11,7 @@ from bpy.types import Context, Object, UILayout
 
 from ..blender.session import stored
 from ..blender.session.displayed import displayed
+from ..blender.session.selected import subject
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings.preferences import shows_advanced
 from ..blender.write import properties
@@ -26,12 +27,12 @@ class AdvancedPanel:
     bl_label = "Advanced"
 
     @classmethod
-    def poll(cls, _context: Context) -> bool:
-        return shows_advanced()
+    def poll(cls, context: Context) -> bool:
+        return shows_advanced() and subject(context) is not None
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        obj = context.object
+        obj = subject(context)
         scene = context.scene
         shown = displayed(obj, scene)
         if shown is not None and shown.live is None:
@@ -81,7 +82,7 @@ class MomentsPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        obj = context.object
+        obj = subject(context)
         settings = context.scene.body_moments
         column = layout.column()
         rows.setting(column, settings, "moments_order")

@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from itertools import islice
 
-from bpy.types import Collection, Context, Panel, PropertyGroup, UILayout, UIList
+from bpy.types import Collection, Context, Object, Panel, PropertyGroup, UILayout, UIList
 
-from ..blender.read.visibility import GEOMETRY_TYPES
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings.assembly import Root, active_assembly, settings_of
-from ..blender.settings.given import shows_collection
+from ..blender.settings.chosen import chosen_objects
+from ..blender.settings.given import has_density
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..core.inertia.plain_body import PlainBody
@@ -160,17 +160,17 @@ class AssemblyPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        root = None if context.object is None else active_assembly(context)
+        root = active_assembly(context) if chosen_objects(context) else None
         if not isinstance(root, Collection):
             return root is not None
-        members = (
-            True for obj in root.all_objects if obj.type in GEOMETRY_TYPES or shows_collection(obj)
-        )
+        members = (True for obj in root.all_objects if has_density(obj))
         return properties.is_stored(root) or len([*islice(members, 2)]) > 1
 
     def draw(self, context: Context) -> None:
         root = active_assembly(context)
-        text = localized("Empty: {:s}") if root == context.object else localized("Collection: {:s}")
+        text = (
+            localized("Empty: {:s}") if isinstance(root, Object) else localized("Collection: {:s}")
+        )
         self.layout.label(text=text.format(root.name), icon="OUTLINER_COLLECTION", translate=False)
         draw_assembly(self.layout, context, root, "OF_OBJECT")
 

@@ -3,25 +3,28 @@
 """The main panel: the answer (a verdict, mass, volume and center of mass), the buttons, and then
 the findings.
 
-Nothing that comes and goes stands above a button: refusals of the last action are below all
-sub-panels. The rest is in sub-panels, in the order of CAD's mass property dialogs (`places.ORDER`).
+Nothing that comes and goes stands above a button of this panel: warnings are below them, refusals of
+the last action below all sub-panels. The rest is in sub-panels, in the order of CAD's mass property dialogs (`places.ORDER`).
 """
 
 from __future__ import annotations
 
-from bpy.types import Context, UILayout
+from collections.abc import Sequence
+
+from bpy.types import Context, Object, UILayout
 
 from ..blender.read.visibility import measurable
-from ..blender.session.displayed import Displayed, Total, Verdict, displayed, shown_objects, total
+from ..blender.session.displayed import Displayed, Verdict, displayed, shown_objects, total
 from ..blender.session.live.following import Lag, current_numbers, is_live
 from ..blender.session.stored import outcome
 from ..blender.session.tracking import armatures
+from ..blender.settings.chosen import chosen_objects
 from ..blender.settings.preferences import draw_links
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..core.inertia.plain_body import PlainBody
 from ..core.verdict.method import Source
-from ..core.verdict.sentences import METHODS, Group, method_key
+from ..core.verdict.sentences import METHODS, Group, method_key, truncate_list
 from ..core.wall.findings import WALL_MEASURED
 from . import remedies, rows
 from .density import material_row
@@ -43,12 +46,9 @@ SOURCES = {
 }  # prefix for the measured data, before a method
 
 LIVE = {
-    Lag.NONE: "Live ({milliseconds:.0f} ms). Press Measure to store",
-    Lag.FIRST_ORDER: (
-        "Live: mass, volume and center of this frame; inertia follows when it stops "
-        "({milliseconds:.0f} ms)"
-    ),
-    Lag.BEHIND: "Live lags: measuring takes {milliseconds:.0f} ms, and waits until the edit stops",
+    Lag.NONE: "Live: {milliseconds:.0f} ms, not stored",
+    Lag.FIRST_ORDER: "Live: inertia follows when it stops",
+    Lag.BEHIND: "Live lags: measuring takes {milliseconds:.0f} ms",
 }
 
 
@@ -64,76 +64,103 @@ class BodyPanel:
             draw_links(row, icons_only=True)
 
     def draw(self, context: Context) -> None:
-        if shown_objects(context) == [context.object]:
-            _one_object(self.layout, context, displayed(context.object, context.scene))
+        objects = shown_objects(context)
+        obj = context.object
+        if obj is not None and armatures.stands_for_meshes(obj) or len(objects) > 1:
+            _several_objects(self.layout, context)
         else:
-            _several_objects(self.layout, context, total(context))
+            _one_object(self.layout, context, objects[0])
 
 
-def _one_object(layout: UILayout, context: Context, shown: Displayed | None) -> None:
-    obj = context.object
+def _one_object(layout: UILayout, context: Context, obj: Object) -> None:
+    shown = displayed(obj, context.scene)
     frame = context.scene.body_moments.frame
     _verdict(layout, obj.name, "OBJECT_DATA", None if shown is None else shown.verdict)
     length = properties.optional(obj, "body_length")
     numbers = None if shown is None else shown.in_frame(frame)
     is_rig = obj.type == "ARMATURE" and shown is not None and not shown.is_posed
-    _answer(layout, numbers, (RESTING_HEADINGS if is_rig else CENTER_HEADINGS)[frame], length)
-    material_row(layout, context, obj)
+    density = ""
+    if shown is not None and numbers is not None and numbers.mass > 0.0:
+        density = _density(numbers, length, "at {:s}, not set" if shown.is_assumed else "at {:s}")
+    heading = (RESTING_HEADINGS if is_rig else CENTER_HEADINGS)[frame]
+    _answer(layout, numbers, heading, density, length)
+    material_row(layout, context)
     _buttons(layout, context)
+    state = ""
+    icon = "BLANK1"
     now = current_numbers(obj)
+    if shown is not None and shown.reason is not None:
+        state = rows.outdated(shown.reason)
+        icon = "FILE_REFRESH"
+    elif shown is not None and shown.live is not None:
+        state = localized(LIVE[shown.lag]).format(milliseconds=1e3 * shown.live.seconds)
+        icon = "REC"
+    _state(layout, state, icon)
     if now is not None and now.refusal is not None and outcome.last() is None:
         rows.message(layout, now.refusal)
-    if shown is None or numbers is None:
-        return
-    if shown.live is not None and shown.reason is None:
-        rows.remark(layout, LIVE[shown.lag], icon="REC", milliseconds=1e3 * shown.live.seconds)
-    rows.stale_row(layout, shown.reason)
-    remedies.unit_question(layout, context, shown.world)
-    remedies.lines(layout, context, [Group(found) for found in shown.findings])
-    _details(layout, context, shown, numbers)
+    _details(layout, obj, shown, numbers)
     row = layout.column(align=True) if rows.is_narrow() else layout.row(align=True)
     row.menu("VIEW3D_MT_body_moments_copy", icon="COPYDOWN")
     rows.button(row, "object.body_moments_clear", "TRASH")
-    remedies.notes(layout, "body_moments_notes", shown.findings)
+    findings = () if shown is None else shown.findings
+    remedies.notes(layout, "body_moments_notes", findings)
+    remedies.lines(layout, context, [Group(found) for found in findings])
+    if shown is not None:
+        remedies.unit_question(layout, context, obj, shown.world)
 
 
-def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
+def _several_objects(layout: UILayout, context: Context) -> None:
     """Draw the selected objects, or the meshes of a posed armature, as one body."""
+    shown = total(context)
+    active = context.object
     count = shown.count + len(shown.missing)
-    if armatures.stands_for_meshes(context.object):
-        text = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes").format(
-            context.object.name, count
-        )
+    posed = None
+    if active is not None and armatures.stands_for_meshes(active):
+        posed = displayed(active, context.scene)
+        text = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes")
+        text = text.format(active.name, count)
     else:
-        text = localized("1 Object" if count == 1 else "{:d} Objects").format(count)
-    posed = (
-        displayed(context.object, context.scene)
-        if armatures.stands_for_meshes(context.object)
-        else None
-    )
-    is_rest = posed is not None and properties.optional(context.object, "body_mass") is not None
+        text = localized("{:d} Objects").format(count)
+    is_rest = posed is not None and properties.optional(active, "body_mass") is not None
     _verdict(layout, text, "GROUP", posed.verdict if is_rest else shown.verdict)
     numbers = shown.numbers if posed is None else posed.world
-    _answer(
-        layout,
-        numbers,
-        CENTER_HEADINGS["WORLD"],
-        volume=shown.volume if shown.count and not is_rest else None,
-    )
-    material_row(layout, context, context.object)
+    density = ""
+    if numbers is not None:
+        template = "at {:s} on average"
+        if shown.assumed:
+            is_all = shown.assumed == shown.count
+            template = "at {:s}, not set" if is_all else "at {:s}, not set: {:d} of {:d}"
+        density = _density(numbers, None, template, shown.assumed, count)
+    volume = shown.volume if shown.count and not is_rest else None
+    _answer(layout, numbers, CENTER_HEADINGS["WORLD"], density, volume=volume)
+    material_row(layout, context)
     _buttons(layout, context)
     if is_rest:
-        rows.remark(layout, "The mass is that of the rest pose")
-        rows.stale_row(layout, posed.reason)
-    unmeasured = shown.missing if shown.count else ()  # of none the verdict says it
-    for names, text in (
-        (unmeasured, "Not measured: {objects}"),
-        (shown.stale, "Out of date: {objects}"),
-    ):
-        if names and not is_rest:
-            rows.remark(layout, text, icon="FILE_REFRESH", objects=names)
+        reason = posed.reason
+        text = "The mass is that of the rest pose"
+        _state(
+            layout,
+            localized(text) if reason is None else rows.outdated(reason),
+            "INFO" if reason is None else "FILE_REFRESH",
+        )
+    else:
+        missing = shown.missing if shown.count else ()  # of none the verdict says it
+        texts = [
+            _outstanding(text, names, count)
+            for names, text in ((missing, "Not measured: {:s}"), (shown.stale, "Out of date: {:s}"))
+            if names
+        ]
+        _state(layout, "; ".join(texts), "FILE_REFRESH" if texts else "BLANK1")
     findings, groups = (posed.findings, ()) if is_rest else (shown.findings, shown.groups)
     remedies.lines(layout, context, [*map(Group, findings), *groups])
+
+
+def _outstanding(template: str, names: Sequence[str], count: int) -> str:
+    """Return a text with names, or with how many of `count` they are if they do not fit a row."""
+    text = localized(template).format(truncate_list(names, translate=localized))
+    if rows.fits(1.0, text):
+        return text
+    return localized(template).format(localized("{} of {}").format(len(names), count))
 
 
 def _verdict(layout: UILayout, text: str, icon: str, verdict: Verdict | None) -> None:
@@ -146,57 +173,87 @@ def _verdict(layout: UILayout, text: str, icon: str, verdict: Verdict | None) ->
     end.label(text=word, icon=icon)
 
 
+def _state(layout: UILayout, text: str, icon: str) -> None:
+    """Draw one row that says whether the numbers follow the scene: it is always there, so that
+    nothing below it moves.
+    """
+    row = layout.row()
+    row.alert = icon == "FILE_REFRESH"
+    row.label(text=text, icon=icon, translate=False)
+
+
+def _density(numbers: PlainBody, length: float | None, template: str, *counts: int) -> str:
+    """Return the density behind a mass, or that nobody has set it."""
+    if length:
+        text = "{:.4g} kg/m".format(numbers.mass / length)
+    else:
+        text = rows.scene_units().texts("density", (numbers.density,))[0]
+    return localized(template).format(text, *counts)
+
+
 def _answer(
     layout: UILayout,
     numbers: PlainBody | None,
     heading: str,
+    density: str,
     length: float | None = None,
     volume: float | None = None,
 ) -> None:
-    """Draw mass, volume and center, in as many rows before they are known. length: of a wire, in
-    place of the volume.
+    """Draw mass, its density, volume and center, in as many rows before they are known.
 
-    volume: of several objects, which is known if they have no mass.
+    length: of a wire, in place of the volume. volume: of several objects, which is known if they
+    have no mass.
     """
     column = layout.column(align=True)
-    if numbers is None:
-        rows.table(column, [("Mass", "–", "", ""), ("Volume", "–", "", "")])
-        column = layout.column(align=True)
-        rows.title(column.row(align=True), heading)
-        rows.table(column, [(label, "–", "", "") for label in rows.AXIS_LABELS])
-        return
-    size = ("Volume", "volume", numbers.volume if volume is None else volume)
-    rows.quantities(
+    size = ("Volume", "volume", volume) if length is None else ("Length", "length", length)
+    mass = ("Mass", "–", "", "")
+    if numbers is not None:
+        mass = rows.quantity_cell("Mass", "mass", numbers.mass)
+        if length is None and volume is None:
+            size = ("Volume", "volume", numbers.volume)
+    rows.table(column, [mass])
+    rows.right(column, density)
+    rows.table(
         column,
-        [("Mass", "mass", numbers.mass), size if length is None else ("Length", "length", length)],
+        [("Volume", "–", "", "") if numbers is None else rows.quantity_cell(*size)],
     )
-    rows.center(layout, heading, numbers)
+    if numbers is not None:
+        rows.center(layout, heading, numbers)
+        return
+    column = layout.column(align=True)
+    rows.title(column.row(align=True), heading)
+    rows.table(column, [(label, "–", "", "") for label in rows.AXIS_LABELS])
 
 
 def _buttons(layout: UILayout, context: Context) -> None:
     narrow = rows.is_narrow()
     buttons = layout.column(align=True) if narrow else layout.row(align=True)
     buttons.scale_y = 1.4
-    subjects = [obj for obj in armatures.subjects(context.selected_objects) if measurable(obj)]
-    text = "Measure" if subjects == [context.object] or not subjects else "Measure {:s}"
+    shown = shown_objects(context)
+    selected = context.view_layer.objects.selected
+    subjects = [obj for obj in armatures.subjects(selected) if measurable(obj)]
+    text = "Measure" if not subjects or len(shown) == 1 and subjects == shown else "Measure {:s}"
     name = (
         subjects[0].name if len(subjects) == 1 else localized("{:d} Objects").format(len(subjects))
     )
     measure = {"text": localized(text).format(name), "translate": False}
     rows.button(buttons, "object.body_moments_measure", "PHYSICS", **measure)
     row = buttons.row(align=True)
-    followed = any(is_live(subject) for subject in armatures.subjects([context.object]))
     short = {"text": ""} if text != "Measure" else {}  # the longer text needs the room
-    rows.button(row, "object.body_moments_live", "REC", depress=followed, **short)
+    rows.button(row, "object.body_moments_live", "REC", depress=any(map(is_live, shown)), **short)
     row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
 
 
-def _details(layout: UILayout, context: Context, shown: Displayed, numbers: PlainBody) -> None:
+def _details(
+    layout: UILayout, obj: Object, shown: Displayed | None, numbers: PlainBody | None
+) -> None:
     """Draw area, density and method; an unknown method, of another version of the add-on, by its
     stored text.
     """
-    obj = context.object
     column = layout.column(align=True)
+    if shown is None or numbers is None:
+        rows.table(column, [(name, "–", "", "") for name in ("Area", "Density", "Method")])
+        return
     if numbers.area:  # neither a wire nor a grid of densities has a surface
         rows.quantities(column, [("Area", "area", numbers.area)])
     if properties.optional(obj, "body_length") is None:
@@ -232,7 +289,7 @@ class ApplyPanel:
     bl_label = "Apply to Object"
 
     def draw(self, context: Context) -> None:
-        layout, obj = self.layout, context.object
+        layout = self.layout
         column = layout.column(align=True)
         rows.button(column, "object.body_moments_origin_to_center", "OBJECT_ORIGIN")
         rows.button(column, "object.body_moments_axes_to_principal", "EMPTY_AXIS")
@@ -243,17 +300,17 @@ class ApplyPanel:
         rows.button(column, "object.body_moments_create_orientation", "ORIENTATION_LOCAL")
         rows.button(column, "object.body_moments_rigid_bodies", "RIGID_BODY")
         button = rows.button(column, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
-        button.add = not obj.rigid_body
+        button.add = not any(obj.rigid_body for obj in chosen_objects(context))
         rows.button(layout, "object.body_moments_add_nodes", "GEOMETRY_NODES")
         if context.mode == "EDIT_MESH":
             rows.button(layout, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 
 
 VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(
-    BodyPanel, shown_for=lambda obj: True
+    BodyPanel, shown_for=lambda obj: True, of_all=True
 )
 CLASSES = (
     *(VIEW3D_PT_body_moments, OBJECT_PT_body_moments),
-    *in_both_places(ApplyPanel, "apply", shown_for=measurable),
+    *in_both_places(ApplyPanel, "apply", shown_for=measurable, of_all=True),
     *in_both_places(RefusedPanel, "refused", options={"HIDE_HEADER"}),
 )

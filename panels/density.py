@@ -8,11 +8,13 @@ grid of voxels has settings of its own. An empty may stand for a point mass.
 
 from __future__ import annotations
 
-from bpy.types import Context, Object, PropertyGroup, UILayout
+from itertools import chain
 
-from ..blender.read.visibility import GEOMETRY_TYPES
+from bpy.types import Context, Mesh, Object, Panel, PropertyGroup, UILayout
+
 from ..blender.session import stored
-from ..blender.settings.given import shows_collection
+from ..blender.session.selected import chosen_settings, common, is_mixed, owners
+from ..blender.settings.given import has_density, shows_collection
 from ..blender.settings.preferences import default_material, shows_advanced
 from ..blender.settings.properties import density_field_name
 from ..blender.write.translations import CONTEXT
@@ -28,29 +30,29 @@ class DensityPanel:
     bl_label = "Density"
 
     def draw(self, context: Context) -> None:
-        _settings(self.layout, context, context.object)
+        _settings(self.layout, context)
 
 
-def _has_density(obj: Object) -> bool:
-    return obj.type in GEOMETRY_TYPES or shows_collection(obj)
-
-
-def material_row(layout: UILayout, context: Context, obj: Object) -> None:
+def material_row(layout: UILayout, context: Context) -> None:
     """Draw the density's most used setting in one row: the material, or the setting in its
     place.
     """
-    if not _has_density(obj):
+    settings = chosen_settings(context)
+    objects = owners(context)
+    if settings is None or not has_density(objects[0]):
         return
-    settings = obj.body_moments
+    are_volumes = all(obj.type == "VOLUME" for obj in objects)
     column = layout.column()
     column.use_property_split = True
-    if obj.type == "VOLUME" and settings.grid_as == "DENSITY":
+    if are_volumes and common(settings, "grid_as") == "DENSITY":
         rows.setting(column, settings, "grid")
+    elif is_mixed(settings, "mass_from"):
+        rows.setting(column, settings, "mass_from")
     elif settings.mass_from == "MASS":
         rows.setting(column, settings, "mass", text="Mass (kg)")
-    elif settings.kind == "WIRE":
+    elif common(settings, "kind") == "WIRE":
         rows.setting(column, settings, "linear_density", text="Density (kg/m)")
-    elif settings.density_from == "VALUE" or obj.type == "VOLUME":
+    elif common(settings, "density_from") == "VALUE" or are_volumes:
         _material(column, context, settings, "Material")
     else:
         rows.setting(column, settings, "density_from")
@@ -60,7 +62,8 @@ def _density_source(column: UILayout, settings: PropertyGroup) -> None:
     """Draw the source of the density, without polynomials unless one is in use or the preferences
     show them.
     """
-    if shows_advanced() or settings.density_from == "POLYNOMIAL":
+    source = common(settings, "density_from")
+    if shows_advanced() or source in (None, "POLYNOMIAL"):
         rows.setting(column, settings, "density_from")
         return
     grid = column.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
@@ -69,62 +72,79 @@ def _density_source(column: UILayout, settings: PropertyGroup) -> None:
         grid.prop_enum(settings, "density_from", source)
 
 
-def _settings(layout: UILayout, context: Context, obj: Object) -> None:
-    settings = obj.body_moments
-    if obj.override_library is not None:
+def _settings(layout: UILayout, context: Context) -> None:
+    settings = chosen_settings(context)
+    objects = owners(context)
+    if any(obj.override_library is not None for obj in objects):
         rows.remark(
             layout,
             "Library override: settings and results are lost on saving. Make it local.",
             icon="ERROR",
         )
-    if obj.type == "VOLUME" and _grid_settings(layout, obj):
+    are_volumes = all(obj.type == "VOLUME" for obj in objects)
+    if are_volumes and _grid_settings(layout, settings):
         return
     column = layout.column()
     column.use_property_split = True
-    if obj.type == "VOLUME":
-        rows.setting(column, settings, "mass_from", expand=True)
-        if settings.mass_from == "MASS":
-            rows.setting(column, settings, "mass", text="Mass (kg)")
-        else:
-            _uniform_density(column, context, settings, "Material")
-        return
-    row = _labeled_row(column, "Kind")
-    row.use_property_split = False
-    for kind in (
-        ("SOLID", "SHELL", "WIRE")
-        if obj.type == "CURVE" or settings.kind == "WIRE"
-        else ("SOLID", "SHELL")
-    ):
-        row.prop_enum(settings, "kind", kind)
-    if settings.kind == "SHELL":
+    kind = "SOLID" if are_volumes else common(settings, "kind")
+    if not are_volumes:
+        _shape_settings(column, settings, objects, kind)
+    rows.setting(column, settings, "mass_from", expand=True)
+    mass_from = common(settings, "mass_from")
+    if mass_from == "MASS":
+        rows.setting(column, settings, "mass", text="Mass (kg)")
+    elif mass_from is not None and kind == "WIRE":
+        rows.setting(column, settings, "linear_density", text="Density (kg/m)")
+    elif mass_from is not None:
+        _density_settings(layout, column, context, settings, are_volumes)
+
+
+def _shape_settings(
+    column: UILayout, settings: PropertyGroup, objects: list[Object], kind: str | None
+) -> None:
+    """Draw the kind of the bodies, and their walls or overlaps."""
+    if kind is None:
+        rows.setting(column, settings, "kind")
+    else:
+        row = rows.labeled_row(column, "Kind", CONTEXT)
+        row.use_property_split = False
+        may_be_wire = kind == "WIRE" or all(obj.type == "CURVE" for obj in objects)
+        for item in ("SOLID", "SHELL", "WIRE") if may_be_wire else ("SOLID", "SHELL"):
+            row.prop_enum(settings, "kind", item)
+    if kind == "SHELL":
         rows.setting(column, settings, "wall")
         rows.setting(column, settings, "thickness")
-        _max_thickness(column, obj)
-    elif settings.kind == "SOLID":
+        if len(objects) == 1:
+            _max_thickness(column, objects[0])
+    elif kind == "SOLID":
         rows.setting(column, settings, "overlap")
-    rows.setting(column, settings, "mass_from", expand=True)
-    if settings.mass_from == "DENSITY" and settings.kind == "WIRE":
-        rows.setting(column, settings, "linear_density", text="Density (kg/m)")
-        return
-    if settings.mass_from == "MASS":
-        rows.setting(column, settings, "mass", text="Mass (kg)")
+
+
+def _density_settings(
+    layout: UILayout, column: UILayout, context: Context, settings: PropertyGroup, are_volumes: bool
+) -> None:
+    """Draw the source of the density and its settings."""
+    if are_volumes:
+        _uniform_density(column, context, settings, "Material")
         return
     _density_source(column, settings)
-    if settings.density_from == "POLYNOMIAL":
+    source = common(settings, "density_from")
+    if source == "POLYNOMIAL":
         rows.setting(column, settings, "density_polynomial")
         rows.setting(column, settings, "density_frame", expand=True)
-    elif settings.density_from == "ATTRIBUTE":
-        if obj.type == "MESH":
+    elif source == "ATTRIBUTE":
+        mesh = owners(context)[0].data
+        if isinstance(mesh, Mesh) and not is_mixed(settings, "density_attribute"):
             column.prop_search(
-                settings, "density_attribute", obj.data, "attributes", results_are_suggestions=True
+                settings, "density_attribute", mesh, "attributes", results_are_suggestions=True
             )
         else:
             rows.setting(column, settings, "density_attribute")
-    elif settings.density_from == "VOLUME":
+    elif source == "VOLUME":
         rows.setting(column, settings, "density_volume")
-    elif settings.density_from == "MATERIALS":
-        _materials(layout, context, obj)
-    else:
+    elif source == "MATERIALS":
+        _materials(layout, context, settings)
+    elif source is not None:
         _uniform_density(column, context, settings, "Material")
 
 
@@ -143,11 +163,11 @@ def _max_thickness(layout: UILayout, obj: Object) -> None:
         rows.remark(row, "Largest wall: {length:length}", length=limit)
 
 
-def _materials(layout: UILayout, context: Context, obj: Object) -> None:
-    settings = obj.body_moments
+def _materials(layout: UILayout, context: Context, settings: PropertyGroup) -> None:
     column = layout.column(align=True)
     rows.filled(column, "Densities ({:s})", rows.scene_units().unit("density", 0.0)[1])
-    shown = {slot.material: None for slot in obj.material_slots if slot.material}
+    slots = chain.from_iterable(obj.material_slots for obj in owners(context))
+    shown = dict.fromkeys(slot.material for slot in slots if slot.material)
     for material in shown:
         materials.density_row(column, context.scene, material, material.name)
     if not shown:
@@ -157,57 +177,65 @@ def _materials(layout: UILayout, context: Context, obj: Object) -> None:
     _uniform_density(column, context, settings, "Others")
 
 
-def _labeled_row(column: UILayout, label: str) -> UILayout:
-    """Return a row beside a label, as Blender aligns properties, or below it in a narrow panel."""
-    if rows.is_narrow():
-        rows.title(column, label)
-        return column.row(align=True)
-    split = column.row(align=True).split(factor=0.4, align=True)
-    heading = split.row()
-    heading.alignment = "RIGHT"
-    heading.label(text=label, text_ctxt=CONTEXT)
-    return split.row(align=True)
-
-
 def _uniform_density(column: UILayout, context: Context, settings, heading: str) -> None:
     """Draw the object's own density, with the table and the user's presets."""
     _material(column, context, settings, heading)
     rows.setting(column, settings, density_field_name(context.scene))
 
 
-def _material(column: UILayout, context: Context, settings, heading: str) -> None:
-    row = _labeled_row(column, heading)
-    default = "" if settings.is_property_set("density") else default_material(context.scene)
-    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or default or "Custom")
+def _material(column: UILayout, context: Context, settings: PropertyGroup, heading: str) -> None:
+    row = rows.labeled_row(column, heading)
+    name = "Mixed"
+    if not is_mixed(settings, "material") and (
+        settings.material or not is_mixed(settings, "density_kg_m3")
+    ):
+        is_set = owners(context)[0].body_moments.is_property_set("density")
+        name = settings.material or (not is_set and default_material(context.scene)) or "Custom"
+    row.menu("OBJECT_MT_body_moments_materials", text=name)
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
 
 
-def _grid_settings(layout: UILayout, obj: Object) -> bool:
+class OBJECT_PT_body_moments_mixed(Panel):
+    """A setting that differs among the selected objects: a new value is that of all"""
+
+    bl_label = "Mixed"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "HEADER"
+
+    def draw(self, context: Context) -> None:
+        name = getattr(context, "body_moments_setting", "")
+        if name:
+            column = self.layout.column()
+            column.label(text="For all selected objects")
+            column.prop(context.scene.body_moments_selection, name)
+
+
+def _grid_settings(layout: UILayout, settings: PropertyGroup) -> bool:
     """Draw the settings of an object's grid, and return whether the mass comes from the grid, not
     from a material.
     """
-    settings = obj.body_moments
     column = layout.column()
     rows.setting(column, settings, "grid")
     rows.setting(column, settings, "grid_as", expand=True)
-    if settings.grid_as == "SOLID":
+    grid_as = common(settings, "grid_as")
+    if grid_as in (None, "SOLID"):
         return False
-    if settings.grid_as == "THRESHOLD":
+    if grid_as == "THRESHOLD":
         rows.setting(column, settings, "threshold")
         rows.setting(column, settings, "threshold_fill", expand=True)
     rows.setting(column, settings, "spline_order")
-    if settings.sample_positions:
+    if getattr(settings, "sample_positions", ""):
         column.label(text="Samples at their own positions", icon="SNAP_INCREMENT")
-    if settings.grid_as == "THRESHOLD" and settings.threshold_fill == "MATERIAL":
+    if grid_as == "THRESHOLD" and common(settings, "threshold_fill") in (None, "MATERIAL"):
         return False
     rows.setting(column, settings, "mass_from", expand=True)
     rows.setting(column, settings, "values_from", expand=True)
-    if settings.values_from == "FACTOR":
+    if common(settings, "values_from") in (None, "FACTOR"):
         rows.setting(column, settings, "value_density", text="Value 1 (kg/m³)")
     else:
         rows.setting(column, settings, "transfer_table", text="Table")
         rows.sentence(layout.column(), settings.transfer_table.replace(", ", " · "))
-    if settings.mass_from == "MASS":
+    if common(settings, "mass_from") == "MASS":
         rows.setting(column, settings, "mass", text="Mass (kg)")
     return True
 
@@ -218,17 +246,19 @@ class GivenPanel:
     bl_label = "Given Mass"
 
     def draw(self, context: Context) -> None:
-        layout, obj = self.layout, context.object
-        settings = obj.body_moments
-        if _may_be_point(obj):
+        layout = self.layout
+        settings = chosen_settings(context)
+        if settings is None:
+            return
+        if _may_be_point(owners(context)[0]):
             row = layout.row(align=True)
             row.prop_enum(settings, "mass_from", "DENSITY", text="No Mass")
             row.prop_enum(settings, "mass_from", "MASS", text="Point Mass")
-            if settings.mass_from != "MASS":
-                return
-        column = layout.column()
-        rows.setting(column, settings, "mass", text="Mass (kg)")
-        given_rows(layout, settings)
+        elif is_mixed(settings, "mass_from"):
+            rows.setting(layout, settings, "mass_from")
+        if common(settings, "mass_from") == "MASS":
+            rows.setting(layout.column(), settings, "mass", text="Mass (kg)")
+            given_rows(layout, settings)
 
 
 def _may_be_point(obj) -> bool:
@@ -239,19 +269,21 @@ def given_rows(layout: UILayout, settings: PropertyGroup) -> None:
     """Draw the optional properties of a given mass."""
     column = layout.column()
     rows.setting(column, settings, "use_center")
-    if settings.use_center:
+    if common(settings, "use_center"):
         rows.setting(column, settings, "given_center", text="Center")
     rows.setting(column, settings, "use_inertia")
-    if settings.use_inertia:
+    if common(settings, "use_inertia"):
         rows.setting(column, settings, "given_inertia_diagonal", text="Ixx, Iyy, Izz")
         rows.setting(column, settings, "given_inertia_products", text="Ixy, Ixz, Iyz")
 
 
 CLASSES = (
-    *in_both_places(DensityPanel, "density", shown_for=_has_density),
+    OBJECT_PT_body_moments_mixed,
+    *in_both_places(DensityPanel, "density", shown_for=has_density, of_all=True),
     *in_both_places(
         GivenPanel,
         "given",
         shown_for=lambda obj: _may_be_point(obj) or obj.body_moments.mass_from == "MASS",
+        of_all=True,
     ),
 )

@@ -9,7 +9,10 @@ from __future__ import annotations
 from bpy.types import Context
 
 from ..blender.session import stored
-from ..blender.session.displayed import displayed
+from ..blender.session.displayed import displayed, shown_objects, total
+from ..blender.session.selected import subject
+from ..blender.session.tracking import armatures
+from ..core.inertia.plain_body import PlainBody
 from ..core.verdict.finding import Finding
 from . import rows
 from .places import in_both_places
@@ -31,15 +34,16 @@ class InertiaPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return context.object is not None and displayed(context.object, context.scene) is not None
+        return _shown(context) is not None
 
     def draw(self, context: Context) -> None:
-        layout, scene = self.layout, context.scene
-        current = displayed(context.object, scene)
-        if current is None:
+        layout = self.layout
+        shown = _shown(context)
+        if shown is None:
             return
-        shown = current.in_frame(scene.body_moments.frame)
-        layout.row().prop(scene.body_moments, "frame", expand=True)
+        row = layout.row()
+        row.enabled = not _are_several(context)
+        row.prop(context.scene.body_moments, "frame", expand=True)
         moments = shown.moments
         rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", moments)
         column = layout.column(align=True)
@@ -63,6 +67,21 @@ class InertiaPanel:
             )
 
 
+def _are_several(context: Context) -> bool:
+    """Return whether the numbers are the sum of the selected objects, in the world frame."""
+    obj = subject(context)
+    is_posed = obj is not None and armatures.stands_for_meshes(obj)
+    return not is_posed and len(shown_objects(context)) > 1
+
+
+def _shown(context: Context) -> PlainBody | None:
+    if _are_several(context):
+        return total(context).numbers
+    obj = subject(context)
+    current = None if obj is None else displayed(obj, context.scene)
+    return None if current is None else current.in_frame(context.scene.body_moments.frame)
+
+
 class ReferencePanel:
     """Inertia about a point, a frame or an axis"""
 
@@ -71,6 +90,7 @@ class ReferencePanel:
     def draw(self, context: Context) -> None:
         layout, scene = self.layout, context.scene
         settings = scene.body_moments_reference
+        obj = subject(context)
         column = layout.column()
         rows.setting(column, settings, "about")
         if settings.about == "OBJECT":
@@ -85,8 +105,8 @@ class ReferencePanel:
                 short="From Selection",
             )
         result = (
-            stored.reference.referred(context.object, scene)
-            if "body_mass" in context.object
+            stored.reference.referred(obj, scene)
+            if obj is not None and "body_mass" in obj
             else None
         )
         if result is None:

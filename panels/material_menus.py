@@ -10,12 +10,14 @@ import bpy
 from bl_ui.utils import PresetPanel
 from bpy.types import Context, Material, Menu, Panel, Scene, UILayout
 
+from ..blender.settings.chosen import chosen_objects
 from ..blender.settings.properties import density_field_name
 from ..core.density.materials import CATEGORIES, FILAMENT, MATERIALS
 from ..operators.setup.presets import (
     PRESET_FOLDER,
     MATERIAL_OT_body_moments_set_density,
     OBJECT_OT_body_moments_preset_add,
+    OBJECT_OT_body_moments_preset_apply,
     OBJECT_OT_body_moments_set_material,
 )
 from . import rows
@@ -52,7 +54,11 @@ def _set_density(layout: UILayout, context: Context, **options: str):
     """
     target = getattr(context, "body_moments_material", None)
     if target is None:
-        return layout.operator(OBJECT_OT_body_moments_set_material.bl_idname, **options)
+        button = layout.operator(OBJECT_OT_body_moments_set_material.bl_idname, **options)
+        chosen = chosen_objects(context)
+        if len(chosen) == 1:
+            button.target = chosen[0].name_full
+        return button
     button = layout.operator(MATERIAL_OT_body_moments_set_density.bl_idname, **options)
     button.target = target.name
     return button
@@ -107,7 +113,7 @@ class OBJECT_PT_body_moments_presets(PresetPanel, Panel):
 
     bl_label = "Body Moments Presets"
     preset_subdir = PRESET_FOLDER
-    preset_operator = "script.execute_preset"
+    preset_operator = OBJECT_OT_body_moments_preset_apply.bl_idname
     preset_add_operator = OBJECT_OT_body_moments_preset_add.bl_idname
 
     def draw(self, context: Context) -> None:

@@ -15,6 +15,10 @@ from collections.abc import Callable, Set
 
 from bpy.types import Context, Object, Panel
 
+from ..blender.session.displayed import shown_objects
+from ..blender.session.selected import subject
+from ..blender.settings.chosen import chosen_objects
+
 ORDER = (
     "weight",
     "inertia",
@@ -56,6 +60,7 @@ def in_both_places(
     parent: str | None = None,
     options: Set[str] = frozenset({"DEFAULT_CLOSED"}),
     shown_for: Callable[[Object], bool] | None = None,
+    of_all: bool = False,
 ) -> tuple[type[Panel], ...]:
     """Make a panel of the sidebar and one of the object's properties that show these contents.
 
@@ -63,15 +68,21 @@ def in_both_places(
     `draw_header_preset`. `name` is part of the identifiers, `VIEW3D_PT_body_moments_NAME` and
     `OBJECT_PT_body_moments_NAME`; "" for the main panel. `parent` names the parent panel, by
     default the main one. `options`: of a sub-panel. `shown_for`, in place of `poll`: whether to
-    show the panel of an active object.
+    show the panel for the subject, whose name it shows if several objects are chosen; with `of_all`
+    for any chosen object.
     """
 
     def draw(panel: Panel, context: Context) -> None:
         panel.layout.use_property_decorate = False
+        if shown_for is not None and not of_all and len(shown_objects(context)) > 1:
+            panel.layout.label(text=subject(context).name, icon="OBJECT_DATA", translate=False)
         contents.draw(panel, context)
 
     def poll(_cls: type[Panel], context: Context) -> bool:
-        return context.object is not None and shown_for(context.object)
+        if of_all:
+            return any(map(shown_for, chosen_objects(context)))
+        obj = subject(context)
+        return obj is not None and shown_for(obj)
 
     shared: dict[str, object] = {
         "__doc__": contents.__doc__,
@@ -90,7 +101,7 @@ def in_both_places(
             own["bl_parent_id"] = _idname(prefix, parent)
         elif prefix == "VIEW3D_PT_":
             own["bl_options"] = set()
-        panels.append(type(idname, (contents, Panel), {**shared, **own}))
+        panels.append(type(idname, (contents, Panel), (shared | own)))
     return tuple(panels)
 
 

@@ -11,8 +11,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import bpy
-from bpy.types import Context, UILayout
+from bpy.types import Context, Object, UILayout
 
+from ..blender.session.selected import subject
 from ..blender.session.stored import outcome
 from ..blender.write.remedies import DEFECTS, REMEDIES, REPAIR, SELECT, remedies_of
 from ..blender.write.translations import localized, localized_sentence
@@ -64,10 +65,10 @@ def lines(
 
 
 def notes(layout: UILayout, idname: str, findings: Sequence[Finding]) -> None:
-    """Draw a sub-panel, closed at first, of notes and accepted warnings."""
+    """Draw a sub-panel, closed at first, of notes and accepted warnings; it is there without any, so
+    that nothing moves when one comes.
+    """
     shown_notes = of_severity(findings, Severity.NOTE)
-    if not shown_notes:
-        return
     header, body = layout.panel(idname, default_closed=True)
     rows.filled(header, "Notes ({:d})", len(shown_notes))
     for shown in shown_notes if body is not None else ():
@@ -98,13 +99,15 @@ def _headline(context: Context, group: Group) -> str:
 
 
 def _remedies(context: Context, group: Group) -> tuple[str, ...]:
-    """Return the remedies of a group that has one object, the active one; otherwise its objects can
-    be selected.
+    """Return the remedies of a group about the subject alone; otherwise its objects can be
+    selected.
     """
-    if group.objects and group.objects != (context.object.name_full,):
+    if not group.objects and group.finding.values.get("objects"):
+        return (SELECT,)  # a caveat about a total
+    obj = subject(context)  # a collection may be shown without an object
+    if group.objects and (obj is None or group.objects != (obj.name_full,)):
         return (SELECT,)
-    # A collection may be shown without an object.
-    return remedies_of(group.finding.code, "" if context.object is None else context.object.type)
+    return remedies_of(group.finding.code, "" if obj is None else obj.type)
 
 
 def _name(remedy: str) -> str:
@@ -147,12 +150,12 @@ def last_action(layout: UILayout, context: Context) -> None:
             _remedy(column, group, remedy)
 
 
-def unit_question(layout: UILayout, context: Context, shown: PlainBody) -> None:
+def unit_question(layout: UILayout, context: Context, obj: Object, shown: PlainBody) -> None:
     """Ask, until it is answered for the scene, whether a unit is a millimeter, if the body is large
     and heavy.
     """
     scene = context.scene
-    length = max(context.object.dimensions)
+    length = max(obj.dimensions)
     if (
         scene.body_moments.units_answered
         or scene.unit_settings.scale_length != 1.0

@@ -18,6 +18,7 @@ import blf
 import bpy
 from bpy.types import PropertyGroup, UILayout
 
+from ..blender.session.selected import is_mixed
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
 from ..core.inertia.plain_body import ENTRIES, PlainBody
@@ -51,6 +52,7 @@ VERDICTS = {  # icon and word; the form says it, not the color alone
     Verdict.REPAIRED: ("MODIFIER", "Repaired"),
     Verdict.DOUBTFUL: ("ERROR", "Doubtful"),
     Verdict.OUT_OF_DATE: ("FILE_REFRESH", "Out of Date"),
+    Verdict.INCOMPLETE: ("ERROR", "Incomplete"),
     None: ("RADIOBUT_OFF", "Not Measured"),
 }
 AXIS_LABELS = ("X", "Y", "Z")
@@ -67,9 +69,18 @@ def setting(
     """Draw a setting in a column, its label (by default its name) beside it, or above it in a
     narrow region.
 
-    `expand` puts choices side by side if there is room for their names.
+    `expand` puts choices side by side if there is room for their names. A setting that differs
+    among the selected objects is a button "Mixed", which opens its choices or its field.
     """
     definition = data.bl_rna.properties[name]
+    if is_mixed(data, name):
+        row = labeled_row(layout, text or definition.name, definition.translation_context)
+        if definition.type == "ENUM":
+            row.prop_menu_enum(data, name, text="Mixed")
+        else:
+            row.context_string_set("body_moments_setting", name)
+            row.popover("OBJECT_PT_body_moments_mixed", text="Mixed")
+        return
     options = {"text": text} if text else {}
     narrow = is_narrow()
     if narrow and definition.type != "BOOLEAN":
@@ -81,6 +92,18 @@ def setting(
         names = [localized(item.name) for item in definition.enum_items]
         expand = fits(1.0 if narrow else VALUE_SHARE, *(one + BUTTON_MARGIN for one in names))
     row.prop(data, name, expand=expand, **options)
+
+
+def labeled_row(column: UILayout, label: str, context: str = "*") -> UILayout:
+    """Return a row beside a label, as Blender aligns properties, or below it in a narrow panel."""
+    if is_narrow():
+        title(column, label)
+        return column.row(align=True)
+    split = column.row(align=True).split(factor=1.0 - VALUE_SHARE, align=True)
+    end = split.row()
+    end.alignment = "RIGHT"
+    end.label(text=label, text_ctxt=context)
+    return split.row(align=True)
 
 
 def group(
@@ -100,14 +123,12 @@ def group(
 
 def quantities(layout: UILayout, entries: Sequence[tuple[str, str, float]]) -> None:
     """Draw a row for each (label, quantity, SI value), each in the unit that suits it."""
-    units = scene_units()
-    table(
-        layout,
-        [
-            (label, units.text(quantity, si), repr(float(si)), SI_UNITS[quantity])
-            for label, quantity, si in entries
-        ],
-    )
+    table(layout, [quantity_cell(*entry) for entry in entries])
+
+
+def quantity_cell(label: str, quantity: str, si: float) -> Cell:
+    """Return the cells of a row for an SI value, in the unit that suits it."""
+    return label, scene_units().text(quantity, si), repr(float(si)), SI_UNITS[quantity]
 
 
 def values(
@@ -230,7 +251,9 @@ def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
     into a row.
     """
     letters = max(map(len, labels))
-    share = INDEX_LABEL_SHARE if letters < 2 else SHORT_LABEL_SHARE if letters < 4 else LABEL_SHARE
+    share = LABEL_SHARE
+    if letters < 4:
+        share = INDEX_LABEL_SHARE if letters < 2 else SHORT_LABEL_SHARE
     room = _room()
     if room is None:
         return share, True
@@ -338,7 +361,12 @@ def stale_row(layout: UILayout, reason: str | None) -> None:
     if reason is not None:
         row = layout.row()
         row.alert = True
-        sentence(row, localized("Out of date: {:s}").format(localized(reason)), icon="FILE_REFRESH")
+        sentence(row, outdated(reason), icon="FILE_REFRESH")
+
+
+def outdated(reason: str) -> str:
+    """Return the translated sentence on why numbers are out of date."""
+    return localized("Out of date: {:s}").format(localized(reason))
 
 
 def fits(share: float, *cells: str) -> bool:

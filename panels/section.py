@@ -9,6 +9,7 @@ from math import degrees
 from bpy.types import Context, Object, UILayout
 
 from ..blender.read.visibility import SECTION_TYPES
+from ..blender.session.selected import subject
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_section
 from ..blender.write import section as record
@@ -30,7 +31,7 @@ class SectionPanel:
     bl_label = "Section"
 
     def draw(self, context: Context) -> None:
-        obj, layout = context.object, self.layout
+        obj, layout = subject(context), self.layout
         rows.button(layout, "object.body_moments_measure_section", "FACESEL", short="Measure")
         stored = record.stored(obj)
         if stored is None:

@@ -9,8 +9,8 @@ from __future__ import annotations
 from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, UILayout, UIList
 
-from ..blender.session import displayed
 from ..blender.session.displayed import SortBy, Verdict, drawn, listed_masses, listing
+from ..blender.session.selected import subject
 from . import rows
 from .places import in_both_places
 
@@ -72,7 +72,8 @@ class SelectionPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        others = (obj for obj in context.view_layer.objects if obj != context.object)
+        shown = subject(context)
+        others = (obj for obj in context.view_layer.objects if obj != shown)
         return len(context.selected_objects) > 1 or any("body_mass" in obj for obj in others)
 
     def draw(self, context: Context) -> None:
@@ -82,7 +83,6 @@ class SelectionPanel:
                 layout, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings"
             )
         _listed(layout, context)
-        _total(layout, context)
 
 
 def _listed(layout: UILayout, context: Context) -> None:
@@ -99,14 +99,6 @@ def _listed(layout: UILayout, context: Context) -> None:
     column = layout.column(align=True)
     rows.button(column, "object.body_moments_copy", "COPYDOWN", text="Copy Table").what = "TABLE"
     rows.button(column, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
-
-
-def _total(layout: UILayout, context: Context) -> None:
-    """Draw what the main panel leaves out of the sum."""
-    numbers = displayed.total(context).numbers
-    if numbers is not None and len(context.selected_objects) > 1:
-        rows.quantities(layout.column(align=True), [("Area", "area", numbers.area)])
-        rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", numbers.moments)
 
 
 CLASSES = (BODY_MOMENTS_UL_measured, *in_both_places(SelectionPanel, "selection"))

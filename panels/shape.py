@@ -9,6 +9,7 @@ from __future__ import annotations
 from bpy.types import Context, Object, UILayout
 
 from ..blender.read.visibility import measurable
+from ..blender.session.selected import subject
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_symmetry
 from ..blender.settings.preferences import shows_advanced
@@ -40,7 +41,7 @@ class ShapePanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         rows.button(layout, "object.body_moments_find_symmetry", "MOD_MIRROR", short="Symmetry")
-        _symmetry(layout, context, context.object)
+        _symmetry(layout, context, subject(context))
         column = layout.column(align=True)
         rows.button(column, "object.body_moments_match_pose", "SNAP_ON")
         row = column.row(align=True)
@@ -49,8 +50,8 @@ class ShapePanel:
         _similar(layout, context)
 
 
-def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
-    if not obj.is_property_set("body_moments_symmetry"):
+def _symmetry(layout: UILayout, context: Context, obj: Object | None) -> None:
+    if obj is None or not obj.is_property_set("body_moments_symmetry"):
         return
     stored = obj.body_moments_symmetry
     column = layout.column(align=True)
@@ -111,5 +112,5 @@ def _similar(layout: UILayout, context: Context) -> None:
 
 
 CLASSES = in_both_places(
-    ShapePanel, "shape", shown_for=lambda obj: measurable(obj) and shows_advanced()
+    ShapePanel, "shape", shown_for=lambda obj: measurable(obj) and shows_advanced(), of_all=True
 )

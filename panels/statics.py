@@ -15,8 +15,8 @@ from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
 from ..blender.session import stored
 from ..blender.session.displayed import shown_objects
+from ..blender.session.selected import subject
 from ..blender.session.tracking import armatures
-from ..blender.session.tracking.staleness import stale_reason
 from ..core.lazy import loaded_module
 from ..core.verdict.finding import Finding
 from . import rows
@@ -36,24 +36,30 @@ class StabilityPanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         objects = shown_objects(context)
-        obj = objects[0] if len(objects) == 1 else context.object
+        obj = objects[0] if len(objects) == 1 else subject(context)
         stability = loaded_module(stored, "stability")
-        if stability is None or not stability.is_known(obj):
-            rows.remark(layout, "Stability has not been computed.")
-        elif stale_reason(obj, context.scene, stability.stamp_of):
-            rows.remark(layout, "The geometry has changed. Check again.", icon="FILE_REFRESH")
-        rows.button(layout, "object.body_moments_stability", "CON_FLOOR", short="Check")
-        support = None if stability is None else stability.support(obj, context.scene)
+        is_known = stability is not None and obj is not None and stability.is_known(obj)
+        support = stability.support(obj, context.scene) if is_known else None
+        tips_over_edge = support is not None and not support.stands and len(support.polygon) > 2
+        column = layout.column(align=True)
+        rows.button(column, "object.body_moments_stability", "CON_FLOOR", short="Check")
+        row = column.row(align=True)
+        row.enabled = tips_over_edge
+        balance = rows.button(row, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
+        if tips_over_edge:
+            edge = support.foot + support.margin * support.direction
+            balance.target = "POINT"
+            balance.point = (edge + support.polygon.mean(axis=0)) / 2.0
+        rows.button(
+            column, "object.body_moments_balance_group", "CON_FOLLOWPATH", text="Follow Center..."
+        )
         if support is not None:
             _support(layout, context, support)
             _poses(layout, context, obj)
-        rows.button(
-            layout,
-            "object.body_moments_balance_group",
-            "CON_FOLLOWPATH",
-            text="Balance Group...",
-            short="Balance...",
-        )
+        elif is_known:
+            rows.remark(layout, "The geometry has changed. Check again.", icon="FILE_REFRESH")
+        else:
+            rows.remark(layout, "Stability has not been computed.")
 
 
 def _support(layout: UILayout, context: Context, support: Support) -> None:
@@ -62,13 +68,13 @@ def _support(layout: UILayout, context: Context, support: Support) -> None:
     if support.stands:
         column.label(text="Stands", icon="CHECKMARK")
     else:
-        row = column.row(align=True)
-        row.label(text="Tips Over", icon="ERROR")
-        if len(support.polygon) > 2:  # on an edge or a corner nothing stands
-            button = row.operator("object.body_moments_sculpt_balance", text="Balance...")
-            edge = support.foot + support.margin * support.direction
-            button.target = "POINT"
-            button.point = (edge + support.polygon.mean(axis=0)) / 2.0
+        column.label(text="Tips Over", icon="ERROR")
+        if len(support.polygon) < 3:
+            text = (
+                "It touches the ground along an edge or at a corner, on which nothing stands: "
+                "there is no area to balance over. Lay it on a face with Rest on Ground."
+            )
+            rows.remark(column, text)
     margin = support.margin * unit
     angle = degrees(support.tipping_angle)
     toward = degrees(atan2(support.direction[1], support.direction[0]))
@@ -122,4 +128,5 @@ CLASSES = in_both_places(
     StabilityPanel,
     "stability",
     shown_for=lambda obj: measurable(obj) or armatures.stands_for_meshes(obj),
+    of_all=True,
 )

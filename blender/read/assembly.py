@@ -30,12 +30,14 @@ from .findings import (
     HIDDEN_IN_VIEWPORT,
     MEMBER_COUNTED_BEFORE,
     NOT_RENDERED,
+    TOTAL_COPIES_IN_PLACE,
     TOTAL_DOUBTFUL_PARTS,
 )
 from .fingerprint import matrix_bytes, matrix_hash
 from .visibility import MAX_DEPTH, hidden_reason, instanced_by_parent, measurable
 
 by_name = attrgetter("name")
+SAMPLED = 64  # vertices that are compared to tell a copy
 
 
 class MemberKind(StrEnum):
@@ -301,11 +303,48 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
         "Boolean operands": cutters,
         "Objects that are hidden, not rendered or displayed as wire or bounds": unseen,
     }
+    copies = copies_in_place(objects)
     return [
-        finding(TOTAL_DOUBTFUL_PARTS, kind=kind, objects=names)
-        for kind, names in doubtful.items()
-        if names
+        *([finding(TOTAL_COPIES_IN_PLACE, objects=copies)] if copies else []),
+        *(
+            finding(TOTAL_DOUBTFUL_PARTS, kind=kind, objects=names)
+            for kind, names in doubtful.items()
+            if names
+        ),
     ]
+
+
+def copies_in_place(objects: Iterable[Object]) -> list[str]:
+    """Return the names of objects that show the geometry of an earlier one at the same place."""
+    seen: dict[tuple, list[Object]] = {}
+    copies = []
+    for obj in objects:
+        if obj.data is None or obj.instance_type != "NONE":
+            continue
+        box = tuple(map(tuple, obj.bound_box))
+        others = seen.setdefault((obj.type, tuple(map(tuple, obj.matrix_world)), box), [])
+        if any(_is_copy(obj, other) for other in others):
+            copies.append(obj.name)
+        others.append(obj)
+    return copies
+
+
+def _is_copy(obj: Object, other: Object) -> bool:
+    """Return whether two objects of one type, box and place have equal modifiers and geometry, by a
+    sample of the vertices.
+    """
+    kinds = [[modifier.type for modifier in one.modifiers] for one in (obj, other)]
+    if kinds[0] != kinds[1]:
+        return False
+    if obj.data == other.data:
+        return True
+    if obj.type != "MESH" or len(obj.data.polygons) != len(other.data.polygons):
+        return False
+    first, second = obj.data.vertices, other.data.vertices
+    step = max(len(first) // SAMPLED, 1)
+    return len(first) == len(second) and all(
+        first[i].co == second[i].co for i in range(0, len(first), step)
+    )
 
 
 def _operands(obj: Object) -> Iterator[Object]:

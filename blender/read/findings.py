@@ -234,6 +234,10 @@ SCALE_ZERO_AXIS = error(
 TOTAL_DOUBTFUL_PARTS = warning(
     "total_doubtful_parts", "{kind:word} count as bodies: {objects}. Leave out what is not a part."
 )
+TOTAL_COPIES_IN_PLACE = warning(
+    "total_copies_in_place",
+    "Copies at an equal place count again: {objects}. Delete or move those that were left behind.",
+)
 NO_ACTIVE_ARMATURE = error(
     "no_active_armature", "The active object is not an armature. Select one."
 )

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from itertools import islice
 
 from ...core.verdict.finding import Finding, ReadError, finding
-from ..settings.given import is_point_mass, shows_collection
+from ..settings.given import GEOMETRY_TYPES, SURFACE_TYPES, is_point_mass, shows_collection
 from .findings import (
     EMPTY_WITHOUT_INSTANCES,
     HIDDEN_IN_VIEWPORT,
@@ -26,8 +26,6 @@ from .findings import (
 )
 
 SECTION_TYPES = {"MESH", "CURVE", "FONT"}  # objects with faces or curves that may be flat
-SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
-GEOMETRY_TYPES = SURFACE_TYPES | {"CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}
 MAX_DEPTH = 7  # of instances within instances: Blender stops here too (MAX_DUPLI_RECUR - 1)
 
 

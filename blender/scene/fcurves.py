@@ -1,30 +1,61 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""F-curves of objects: the keys of slotted actions, sections of keys, and additive layers."""
+"""F-curves of objects: the keys of slotted actions, sections of keys, and additive layers.
+
+Keys are structured arrays with all that Blender keeps of them, so that the keys outside a section
+stay to the last bit. Times are those of F-curves, which a scene stretches from its frames.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from math import ceil, floor
 
 import bpy
 import numpy as np
-from bpy.types import FCurve, Object
+from bpy.types import FCurve, Object, Scene
 from numpy.typing import NDArray
+
+from ...core.rig.channels import handle_values
+from ...core.verdict.finding import EditRefusedError
+from .findings import INTERPOLATION_UNCUT
 
 # values of an F-curve's interpolation
 CONSTANT = 0
 LINEAR = 1
+BEZIER = 2
+FREE = 0  # of a handle's type
+KEY = np.dtype(
+    [
+        *((name, np.float32, 2) for name in ("co", "handle_left", "handle_right")),
+        *((name, np.float32) for name in ("amplitude", "back", "period")),
+        *((name, np.int32) for name in ("handle_left_type", "handle_right_type")),
+        *((name, np.int32) for name in ("interpolation", "easing", "type")),
+        *((name, np.bool_) for name in ("select_control_point", "select_left_handle")),
+        ("select_right_handle", np.bool_),
+    ]
+)
+HANDLES = ("handle_left", "handle_right")
+SAME_TIME = 1e-3  # frames; Blender itself takes closer keys for one
+SAME_VALUE = 1e-4
+MOVED = 1e-3  # of a curve's range: a smaller move of a handle does not matter
+JUMP = 1.0 / 64.0  # frames from a key to the one that takes up another turn of the same rotation
 Channel = tuple[str, int]  # data path and index
 
 
-def ensure_curves(obj: Object):
+def time_scale(scene: Scene) -> float:
+    """Return the time of F-curves that passes in a frame: 1 unless the scene stretches time."""
+    return scene.render.frame_map_old / scene.render.frame_map_new
+
+
+def ensure_curves(obj: Object, alone: bool = False):
     """Return the F-curves of an object's action, which is created if there is none, and copied if
-    it is linked.
+    it is linked, or animates others, too, but shall not.
     """
     animation = obj.animation_data_create()
     if animation.action is None:
         animation.action = bpy.data.actions.new(obj.name)
-    elif animation.action.library is not None:
+    elif animation.action.library is not None or alone and sharing(obj):
         slot = animation.action_slot.identifier
         animation.action = animation.action.copy()
         animation.action_slot = animation.action.slots[slot]
@@ -47,13 +78,16 @@ def existing_curves(obj: Object) -> list[FCurve]:
 
 def all_curves(obj: Object) -> Iterator[FCurve]:
     """Yield the F-curves of an object's action and of the strips of its NLA."""
-    animation = obj.animation_data
-    if animation is not None:
-        for keyed in (
-            animation,
-            *(strip for track in animation.nla_tracks for strip in track.strips),
-        ):
+    if obj.animation_data is not None:
+        for keyed in _keyed(obj.animation_data):
             yield from _curves_of(keyed)
+
+
+def _keyed(animation: bpy.types.AnimData) -> Iterator[bpy.types.AnimData | bpy.types.NlaStrip]:
+    """Yield all that has an action and a slot: the animation itself, and its strips."""
+    yield animation
+    for track in animation.nla_tracks:
+        yield from track.strips
 
 
 def _curves_of(keyed: bpy.types.AnimData | bpy.types.NlaStrip) -> Iterator[FCurve]:
@@ -64,18 +98,22 @@ def _curves_of(keyed: bpy.types.AnimData | bpy.types.NlaStrip) -> Iterator[FCurv
             yield from () if bag is None else bag.fcurves
 
 
-def is_shared(obj: Object) -> bool:
-    """Return whether the keys of an object's action, which is not linked, also animate other
-    objects.
+def sharing(obj: Object) -> list[str]:
+    """Return the names of other data that the keys of an object's action, which is not linked, also
+    animate.
     """
     animation = obj.animation_data
-    if animation.action.library is not None:
-        return False
+    if animation is None or animation.action is None or animation.action.library is not None:
+        return []
     # ActionSlot.users() can crash Blender 5.2.
-    slot = animation.action_slot
-    users = bpy.data.user_map(subset=[animation.action])[animation.action]
-    owners = (getattr(user, "animation_data", None) for user in users)
-    return sum(owner is not None and owner.action_slot == slot for owner in owners) > 1
+    animated = animation.action, animation.action_slot
+    return sorted(
+        user.name
+        for user in bpy.data.user_map(subset=[animation.action])[animation.action]
+        if user != obj
+        and (other := getattr(user, "animation_data", None)) is not None
+        and any((keyed.action, keyed.action_slot) == animated for keyed in _keyed(other))
+    )
 
 
 def has_strips(obj: Object) -> bool:
@@ -86,11 +124,15 @@ def has_strips(obj: Object) -> bool:
     )
 
 
-def is_keyed(obj: Object, path: str, count: int) -> bool:
-    """Return whether all components of a property have keys, in the action or in strips of the
-    NLA.
+def ensure_keyed(obj: Object, path: str, values: NDArray, time: float, in_strips: bool) -> None:
+    """Key the components of a property that have no keys, neither in the action nor, if these
+    count, in strips.
     """
-    return len({curve.array_index for curve in all_curves(obj) if curve.data_path == path}) == count
+    curves = all_curves(obj) if in_strips else existing_curves(obj)
+    keyed = {curve.array_index for curve in curves if curve.data_path == path}
+    for axis, value in enumerate(values):
+        if axis not in keyed:
+            write_keys(ensure_curves(obj), (path, axis), np.array([time]), np.array([value]))
 
 
 def find(curves: Iterable[FCurve], channel: Channel) -> FCurve | None:
@@ -126,44 +168,231 @@ def write_keys(
     curve.update()
 
 
-def replace_section(curve: FCurve, first: int, last: int, values: NDArray) -> None:
-    """Replace the keys from one frame to another by (n,) values, one a frame; later keys move if n
-    exceeds the frames.
+def read(curve: FCurve) -> NDArray:
+    """Return the (k,) keys of a curve, as `KEY`."""
+    keys = np.zeros(len(curve.keyframe_points), KEY)
+    for name in KEY.names:
+        values = np.ascontiguousarray(keys[name])
+        curve.keyframe_points.foreach_get(name, values.ravel())
+        keys[name] = values
+    return keys
 
-    The frames before and after, up to the next keys, get a key each, so that they stay as they are.
+
+def write(curve: FCurve, keys: NDArray) -> None:
+    """Put keys on a curve in place of all earlier ones, with the handles as they are.
+
+    Automatic handles become free if Blender would move them, and the curve, at its next edit.
     """
-    frames = keys(curve)[:, 0]
-    before = frames[frames <= first].max(initial=-np.inf)
-    after = frames[frames >= last].min(initial=np.inf)
-    shift = first + len(values) - 1 - last
-    # Beyond all keys, one more keeps a linear extrapolation.
-    around = [*range(int(np.ceil(before)) if np.isfinite(before) else first - 1, first)]
-    around += range(last + 1, int(np.floor(after)) + 1 if np.isfinite(after) else last + 2)
-    kept = {frame + (shift if frame > last else 0): curve.evaluate(frame) for frame in around}
     points = curve.keyframe_points
-    for point in reversed(points):
-        if before < point.co.x < after:
-            points.remove(point, fast=True)
-        elif point.co.x >= after and shift:
-            point.co.x += shift
-            point.handle_left.x += shift
-            point.handle_right.x += shift
-    kept.update(zip(range(first, first + len(values)), values.tolist()))
-    for frame, value in kept.items():
-        points.insert(frame, value, options={"FAST"}).interpolation = "LINEAR"
-    curve.update()
+    points.clear()
+    points.add(len(keys))
+    keys = keys.copy()
+    tolerance = MOVED * max(float(np.ptp(keys["co"][:, 1])), np.finfo(np.float32).tiny)
+    curved = np.concatenate([[False], keys["interpolation"] == BEZIER])
+    while True:
+        _put(points, keys, KEY.names)
+        curve.update()
+        freed = False
+        for name, bends in zip(HANDLES, (curved[:-1], curved[1:])):
+            moved = np.abs(read(curve)[name] - keys[name])[:, 1] > tolerance
+            rows = moved & bends & (keys[name + "_type"] != FREE)
+            keys[name + "_type"][rows] = FREE
+            freed |= bool(rows.any())
+        if not freed:
+            _put(points, keys, HANDLES)
+            curve.id_data.update_tag()
+            return
 
 
-def add_layer(obj: Object, name: str, frames: NDArray, channels: Mapping[Channel, NDArray]) -> None:
-    """Add a strip of keys that is combined with the animation below; the action becomes a strip,
-    too.
+def _put(points: bpy.types.FCurveKeyframePoints, keys: NDArray, names: Iterable[str]) -> None:
+    for name in names:
+        points.foreach_set(name, np.ascontiguousarray(keys[name]).ravel())
+
+
+def backup(obj: Object) -> Callable[[], None]:
+    """Return a function that takes back all that is keyed on an object from now on."""
+    animation = obj.animation_data
+    if animation is None:
+        return obj.animation_data_clear
+    action, slot = animation.action, animation.action_slot
+    kept = {(one.data_path, one.array_index): read(one) for one in _curves_of(animation)}
+    tracks = len(animation.nla_tracks)
+
+    def restore() -> None:
+        for track in reversed(animation.nla_tracks[tracks:]):
+            animation.nla_tracks.remove(track)
+        animation.action = action
+        if slot is not None:
+            animation.action_slot = slot
+            curves = _bag(action, slot)
+            for curve in [*curves]:
+                keys = kept.get((curve.data_path, curve.array_index))
+                if keys is None:
+                    curves.remove(curve)
+                elif len(keys):
+                    write(curve, keys)
+
+    return restore
+
+
+def section_keys(times: NDArray, values: NDArray) -> NDArray:
+    """Return keys at (f + 1,) times, and between them cubics through a curve's values at the nodes
+    of f frames.
     """
+    keys = np.zeros(len(times), KEY)
+    keys["interpolation"] = BEZIER
+    keys["co"] = np.stack([times, values[:: (len(values) - 1) // (len(times) - 1)]], axis=1)
+    thirds = np.diff(times) / 3.0
+    right, left = handle_values(values)
+    keys["handle_left"] = keys["handle_right"] = keys["co"]
+    keys["handle_right"][:-1] = np.stack([times[:-1] + thirds, right], axis=1)
+    keys["handle_left"][1:] = np.stack([times[1:] - thirds, left], axis=1)
+    keys["handle_left"][0] -= (thirds[0], 0.0)
+    keys["handle_right"][-1] += (thirds[-1], 0.0)
+    return keys
+
+
+def replace_section(curve: FCurve, times: NDArray, values: NDArray) -> None:
+    """Replace the keys between two times by those of a section; the keys at its ends keep their
+    values.
+    """
+    keys = cut(curve, cut(curve, read(curve), times[0]), times[-1])
+    new = section_keys(times, values)
+    before = keys[keys["co"][:, 0] <= times[0] + SAME_TIME]
+    after = keys[keys["co"][:, 0] >= times[-1] - SAME_TIME]
+    start, end = before[-1:], after[:1]
+    _hold_slopes(curve, keys, start, end)
+    # Where the section has another turn of the same rotation, a key beside the end takes it up.
+    jumps = [np.zeros(0, KEY)] * 2
+    for row, (old, inward) in enumerate(((start, JUMP), (end, -JUMP))):
+        if abs(float(old["co"][0, 1] - new["co"][-row, 1])) > SAME_VALUE:
+            jumps[row] = new[[-row]]
+            for name in ("co", *HANDLES):
+                jumps[row][name][:, 0] += inward
+    start["interpolation"] = CONSTANT if len(jumps[0]) else BEZIER
+    start["handle_right"] = new["handle_right"][0]
+    start["handle_left_type"] = start["handle_right_type"] = FREE
+    end["handle_left"] = new["handle_left"][-1]
+    end["handle_left_type"] = end["handle_right_type"] = FREE
+    jumps[1]["interpolation"] = CONSTANT
+    write(curve, np.concatenate([before, jumps[0], new[1:-1], jumps[1], after]))
+
+
+def _hold_slopes(curve: FCurve, keys: NDArray, start: NDArray, end: NDArray) -> None:
+    """Keep the extrapolation of a curve whose first or last key ends a section, by its handle."""
+    for key, row, neighbor, side in ((start, 0, 1, HANDLES[0]), (end, -1, -2, HANDLES[1])):
+        kind = key["interpolation"][0]
+        if curve.extrapolation == "LINEAR" and key["co"][0, 0] == keys["co"][row, 0]:
+            if kind == LINEAR and len(keys) > 1:
+                key[side] = 2.0 * key["co"][0] - keys["co"][neighbor]
+            elif kind <= LINEAR:
+                key[side] = key["co"][0] + (-1.0 - 2.0 * row, 0.0)
+            key["interpolation"] = BEZIER
+
+
+def cut(curve: FCurve, keys: NDArray, time: float) -> NDArray:
+    """Return keys with one at a time that leaves the curve as it is, or raise EditRefusedError if
+    that is impossible.
+    """
+    times = keys["co"][:, 0].astype(np.float64)
+    if (np.abs(times - time) <= SAME_TIME).any():
+        return keys
+    row = int(np.searchsorted(times, time))
+    new = keys[[min(row, len(keys) - 1)]]
+    new["co"] = time, curve.evaluate(time)
+    if row in (0, len(keys)):  # beyond all keys
+        for name, shift in zip(HANDLES, (-1.0, 1.0)):
+            new[name] = time + shift, curve.evaluate(time + shift)
+        new["handle_left_type"] = new["handle_right_type"] = FREE
+        if curve.extrapolation == "CONSTANT":
+            new["interpolation"] = CONSTANT
+        elif new["interpolation"][0] > BEZIER:
+            new["interpolation"] = BEZIER
+        if row:  # nothing followed the last key
+            keys["interpolation"][-1] = new["interpolation"][0]
+    else:
+        previous, following = keys[row - 1 : row], keys[row : row + 1]
+        kind = previous["interpolation"][0]
+        if kind > BEZIER:
+            raise EditRefusedError(
+                INTERPOLATION_UNCUT,
+                curve=curve.data_path,
+                frame=time,
+                start=float(times[row - 1]),
+                end=float(times[row]),
+            )
+        new["interpolation"] = kind
+        if kind == BEZIER:
+            _split(previous, new, following, time)
+    return np.concatenate([keys[:row], new, keys[row:]])
+
+
+def _split(previous: NDArray, new: NDArray, following: NDArray, time: float) -> None:
+    """Set the handles of a key that divides a Bézier segment, and of its neighbors, by de
+    Casteljau's rule.
+    """
+    points = [previous["co"], previous["handle_right"], following["handle_left"], following["co"]]
+    points = np.concatenate(points).astype(np.float64)
+    lengths = np.abs(points[[0, 3], 0] - points[[1, 2], 0])
+    span = points[3, 0] - points[0, 0]
+    if lengths.sum() > span:  # Blender shortens handles that overlap
+        points[[1, 2]] = points[[0, 3]] + span / lengths.sum() * (points[[1, 2]] - points[[0, 3]])
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        share = (low + high) / 2.0
+        levels = [points]
+        while len(levels[-1]) > 1:
+            levels.append(levels[-1][:-1] + share * np.diff(levels[-1], axis=0))
+        low, high = (share, high) if levels[3][0, 0] < time else (low, share)
+    previous["handle_right"] = levels[1][0]
+    new["handle_left"] = levels[2][0]
+    new["handle_right"] = levels[2][1]
+    following["handle_left"] = levels[1][2]
+    for key, sides in ((previous, HANDLES[1:]), (new, HANDLES), (following, HANDLES[:1])):
+        for side in sides:
+            key[side + "_type"] = FREE
+
+
+def stretch(curve: FCurve, first: float, last: float, shift: float) -> None:
+    """Move the keys after `last` by a shift, and stretch those from `first` to `last` to the place
+    between.
+    """
+    keys = read(curve)
+    times = keys["co"][:, 0]
+    for time in (first, last):
+        if curve.extrapolation == "LINEAR" or times[0] < time < times[-1]:
+            keys = cut(curve, keys, time)
+    factor = (last + shift - first) / (last - first)
+    times = keys["co"][:, 0].astype(np.float64)
+    inside = (times >= first - SAME_TIME) & (times < last - SAME_TIME)
+    for name, rows in (
+        ("co", inside),
+        ("handle_right", inside),
+        ("handle_left", (times > first + SAME_TIME) & (times <= last + SAME_TIME)),
+    ):
+        old = keys[name][:, 0].astype(np.float64)
+        later = ~rows & (times >= last - SAME_TIME)
+        keys[name][:, 0] = np.where(
+            rows, first + factor * (old - first), np.where(later, old + shift, old)
+        )
+    keys["period"][inside] *= factor
+    write(curve, keys)
+
+
+def add_layer(obj: Object, name: str, times: NDArray, channels: Mapping[Channel, NDArray]) -> None:
+    """Add a strip of sections that is combined with the animation below; the action becomes a
+    strip, too.
+    """
+    scene = bpy.context.scene
+    scale = time_scale(scene)
+    beyond = int(
+        scale != 1.0
+    )  # stretched times are single precision, so their last one may be later
     animation = obj.animation_data_create()
     action = animation.action
     if action is not None:
-        is_combined = has_strips(
-            obj
-        )  # without strips below, Blender ignores how the action is combined
+        # Without strips below, Blender ignores how the action is combined.
+        is_combined = has_strips(obj)
         strip = animation.nla_tracks.new().strips.new(
             action.name, int(action.frame_range[0]), action
         )
@@ -174,20 +403,27 @@ def add_layer(obj: Object, name: str, frames: NDArray, channels: Mapping[Channel
             strip.use_animated_influence = True
             strip.extrapolation = animation.action_extrapolation
         # Cycles and keys outside a manual frame range go on.
-        scene = bpy.context.scene
-        (start, end) = action.curve_frame_range
-        strip.action_frame_start = min(start, scene.frame_start)
-        strip.action_frame_end = max(end, scene.frame_end)
-        strip.frame_start_ui = strip.action_frame_start
+        start, end = action.curve_frame_range
+        _span(
+            strip, min(start, scale * scene.frame_start), max(end, scale * scene.frame_end), beyond
+        )
         animation.action = None
     layer = bpy.data.actions.new(name)
     slot = layer.slots.new("OBJECT", obj.name)
     curves = _bag(layer, slot)
     for channel, values in channels.items():
-        write_keys(curves, channel, frames, values)
+        write(curves.new(channel[0], index=channel[1]), section_keys(times, values))
     track = animation.nla_tracks.new()
     track.name = name
-    strip = track.strips.new(name, int(frames[0]), layer)
+    strip = track.strips.new(name, int(times[0]), layer)
     strip.action_slot = slot
+    _span(strip, times[0], times[-1], beyond)
     strip.blend_type = "COMBINE"
     strip.extrapolation = "NOTHING"
+
+
+def _span(strip: bpy.types.NlaStrip, start: float, end: float, beyond: int) -> None:
+    """Let a strip show its action from a time to another, and some whole frames beyond."""
+    strip.action_frame_start = floor(start) - beyond
+    strip.action_frame_end = ceil(end) + beyond
+    strip.frame_start_ui = strip.action_frame_start

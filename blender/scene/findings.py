@@ -127,3 +127,8 @@ RIGID_WORLD_LINKED = error(
     "The rigid body world uses the collection “{collection}”, which is linked. Give it one of this "
     "file.",
 )
+INTERPOLATION_UNCUT = error(
+    "interpolation_uncut",
+    "“{curve}” eases from frame {start} to {end} and cannot be divided at {frame}. Insert a key "
+    "there, or set its interpolation to Bézier.",
+)

@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sculpt Balance: chosen vertices of a mesh are moved as little as brings its center of mass over a
+"""Balance: chosen vertices of a mesh are moved as little as brings its center of mass over a
 point.
 
 Without chosen vertices the body leans: each vertex moves in proportion to its height, so that no
 face turns over. The change is made on the mesh itself, and the object is measured again in the
 usual way. If faces that are not flat are then cut into other triangles, the change is solved again
-for these. A change that misses the point is undone.
+for these. Of a body that counts as a union, the changes are solved for its shells, and aimed until
+the center of the union is there. A change that misses the point is undone.
 """
 
 from __future__ import annotations
@@ -24,9 +25,10 @@ from ...core.measurement.measurement import Measurement
 from ...core.moments.moments import Measure
 from ...core.statics.balancing import balance
 from ...core.statics.findings import BALANCE_NO_EFFECT, BALANCE_SHORT
-from ...core.verdict.finding import EditRefusedError, MeasureError
+from ...core.verdict.finding import EditRefusedError, MeasureError, Severity
 from ...core.verdict.findings import LINKED_OBJECT
 from ...core.verdict.method import Method, Procedure
+from ...core.verdict.sentences import of_severity
 from ..bodies.measure_object import measure_object
 from ..read.findings import SCALE_ZERO_AXIS
 from ..read.mesh import vertex_points
@@ -45,6 +47,7 @@ from .rigid_world import down
 from .transforms import FLOAT32
 
 MAX_ATTEMPTS = 6  # at a change that keeps the triangles that it was solved for
+MAX_UNION_ATTEMPTS = 25  # the changes are solved for the shells, whose center moves otherwise
 REACHED_RTOL = 1e-6  # rounding of a center in float32, relative to the body's size
 ROUNDING = 1e-7  # relative to the body's size; a coordinate below is reported as 0
 
@@ -156,7 +159,11 @@ def balance_mesh(
         surface = start
         moves = np.zeros_like(start.points)
         center = before.mass_properties.center
-        for _ in range(MAX_ATTEMPTS):
+        is_union = before.method == Method(Procedure.UNION)
+        aim = target.copy()
+        effect = np.eye(3)  # of a change of the aim on the center
+        step = np.zeros(3)
+        for attempt in range(MAX_UNION_ATTEMPTS if is_union else MAX_ATTEMPTS):
             if mesh.leans:
                 moves += _lean(
                     start.points,
@@ -172,7 +179,7 @@ def balance_mesh(
                 found = balance(
                     surface,
                     movable,
-                    target,
+                    aim,
                     across=across,
                     weights=weights,
                     limit=limit,
@@ -185,13 +192,20 @@ def balance_mesh(
             )
             mesh.set_points(points)
             after = _measure(context, obj)
+            last = center
             center = after.mass_properties.center
             if np.abs(across @ (target - center)).max() <= tolerance:
                 break
-            surface = replace(
-                _read_surface(context, obj, None).surface.transform(linear, offset),
-                points=start.points,
-            )
+            if is_union and not mesh.leans:  # Broyden's method
+                if attempt:
+                    effect += np.outer(center - last - effect @ step, step) / (step @ step)
+                step = np.linalg.solve(effect, across.T @ (across @ (target - center)))
+                aim = aim + step
+            else:
+                surface = replace(
+                    _read_surface(context, obj, None).surface.transform(linear, offset),
+                    points=start.points,
+                )
         else:
             raise EditRefusedError(BALANCE_TRIANGULATION_VARIES)
     except BaseException:
@@ -242,9 +256,11 @@ def _measure(context: Context, obj: Object) -> Measurement:
     measurement = measure_object(obj, context.evaluated_depsgraph_get())
     if measurement.mass_moments[0].measure == Measure.MASS:
         raise EditRefusedError(BALANCE_SETTINGS)
-    if measurement.kind == "solid" and (
-        measurement.method != Method(Procedure.EXACT) or measurement.health.welded
-    ):
+    is_union = measurement.method == Method(Procedure.UNION)
+    is_clean = measurement.method == Method(Procedure.EXACT) or (
+        is_union and not of_severity(measurement.findings, Severity.WARNING)
+    )
+    if measurement.kind == "solid" and (not is_clean or measurement.health.welded):
         raise EditRefusedError(BALANCE_UNCLEAN)
     return measurement
 

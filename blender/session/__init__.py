@@ -7,9 +7,9 @@ from ...core.lazy import lazy_names
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     BalanceGroup="balance_group",
-    CharacterMotion="character_motion",
+    CharacterMotion="character.flight",
     SimilarSearch="similar",
-    balance_pose="pose_balance",
+    balance_pose="character.balance",
     bill_csv="stored.assembly",
     check_stability="stored.stability",
     lay_on_ground="stored.stability",

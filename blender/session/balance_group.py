@@ -20,6 +20,7 @@ from ..read.assembly import Member, MemberKind, members_of, settings_of
 from ..read.rig import is_skin_of
 from ..read.visibility import measurable
 from ..scale import meters_per_unit
+from ..scene import fcurves
 from ..scene.rigid_world import down
 from ..write.properties import BALANCE_GROUP
 from ..write.reports import Refused
@@ -158,7 +159,13 @@ class BalanceGroup:
             empty[BALANCE_GROUP] = balance_groups.group_text(self.objects)
             context.scene.collection.objects.link(empty)
         balance_groups.store(
-            empty, np.array(self._frames, np.float64), centers, signals, self.supports, spans
+            empty,
+            np.array(self._frames, np.float64),
+            fcurves.time_scale(context.scene),
+            centers,
+            signals,
+            self.supports,
+            spans,
         )
         context.view_layer.update()
         return empty

@@ -166,7 +166,7 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
             for key, one in plan.record.items()
             if None not in (one if isinstance(one, list) else [one])
         }
-        plan.obj[COLLIDERS] = {**known, **marks}
+        plan.obj[COLLIDERS] = known | marks
     fresh = [
         (plan.obj, stamp) for plan in plans if (stamp := stamps.of_colliders(plan.obj)) is not None
     ]

@@ -159,11 +159,13 @@ def _description(
         entry = record.record(replace(measurement, name=obj.name), frame)
         entry["numbers"] = {name: entry[name] for name in NUMBERS}
     findings = [
-        {
-            **one,
-            "elements": one.get("elements", [])[:MAX_ELEMENTS],
-            "remedies": [_call(remedy) for remedy in remedies_of(one["code"], obj.type)],
-        }
+        (
+            one
+            | {
+                "elements": one.get("elements", [])[:MAX_ELEMENTS],
+                "remedies": [_call(remedy) for remedy in remedies_of(one["code"], obj.type)],
+            }
+        )
         for one in entry["findings"]
     ]
     calls = [call for one in findings if one["severity"] != "note" for call in one["remedies"]]

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import bpy
 from bpy.types import ID, Context, Object, PoseBone, Scene, ViewLayer
 
+from ...core.bodies.findings import DENSITY_DEFAULTED
 from ...core.inertia.plain_body import PlainBody, add_bodies
 from ...core.lazy import loaded_module
 from ...core.verdict.finding import Finding
@@ -26,9 +27,10 @@ from ...core.verdict.verdict import Verdict, find_verdict, open_body_caveats
 from .. import read
 from ..read.fingerprint import has_transform
 from ..scale import meters_per_unit
+from ..settings.chosen import chosen_objects, pinned_object
 from ..write import properties
 from ..write.units import Units
-from . import live, memory
+from . import character, live, memory, stored
 from .live import following
 from .live.following import Lag, LiveResult
 from .tracking import armatures, handlers
@@ -47,6 +49,8 @@ class Displayed(NamedTuple):
     numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason:
     the reason if the numbers are out of date. live: the result with Live on. lag: the lag of live
     numbers behind the object. is_posed: whether the numbers are a sum of parts in the present pose.
+    is_plumbed: whether a plumb line is drawn with a support polygon, in place of a drop line.
+    shows_axes: whether principal axes may be drawn.
     """
 
     numbers: PlainBody
@@ -59,6 +63,13 @@ class Displayed(NamedTuple):
     live: LiveResult | None = None
     lag: Lag = Lag.NONE
     is_posed: bool = False
+    is_plumbed: bool = False
+    shows_axes: bool = True
+
+    @property
+    def is_assumed(self) -> bool:
+        """True if nobody has set the density."""
+        return any(found.code == DENSITY_DEFAULTED for found in self.findings)
 
     def in_frame(self, frame: str) -> PlainBody:
         """Return the numbers in the frame of a setting, "OBJECT" or "WORLD"."""
@@ -70,8 +81,9 @@ class Total:
     """Selected objects as one body.
 
     count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names
-    of objects without results; stale: names of objects with outdated results; findings: caveats
-    about the sum; verdict: the least of any object; groups: the objects' own findings.
+    of objects without results; stale: names of objects with outdated results; assumed: the number
+    of objects whose density nobody has set; findings: caveats about the sum; verdict: incomplete if
+    some objects have no results, else the least of any object; groups: the objects' own findings.
     """
 
     count: int
@@ -80,6 +92,7 @@ class Total:
     numbers: PlainBody | None
     missing: tuple[str, ...]
     stale: tuple[str, ...]
+    assumed: int
     findings: tuple[Finding, ...]
     verdict: Verdict | None
     groups: tuple[Group, ...]
@@ -106,7 +119,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
     if current is not None and now is not None and (measurement := now.measurement) is not None:
         own = live.mapping.map_properties(obj, current, measurement, scene)
         method = measurement.method
-        findings = measurement.findings
+        findings = stored.density.noted(obj, measurement, scene).findings
         lag = live.mapping.lag(obj)
         reason = stale_reason(obj, scene, following.stamp_of)
         is_behind = reason is not None or lag == Lag.BEHIND
@@ -252,10 +265,10 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     others.
     """
     depsgraph = bpy.context.view_layer.depsgraph
-    character = loaded_module(live, "character")
-    if not armature.body_moments_weight.show or character is None or depsgraph is None:
+    posed = loaded_module(character, "weight")
+    if not armature.body_moments_weight.show or posed is None or depsgraph is None:
         return None
-    weight = character.weight(armature, depsgraph)
+    weight = posed.weight(armature, depsgraph)
     if weight is None:
         return None
     unit = meters_per_unit(scene)
@@ -264,25 +277,35 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     reason = stale_reason(armature, scene)
     verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
     own = weight.body.in_object(armature.matrix_world, unit)
-    return Displayed(own, weight.body, unit, method, findings, verdict, reason, is_posed=True)
+    shows_axes = armature.body_moments_weight.show_axes
+    return Displayed(
+        own,
+        weight.body,
+        unit,
+        method,
+        findings,
+        verdict,
+        reason,
+        is_posed=True,
+        is_plumbed=True,
+        shows_axes=shows_axes,
+    )
 
 
 def shown_objects(context: Context) -> list[Object]:
-    """Return the objects that the panel is about: the selected ones if there are several, else the
-    active one.
+    """Return the objects whose numbers the panel shows: the chosen ones.
 
     The meshes of a posed armature stand in its place.
     """
-    selected = context.view_layer.objects.selected
-    chosen = armatures.subjects(selected)
-    return chosen if max(len(selected), len(chosen)) > 1 else armatures.subjects([context.object])
+    return armatures.subjects(chosen_objects(context))
 
 
 def total(context: Context) -> Total:
     """Return the selected objects as one body, by the parallel-axis theorem, from displayed
     numbers.
     """
-    key = memory.state.generation, context.view_layer.name
+    pinned = pinned_object(context)
+    key = memory.state.generation, context.view_layer.name, pinned and pinned.session_uid
     return memory.current_value(memory.totals, context.scene, key, lambda: _sum(context))
 
 
@@ -294,7 +317,7 @@ def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
 
 
 def _sum(context: Context) -> Total:
-    chosen = armatures.subjects(context.view_layer.objects.selected)
+    chosen = shown_objects(context)
     selected = set(chosen)
     parts = {}
     missing = []
@@ -316,11 +339,14 @@ def _sum(context: Context) -> Total:
         add_bodies(worlds) if len(worlds) > 1 else alone,
         tuple(missing),
         stale,
+        sum(shown.is_assumed for shown in parts.values()),
         (
             *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
             *read.assembly.total_caveats(parts, context.view_layer),
         ),
-        max((shown.verdict for shown in parts.values()), key=tuple(Verdict).index, default=None),
+        Verdict.INCOMPLETE
+        if missing and parts
+        else max((shown.verdict for shown in parts.values()), key=RANKS.__getitem__, default=None),
         tuple(
             grouped(
                 (obj.name_full, found) for obj, shown in parts.items() for found in shown.findings

@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from ...core.statics.support import Support
+    from .character.weight import Character, Weight
     from .displayed import Displayed, Listing, Total
-    from .live.character import Character, Weight
     from .live.following import Followed
+    from .stored.computed_moments import ComputedMoments
     from .stored.faults import Faults
-    from .stored.moments import ComputedMoments
     from .stored.outcome import ActionOutcome
     from .stored.sliders import SliderGrid, SliderWalls
     from .stored.stability import KnownHull
@@ -135,6 +135,8 @@ moved: set[int] = _remembered(set())
 totals: SessionCache[tuple[tuple, Total]] = SessionCache()
 masses: SessionCache[tuple[tuple, dict[int, str]]] = SessionCache()
 listings: SessionCache[tuple[tuple, Listing]] = SessionCache()
+# scene → the selection, the objects whose settings are shown, and names of settings that differ
+chosen: SessionCache[tuple[tuple, tuple[list[Object], dict[str, bool]]]] = SessionCache()
 
 # ---------------------------------------------------------------- Results too large to store
 

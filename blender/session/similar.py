@@ -92,9 +92,9 @@ class SimilarSearch:
                     shape, wanted_shape, skin_compared, skin, 1.0 / likeness.scale
                 )
                 is_copy = match.max_distance <= MAX_FIT_RTOL * wanted_shape.size
-                self._mirror_images[entry] = (
-                    False if is_copy else True if match.is_mirror_image else None
-                )
+                self._mirror_images[entry] = None
+                if is_copy or match.is_mirror_image:
+                    self._mirror_images[entry] = not is_copy
             self._objects[entry] = obj
 
         return compare

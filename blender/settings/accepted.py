@@ -42,4 +42,4 @@ def _marked(finding: Finding, accepted: bool) -> Finding:
     if accepted == (ACCEPTED in finding.values):
         return finding
     others = {name: value for name, value in finding.values.items() if name != ACCEPTED}
-    return replace(finding, values={**others, ACCEPTED: True} if accepted else others)
+    return replace(finding, values=(others | {ACCEPTED: True}) if accepted else others)

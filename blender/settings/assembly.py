@@ -9,6 +9,7 @@ settings.
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Collection, Context, Object, PoseBone, PropertyGroup
 
+from .chosen import chosen_objects
 from .given import (
     GivenPartProperties,
     choice_property,
@@ -85,9 +86,11 @@ def is_assembly(data: Root) -> bool:
 
 def active_assembly(context: Context) -> Root:
     """Return the active empty if it has children, else a collection of the active object, else the
-    active one.
+    active one. An unselected active object gives way to a selected one.
     """
-    obj, active = context.object, context.collection
+    chosen = chosen_objects(context)
+    active = context.collection
+    obj = context.object if context.object in chosen or not chosen else chosen[0]
     if obj is None or is_assembly(obj):
         return active if obj is None else obj
     collections = obj.users_collection
@@ -130,6 +133,10 @@ class BodyMomentsBoneSettings(PropertyGroup):
     )
 
 
+def _set_mass(settings: PropertyGroup, mass: float) -> None:
+    settings.mass = mass
+
+
 class BodyMomentsWeightSettings(PropertyGroup):
     """Settings of an armature's weight: what the viewport shows, its total mass and its ground."""
 
@@ -147,6 +154,24 @@ class BodyMomentsWeightSettings(PropertyGroup):
         min=0.0,
         step=10,
         precision=3,
+        override={"LIBRARY_OVERRIDABLE"},
+        update=part_changed,
+    )
+    shown_mass: FloatProperty(
+        name="Total Mass",
+        description=(
+            "Mass of all bones in kilograms; those with a mass of their own keep it. At 0, the "
+            "measured mass, which is shown in gray"
+        ),
+        min=0.0,
+        step=10,
+        precision=3,
+        get=lambda settings: settings.mass or settings.id_data.get("body_mass", 0.0),
+        set=_set_mass,
+    )
+    show_axes: BoolProperty(
+        name="Principal Axes",
+        description="Draw the principal axes of the character, too",
         override={"LIBRARY_OVERRIDABLE"},
         update=part_changed,
     )

@@ -22,6 +22,8 @@ GIVEN_PROPERTIES = (
     "given_inertia_diagonal",
     "given_inertia_products",
 )
+SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
+GEOMETRY_TYPES = SURFACE_TYPES | {"CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}
 Row = tuple[float, ...]
 # ID property of a collider: kind, size in m and mass in kg; its parent is the body
 COLLIDER = "body_collider"
@@ -58,7 +60,7 @@ def density_property(description: str, update: Hook, **special: Any) -> Any:
         "step": 1000,
         "precision": 3,
     }
-    return FloatProperty(description=description, update=update, **{**usual, **special})
+    return FloatProperty(description=description, update=update, **(usual | special))
 
 
 class GivenPartProperties:
@@ -142,6 +144,11 @@ def shows_collection(obj: Object) -> bool:
     off.
     """
     return obj.instance_type == "COLLECTION" and obj.instance_collection is not None
+
+
+def has_density(obj: Object) -> bool:
+    """Return whether an object has a density: geometry, or instances of a collection."""
+    return obj.type in GEOMETRY_TYPES or shows_collection(obj)
 
 
 def is_point_mass(obj: Object) -> bool:

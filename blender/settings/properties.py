@@ -330,14 +330,14 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)
-        different = _comparable(getattr(target, name)) != _comparable(value)
+        different = comparable(getattr(target, name)) != comparable(value)
         if different or source.is_property_set(name) and not target.is_property_set(name):
             setattr(target, name, value)
         changed = changed or different
     return changed
 
 
-def _comparable(value):
+def comparable(value):
     """Return the value in a form that can be compared: an array as a tuple of its numbers."""
     return value[:] if hasattr(value, "foreach_get") else value
 

@@ -64,7 +64,7 @@ class BodyMomentsOverlaySettings(PropertyGroup):
         default=True,
     )
     show_path: BoolProperty(
-        name="Path of Balance Groups",
+        name="Path of Centers",
         description="Draw the path of the center of mass that was computed over the frame range",
         default=True,
     )

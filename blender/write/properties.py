@@ -434,4 +434,4 @@ def stored(obj: Owner) -> PlainBody | None:
         values.append(row if length else row[0])
     *numbers, turn, bounds = values
     rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
-    return PlainBody._make((*numbers, rotation_axes(turn), {**rounding, "input": inputs}))
+    return PlainBody._make((*numbers, rotation_axes(turn), (rounding | {"input": inputs})))

@@ -50,13 +50,21 @@ def text(*parts: Finding | str) -> str:
             if isinstance(part, str)
             else sentence(part, bpy.app.translations.pgettext_rpt, _length)
         )
-        between = " " if joined.endswith((".", ":")) else ". " if added.endswith(".") else "; "
-        joined += between + added if joined else added
+        if joined and not joined.endswith((".", ":")):
+            joined += "." if added.endswith(".") else ";"
+        joined += " " + added if joined else added
     return joined
 
 
 def _length(meters: float) -> str:
     return Units.from_settings(bpy.context.scene.unit_settings).text("length", meters)
+
+
+def distance(meters: float) -> str:
+    """Return a length on a body: in centimeters or less where the scene's unit is the meter."""
+    units = Units.from_settings(bpy.context.scene.unit_settings)
+    units = units._replace(length="ADAPTIVE") if units.length == "METERS" else units
+    return units.text("length", meters)
 
 
 def _rank(part: Finding | str) -> Severity:

@@ -187,7 +187,9 @@ class Units(NamedTuple):
         table = MASSES[self.system]
         if self.shows_grams or self._has_default_mass:
             small = self.shows_grams or self.length == "ADAPTIVE" and 0.0 < value < 1.0
-            return table["TONNES" if value > HEAVY else "GRAMS" if small else "KILOGRAMS"]
+            if value > HEAVY:
+                return table["TONNES"]
+            return table["GRAMS" if small else "KILOGRAMS"]
         if self.mass != "ADAPTIVE":
             return table[self.mass]
         base = table[BASES[self.system][1]]

@@ -35,12 +35,15 @@ _TRACEBACK = "Traceback (most recent call last)"
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 
 _IMPORTERS: dict[str, Callable[[str], object]] = {
-    **dict.fromkeys((".stl", ".ply"), import_mesh),
+    ".stl": import_mesh,
+    ".ply": import_mesh,
     ".obj": import_obj,
     ".fbx": lambda path: bpy.ops.wm.fbx_import(filepath=path),
     ".3mf": import_3mf,
-    **dict.fromkeys((".igs", ".iges"), import_iges),
-    **dict.fromkeys((".glb", ".gltf"), import_gltf),
+    ".igs": import_iges,
+    ".iges": import_iges,
+    ".glb": import_gltf,
+    ".gltf": import_gltf,
     **dict.fromkeys(USD, import_usd),
 }
 

@@ -163,9 +163,9 @@ class BareFile:
             self._measure_array(name, count) if is_scan else self._measure_stream(name, count)
         )
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
-        shapeless = (
-            unused(requested) if not is_scan else [finding(SHAPE_OF_GRID)] if requested else []
-        )
+        shapeless = unused(requested)
+        if is_scan:
+            shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
         more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
         self._add(contents, measurement, shapeless, more)
 

@@ -110,7 +110,10 @@ def _of_usd(path: Path) -> Iterator[str]:
 
 
 _NAMES: dict[str, Callable[[Path], Iterator[str]]] = {
-    **dict.fromkeys((".nrrd", ".nhdr"), _of_nrrd),
-    **dict.fromkeys((".gltf", ".glb"), _of_gltf),
-    **dict.fromkeys((".usd", ".usda"), _of_usd),
+    ".nrrd": _of_nrrd,
+    ".nhdr": _of_nrrd,
+    ".gltf": _of_gltf,
+    ".glb": _of_gltf,
+    ".usd": _of_usd,
+    ".usda": _of_usd,
 }

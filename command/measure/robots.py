@@ -91,7 +91,7 @@ def complete(
     for one in findings:
         print_message(sentence(one))
     refused = [failure(None, one) for one in findings if severity(one) == Severity.ERROR]
-    return {**document, "robot": text, "errors": [*document["errors"], *refused]}
+    return document | {"robot": text, "errors": [*document["errors"], *refused]}
 
 
 def _by_object(

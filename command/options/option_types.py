@@ -37,7 +37,7 @@ def _to_robot(file_documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 # Functions from documents, which may be iterated twice, to pieces of text.
-FORMATS = {**documents.FORMATS, **dict.fromkeys(ROBOT_FORMATS, _to_robot)}
+FORMATS = documents.FORMATS | dict.fromkeys(ROBOT_FORMATS, _to_robot)
 
 
 def command(text: str) -> str:

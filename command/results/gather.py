@@ -102,7 +102,7 @@ def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
             if given != first[1]:
                 text = "{} was made with other options than {}: {}. Merge results of one run"
                 names = {
-                    name for name in {**given, **first[1]} if given.get(name) != first[1].get(name)
+                    name for name in (given | first[1]) if given.get(name) != first[1].get(name)
                 }
                 raise UsageError(text.format(path, first[0], ", ".join(sorted(names))))
             documents[document["file"]] = document

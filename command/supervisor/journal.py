@@ -68,7 +68,7 @@ class Entry:
         if "options" in changed:
             names = [
                 name
-                for name in {**self.options, **options}
+                for name in (self.options | options)
                 if self.options.get(name) != options.get(name)
             ]
             return ": ".join(

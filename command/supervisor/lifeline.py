@@ -64,7 +64,7 @@ class Lifeline:
         """Send a line of JSON. If there are data, the line states their length as "bytes", and they
         follow it.
         """
-        head = {**head, "bytes": len(data)} if data else head
+        head = (head | {"bytes": len(data)}) if data else head
         view = memoryview(MARK + json.dumps(head).encode() + b"\n" + data)
         while view:
             view = view[os.write(self._channel, view) :]

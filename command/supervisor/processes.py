@@ -192,7 +192,7 @@ class WholeRun:
         self._journal = output.with_name(output.name + ".journal")
         self._place, self._lines = 0, 0
         nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
-        environment = {**os.environ, WINDOW: "1"}
+        environment = os.environ | {WINDOW: "1"}
         self._process = subprocess.Popen(
             command, env=environment, creationflags=_NEW_GROUP, **nowhere
         )

@@ -67,49 +67,42 @@ RECURSION = "references to itself, or nested too deeply"
 # Surfaces and solids that Blender's surfaces cannot represent, by the names of the specification.
 # All other types are curves, points, annotation or structure.
 REFUSED = {
-    **{
-        108: "Plane",
-        114: "Parametric Spline Surface",
-        118: "Ruled Surface",
-        120: "Surface of Revolution",
-    },
-    **{
-        122: "Tabulated Cylinder",
-        140: "Offset Surface",
-        143: "Bounded Surface",
-        150: "Block",
-        152: "Wedge",
-    },
-    **{
-        154: "Cylinder",
-        156: "Cone Frustum",
-        158: "Sphere",
-        160: "Torus",
-        162: "Solid of Revolution",
-    },
-    **{
-        164: "Solid of Linear Extrusion",
-        168: "Ellipsoid",
-        180: "Boolean Tree",
-        184: "Solid Assembly",
-    },
-    **{190: "Plane Surface", 192: "Cylindrical Surface", 194: "Conical Surface"},
-    **{
-        196: "Spherical Surface",
-        198: "Toroidal Surface",
-        412: "Rectangular Array",
-        414: "Circular Array",
-    },
-    **{416: "External Reference", 430: "Solid Instance"},
+    108: "Plane",
+    114: "Parametric Spline Surface",
+    118: "Ruled Surface",
+    120: "Surface of Revolution",
+    122: "Tabulated Cylinder",
+    140: "Offset Surface",
+    143: "Bounded Surface",
+    150: "Block",
+    152: "Wedge",
+    154: "Cylinder",
+    156: "Cone Frustum",
+    158: "Sphere",
+    160: "Torus",
+    162: "Solid of Revolution",
+    164: "Solid of Linear Extrusion",
+    168: "Ellipsoid",
+    180: "Boolean Tree",
+    184: "Solid Assembly",
+    190: "Plane Surface",
+    192: "Cylindrical Surface",
+    194: "Conical Surface",
+    196: "Spherical Surface",
+    198: "Toroidal Surface",
+    412: "Rectangular Array",
+    414: "Circular Array",
+    416: "External Reference",
+    430: "Solid Instance",
 }
 PARTS = {FACE: "Face", SHELL: "Shell"}  # A solid or a file has them.
 NAMES = {
-    **{
-        SURFACE: "Rational B-Spline Surface",
-        TRIMMED: "Trimmed Surface",
-        INSTANCE: "Subfigure Instance",
-    },
-    **{SOLID: "Manifold Solid B-Rep", **PARTS, **REFUSED},
+    SURFACE: "Rational B-Spline Surface",
+    TRIMMED: "Trimmed Surface",
+    INSTANCE: "Subfigure Instance",
+    SOLID: "Manifold Solid B-Rep",
+    **PARTS,
+    **REFUSED,
 }
 # Index of the parameter that points to the surface or solid which an entity refers to.
 REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, FACE: 0}

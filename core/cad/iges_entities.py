@@ -32,12 +32,29 @@ COLUMNS = 80  # columns
 SECTION = 72  # Column of the letter that names a line's section.
 PARAMETERS = 64  # columns that parameters may take
 UNITS = {
-    **{1: 0.0254, 2: 1e-3, 4: 0.3048, 5: 1609.344, 6: 1.0, 7: 1e3},
-    **{8: 2.54e-5, 9: 1e-6, 10: 1e-2, 11: 2.54e-8},
+    1: 0.0254,
+    2: 1e-3,
+    4: 0.3048,
+    5: 1609.344,
+    6: 1.0,
+    7: 1e3,
+    8: 2.54e-5,
+    9: 1e-6,
+    10: 1e-2,
+    11: 2.54e-8,
 }
 UNIT_NAMES = {
-    **{"IN": 0.0254, "INCH": 0.0254, "MM": 1e-3, "FT": 0.3048, "MI": 1609.344, "M": 1.0, "KM": 1e3},
-    **{"MIL": 2.54e-5, "UM": 1e-6, "CM": 1e-2, "UIN": 2.54e-8},
+    "IN": 0.0254,
+    "INCH": 0.0254,
+    "MM": 1e-3,
+    "FT": 0.3048,
+    "MI": 1609.344,
+    "M": 1.0,
+    "KM": 1e3,
+    "MIL": 2.54e-5,
+    "UM": 1e-6,
+    "CM": 1e-2,
+    "UIN": 2.54e-8,
 }
 UNIT_BY_NAME = 3
 MANY_DIGITS = 8  # Numbers with fewer significant digits are taken as exact.

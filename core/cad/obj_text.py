@@ -51,7 +51,7 @@ _FIELDS = {
 }
 _LINES = re.compile(
     rb"(?:(?:v(?:%(n)b{3,}+|t%(m)b++|n%(m)b{3,}+)|f%(i)b{3,}+|l%(i)b{2,}+|p%(i)b++)[ \r\v]*+\n"
-    rb"|[ \r\v]*+(?!(?:%(kinds)b)(?!\S))[^\n]*+\n)*+" % {**_FIELDS, b"kinds": _KINDS}
+    rb"|[ \r\v]*+(?!(?:%(kinds)b)(?!\S))[^\n]*+\n)*+" % (_FIELDS | {b"kinds": _KINDS})
 )
 
 

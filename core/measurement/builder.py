@@ -344,7 +344,7 @@ def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
             False,
             finding(AXES_FREE, axes=[1, 2, 3]),
         ),
-        rounding_error={**bounds, "inertia": float(central.rounding_error[4:].sum())},
+        rounding_error=(bounds | {"inertia": float(central.rounding_error[4:].sum())}),
         input_error={"mass": 0.0, "center": 0.0, "inertia": float(central.input_error[4:].sum())},
     )
 

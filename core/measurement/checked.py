@@ -27,7 +27,7 @@ _TEXTS = {"warnings": [str], "notes": [str]}
 _FINDINGS = {"findings": [{"code": str, "severity": str, "message": str, "values": dict}], **_TEXTS}
 _POWERS = {re.compile(r"[0-9]{1,3}(,[0-9]{1,3})*"): float}
 _DOMAINS = {name + "?": _POWERS for name in ("volume", "surface", "length", "mass", "area")}
-_MOMENTS = {**_DOMAINS, "error?": _DOMAINS, "input?": _DOMAINS}
+_MOMENTS = _DOMAINS | {"error?": _DOMAINS, "input?": _DOMAINS}
 _BOUNDED = (
     "volume",
     "area",
@@ -42,61 +42,50 @@ _BOUNDS = {name + "?": float for name in _BOUNDED}
 _RECORD = {
     **{name: str for name in ("name", "type", "kind", "method")},
     **{name: float for name in ("density", "mass", "volume", "area")},
-    **{
-        "verdict?": str,
-        **{name + "?": float for name in ("length", "linear_density", "thickness")},
-    },
-    **{
-        "center_of_mass": _VECTOR,
-        "inertia": _TENSOR,
-        "principal_moments": _VECTOR,
-        "principal_axes": _TENSOR,
-    },
-    **{
-        "inertia_about?": {"point": _VECTOR, "inertia": _TENSOR},
-        "moments?": _MOMENTS,
-        "display_mesh?": dict,
-    },
-    **{
-        "pose?": ({"matrix": [[float] * 4] * 4, "unique": bool, "symmetry": (str,)},),
-        "signature?": (dict,),
-    },
-    **{"health": dict, "error_bound": ({**_BOUNDS, "input?": (_BOUNDS,)},), **_FINDINGS},
+    "verdict?": str,
+    **{name + "?": float for name in ("length", "linear_density", "thickness")},
+    "center_of_mass": _VECTOR,
+    "inertia": _TENSOR,
+    "principal_moments": _VECTOR,
+    "principal_axes": _TENSOR,
+    "inertia_about?": {"point": _VECTOR, "inertia": _TENSOR},
+    "moments?": _MOMENTS,
+    "display_mesh?": dict,
+    "pose?": ({"matrix": [[float] * 4] * 4, "unique": bool, "symmetry": (str,)},),
+    "signature?": (dict,),
+    "health": dict,
+    "error_bound": ((_BOUNDS | {"input?": (_BOUNDS,)}),),
+    **_FINDINGS,
 }
 _FLAT = {
-    **{
-        "name": str,
-        "type": str,
-        "area": float,
-        "centroid": _VECTOR,
-        "signature?": (dict,),
-        "moments?": _MOMENTS,
-    },
-    **{
-        "plane": {"x": _VECTOR, "y": _VECTOR, "normal": _VECTOR},
-        "second_moments": {re.compile("xx|yy|xy"): float},
-    },
+    "name": str,
+    "type": str,
+    "area": float,
+    "centroid": _VECTOR,
+    "signature?": (dict,),
+    "moments?": _MOMENTS,
+    "plane": {"x": _VECTOR, "y": _VECTOR, "normal": _VECTOR},
+    "second_moments": {re.compile("xx|yy|xy"): float},
     "invariants?": [
         {"name": str, "real": float, "imaginary": float, "error": float, "input": float}
     ],
-    **{"error_bound": {**_BOUNDS, "input": _BOUNDS}, **_FINDINGS},
+    "error_bound": (_BOUNDS | {"input": _BOUNDS}),
+    **_FINDINGS,
 }
 _REASONS = [{"name": (str,), "reason": str}]
 _DOCUMENT = {
-    **{
-        "run?": {"addon": str, "options": dict},
-        "blender": (str,),
-        "total?": {"findings?": _FINDINGS["findings"]},
-    },
-    **{
-        "file": (str,),
-        "status": str,
-        "frame": str,
-        "objects": [_RECORD],
-        "flat?": [_FLAT],
-        "assemblies?": [_RECORD],
-    },
-    **{"bones?": [{"armature": str, **_RECORD}], "left_out": _REASONS, "errors": _REASONS},
+    "run?": {"addon": str, "options": dict},
+    "blender": (str,),
+    "total?": {"findings?": _FINDINGS["findings"]},
+    "file": (str,),
+    "status": str,
+    "frame": str,
+    "objects": [_RECORD],
+    "flat?": [_FLAT],
+    "assemblies?": [_RECORD],
+    "bones?": [{"armature": str, **_RECORD}],
+    "left_out": _REASONS,
+    "errors": _REASONS,
 }
 _NAMES = {
     dict: "an object",

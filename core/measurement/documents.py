@@ -197,15 +197,15 @@ def _csv_rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
         place = {"file": file_document["file"], "frame": file_document["frame"]}
         for name in ("objects", "assemblies", "bones"):
             for entry in file_document.get(name, ()):
-                yield {**place, **_columns(entry)}
+                yield (place | _columns(entry))
         for entry in file_document.get("flat", ()):
-            yield {**place, **_flat_columns(entry)}
+            yield (place | _flat_columns(entry))
         for column, entries in (
             ("left_out", file_document["left_out"]),
             ("error", file_document["errors"]),
         ):
             for entry in entries:
-                yield {**place, "name": entry["name"], column: entry["reason"]}
+                yield (place | {"name": entry["name"], column: entry["reason"]})
 
 
 _COLUMNS = (

@@ -272,7 +272,7 @@ def flat_record(
         ]
     entry |= more or {}
     rounding = _bounds(central, central.rounding_error, U * float(np.linalg.norm(centroid)))
-    entry["error_bound"] = {**rounding, "input": _bounds(central, central.input_error, 0.0)}
+    entry["error_bound"] = rounding | {"input": _bounds(central, central.input_error, 0.0)}
     return plain(entry) | described(findings)
 
 

@@ -48,8 +48,13 @@ def blender_knots(
     cyclic.
     """
     repeat = order - 1 if bezier else 1
-    head = (order - 1 if cyclic else order) if endpoint else (min(2, repeat) if bezier else 1)
-    tail = 2 * order - 1 if cyclic else (order if endpoint else 0)
+    head = min(2, repeat)
+    tail = 0
+    if endpoint:
+        head = order - 1 if cyclic else order
+        tail = order
+    if cyclic:
+        tail = 2 * order - 1
     length = count + order + (order - 1 if cyclic else 0)
     knots = np.zeros(length)
     offset = current = 1 if endpoint and cyclic else 0

@@ -211,7 +211,8 @@ def _pair_sides(
         if a == b:
             rank_found = 0 if flip == turn ^ other else 4
         else:
-            rank_found = 3 if flip else 1 if (size[a] == 1) != (size[b] == 1) else 2
+            joins_single = (size[a] == 1) != (size[b] == 1)
+            rank_found = 3 if flip else 2 - joins_single
         return max(rank_found, 3) if angle(pair) < FOLDED_ANGLE else rank_found
 
     def join(pair: tuple[float, int, int, bool]) -> None:

@@ -43,7 +43,7 @@ ZEROTH = (6, {"": 1})
 FIRST = (24, {"a": 1, "b": 1, "p": 1})
 SECOND = (120, {"aa": 2, "ab": 1, "ba": 1, "bb": 2, "ap": 1, "pa": 1, "pp": 2, "bp": 1, "pb": 1})
 THIRD = (720, {"".join(word): (6, 2, 1)[len(set(word)) - 1] for word in product("abp", repeat=3)})
-THIRD_AS_PRINTED = (720, {**THIRD[1], "baa": 0, "bab": 4})
+THIRD_AS_PRINTED = (720, (THIRD[1] | {"baa": 0, "bab": 4}))
 FORMULAS = (ZEROTH, FIRST, SECOND, THIRD)
 
 

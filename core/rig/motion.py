@@ -35,10 +35,6 @@ CLOSE_DEGREE = 5
 AVERAGED = 3  # velocities between frames that give the velocity at a frame
 UNEXPLAINED = 0.2  # of the weight: more force than that without a contact comes from nothing
 SMOOTHED = 0.1  # seconds over which noise of captured motion averages out
-# iterations for a turn between two frames, and for all turns
-TRIALS = 12
-CORRECTIONS = 10
-CONSTANT = 1e-9  # relative change of the angular momentum
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,14 +57,6 @@ class Course:
         """(f, 3) centers of mass."""
         first = self.centers[0, 0]
         return first + np.einsum("p,fpi->fi", self.masses / self.masses.sum(), self.centers - first)
-
-    def turned(self, turns: NDArray[np.float64]) -> Course:
-        """Return the body turned about its center by a (3, 3) rotation at each frame."""
-        center = self.center[:, None]
-        each = turns[:, None]
-        centers = center + np.einsum("fij,fpj->fpi", turns, self.centers - center)
-        spreads = each @ self.spreads @ each.swapaxes(-1, -2)
-        return Course(self.step, self.masses, centers, spreads, each @ self.linear)
 
 
 def find_flights(touching: ArrayLike) -> list[Flight]:
@@ -206,11 +194,11 @@ def zero_moment_points(
 
 
 def ballistic_arc(
-    start: NDArray, end: NDArray, frames: int, step: float, gravity: ArrayLike
+    start: NDArray, end: NDArray, shares: NDArray, time: float, gravity: ArrayLike
 ) -> NDArray[np.float64]:
-    """Return (frames + 1, 3) places of a free fall from one place to another."""
-    share = np.arange(frames + 1)[:, None] / frames
-    fall = np.asarray(gravity, np.float64) * (0.5 * (frames * step) ** 2)
+    """Return the (n, 3) places of a free fall from one place to another at (n,) shares of its time."""
+    share = shares[:, None]
+    fall = np.asarray(gravity, np.float64) * (0.5 * time**2)
     return start + share * (end - start) - share * (1.0 - share) * fall
 
 
@@ -226,61 +214,16 @@ def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
     )
 
 
-def turns_of_constant_spin(
-    course: Course, first: int, last: int, share: float = 0.0
-) -> NDArray[np.float64]:
-    """Return (last - first + 1, 3, 3) turns about the center that keep the angular momentum after
-    the first frame.
-
-    The turns are integrated from frame to frame, then corrected until the momentum of the turned
-    body stays the same. share: share of the last frame's angle about the momentum that is taken
-    back at all frames.
-    """
-    (motion, inertia) = momenta_between(course, first, last)
-    step = course.step
-    angular = motion[:, 3:6]
-    inverse = np.linalg.inv(inertia)
-    kept = angular[0]
-    turns = np.tile(np.eye(3), (last - first + 1, 1, 1))
-    for index in range(last - first):
-        rate = np.zeros(3)
-        for _ in range(TRIALS):
-            half = turns[index] @ _rotation(0.5 * step * rate)
-            rate = inverse[index] @ (half.T @ kept - angular[index])
-        turns[index + 1] = turns[index] @ _rotation(step * rate)
-    arrays = course.centers, course.spreads, course.linear
-    section = Course(step, course.masses, *(array[first : last + 1] for array in arrays))
-    for _ in range(CORRECTIONS):
-        motion, inertia = momenta_between(section.turned(turns), 0, last - first)
-        missing = kept - motion[:, 3:6]
-        if np.abs(missing).max() <= CONSTANT * np.linalg.norm(kept):
-            break
-        total = np.eye(3)
-        for index, rate in enumerate(np.linalg.solve(inertia, missing[:, :, None])[:, :, 0]):
-            total = _rotation(step * rate) @ total
-            turns[index + 1] = total @ turns[index + 1]
-    axis = kept / max(float(np.linalg.norm(kept)), np.finfo(float).tiny)
-    last_turn = quaternion(turns[-1])
-    angle = 2.0 * np.arctan(last_turn[1:] @ axis / last_turn[0]) if last_turn[0] else np.pi
-    return _rotation(-share * angle * axis) @ turns  # a turn about the momentum keeps it
+def continuous(quaternions: NDArray) -> NDArray[np.float64]:
+    """Return (s, 4) quaternions, each with the sign that is nearer to the previous one."""
+    signs = np.where((quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
+    return np.concatenate([quaternions[:1], quaternions[1:] * np.cumprod(signs)[:, None]])
 
 
 def _axes(linear: NDArray) -> NDArray[np.float64]:
-    """Return (f, 4) quaternions of a part's axes; each has the sign that is nearer to the previous
-    quaternion.
-    """
+    """Return (f, 4) continuous quaternions of a part's axes."""
     polar, _ = polar_rotation(linear)
-    turns = quaternion(polar * np.sign(np.linalg.det(polar))[:, None, None])
-    turns[1:] *= np.cumprod(np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))[
-        :, None
-    ]
-    return turns
-
-
-def _rotation(vector: NDArray) -> NDArray[np.float64]:
-    """Return the (3, 3) rotation by a vector's length about it."""
-    half = 0.5 * float(np.linalg.norm(vector))
-    return rotation_matrix(np.concatenate([[np.cos(half)], 0.5 * np.sinc(half / np.pi) * vector]))
+    return continuous(quaternion(polar * np.sign(np.linalg.det(polar))[:, None, None]))
 
 
 class _stencils:

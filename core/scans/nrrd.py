@@ -45,7 +45,12 @@ UNITS = {
         for prefix, unit in _METERS.items()
         for name in ("meter", "meters", "metre", "metres")
     },
-    **{"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "nm": 1e-9, "km": 1e3},
+    "m": 1.0,
+    "dm": 0.1,
+    "cm": 1e-2,
+    "mm": 1e-3,
+    "nm": 1e-9,
+    "km": 1e3,
     **dict.fromkeys(("um", "\u00b5m", "\u03bcm", "micron", "microns"), 1e-6),
     **dict.fromkeys(("in", "inch", "inches"), 0.0254),
     **dict.fromkeys(("ft", "foot", "feet"), 0.3048),

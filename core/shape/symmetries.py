@@ -186,8 +186,10 @@ def _schoenflies(symmetry_found: Symmetry) -> str:
     center = symmetry_found.has_center
     proper = int((np.linalg.det(symmetry_found.operations) > 0.0).sum())
     improper = len(symmetry_found.operations) - proper
+    if not axes and improper:
+        return "Cs" if planes else "Ci"
     if not axes:
-        return "C1" if not improper else "Cs" if planes else "Ci"
+        return "C1"
     axis, n = axes[0]
     is_flat = any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes)
     if proper == n:
@@ -198,7 +200,8 @@ def _schoenflies(symmetry_found: Symmetry) -> str:
         return "C{:d}v".format(n) if planes else "S{:d}".format(2 * n)
     if sum(order == n for _, order in axes) > 1 and n > 2:
         letter = {3: "T", 4: "O", 5: "I"}[n]
-        return letter if not improper else letter + "h" if center else letter + "d"
+        mirrors = "h" if center else "d"
+        return letter + mirrors if improper else letter
     if not improper:
         return "D{:d}".format(n)
     if n == 2:

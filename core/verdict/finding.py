@@ -167,7 +167,7 @@ def finding(
     slight: True if the effect on mass, size and inertia is negligible
     (`core/verdict/tolerances.py`): a warning is then a note.
     """
-    return Finding(code, {**values, "slight": True} if slight else values, elements)
+    return Finding(code, values | {"slight": True} if slight else values, elements)
 
 
 def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:

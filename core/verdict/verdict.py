@@ -23,6 +23,7 @@ class Verdict(StrEnum):
     REPAIRED = "repaired"
     DOUBTFUL = "doubtful"
     OUT_OF_DATE = "out of date"
+    INCOMPLETE = "incomplete"  # a total without the numbers of some of its objects
 
 
 def find_verdict(method: Method | None, findings: Iterable[Finding]) -> Verdict:

@@ -16,6 +16,7 @@ from bpy.types import Context, Event, Menu, Operator, OperatorProperties, Scene
 
 from ...blender import read, session, write
 from ...blender.session import stored
+from ...blender.session.selected import subject
 from ...blender.session.tracking import staleness, stamps
 from ...blender.write import properties, reports
 from ...blender.write.translations import localized
@@ -109,7 +110,7 @@ def _table(context: Context) -> Copied | str:
 
 
 def _reference(context: Context) -> Copied | str | Finding:
-    obj, scene = context.object, context.scene
+    obj, scene = subject(context), context.scene
     result = (
         None
         if obj is None or not properties.is_stored(obj)
@@ -124,7 +125,7 @@ def _reference(context: Context) -> Copied | str | Finding:
 
 
 def _section(context: Context) -> Copied | str:
-    obj = context.object
+    obj = subject(context)
     section = None if obj is None else write.section.stored(obj)
     if obj is None or section is None:
         return "Measure a section first"
@@ -135,14 +136,16 @@ def _section(context: Context) -> Copied | str:
 
 
 def _moments(context: Context) -> Copied | str:
-    obj, scene = context.object, context.scene
+    obj, scene = subject(context), context.scene
     computed = None if obj is None else stored.moments.computed_moments(obj)
     if obj is None or computed is None:
         return "Compute the moments first"
     settings = scene.body_moments
     about = scene.body_moments.moments_about
     reference = stored.moments.reference_of(obj, computed, scene) if about == "REFERENCE" else None
-    text = stored.moments.as_csv(computed, settings.moments_of, about, settings.frame, reference)
+    text = stored.computed_moments.as_csv(
+        computed, settings.moments_of, about, settings.frame, reference
+    )
     return text, reports.phrase("Copied {count} moments", count=text.count("\n") - 2)
 
 

@@ -19,6 +19,7 @@ from bpy.types import Context, Event, Operator
 from ... import core
 from ...blender import bodies, settings, write
 from ...blender.read.visibility import measurable
+from ...blender.session.selected import subject
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.numerics.float32 import shortest_decimal
@@ -92,12 +93,13 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if context.object is None or not measurable(context.object):
+        obj = subject(context)
+        if obj is None or not measurable(obj):
             return reports.unavailable(cls, "Make an object with a surface active")
         return True
 
     def invoke(self, context: Context, event: Event) -> set[str]:
-        obj = context.object
+        obj = subject(context)
         if (
             not self.properties.is_property_set("of")
             and obj.body_moments.kind == "SOLID"
@@ -128,7 +130,7 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         return selection.reporting(self, self._run, context, in_window)
 
     def _begin(self, context: Context) -> float:
-        obj = context.object
+        obj = subject(context)
         depsgraph = context.evaluated_depsgraph_get()
         self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
         if not self._path.parent.is_dir():

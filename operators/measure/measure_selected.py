@@ -16,7 +16,8 @@ from bpy.types import Context, Object, Operator
 from ...blender import bodies, session, write
 from ...blender.read.visibility import has_shape, measurable
 from ...blender.scene.changes import require_editable
-from ...blender.session import live
+from ...blender.session import character, live
+from ...blender.session.displayed import shown_objects
 from ...blender.session.tracking import armatures, staleness, stamps
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import properties, reports
@@ -69,6 +70,14 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
         options={"SKIP_SAVE"},
     )
 
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        may_have_mass = any(
+            has_shape(obj) or measurable(obj) or armatures.stands_for_meshes(obj)
+            for obj in context.selected_objects
+        )
+        return may_have_mass or reports.unavailable(cls, "Nothing selected can be measured")
+
     def _begin(self, context: bpy.types.Context) -> int:
         """Apply the settings of the redo panel and prepare the steps; return the number of selected
         objects.
@@ -120,8 +129,8 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
         """
         failed = session.store_measured(context, self._results)
         for armature in filter(armatures.stands_for_meshes, context.selected_objects):
-            live.character.store_rest(context, armature)
-        refusals = {**self._refusals, **failed}
+            character.weight.store_rest(context, armature)
+        refusals = self._refusals | failed
         self._failures = [
             reports.failure(obj.name_full, refusals[obj])
             for obj in self._objects
@@ -172,12 +181,11 @@ class OBJECT_OT_body_moments_live(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        active = context.object is not None and bool(_subjects(context))
-        return active or reports.unavailable(cls, "Select objects")
+        return bool(_subjects(context)) or reports.unavailable(cls, "Select objects")
 
     def execute(self, context: Context) -> set[str]:
         objects = _subjects(context)
-        if any(live.following.is_live(obj) for obj in armatures.subjects([context.object])):
+        if any(live.following.is_live(obj) for obj in objects):
             for obj in objects:
                 live.measuring.stop(obj)
             selection.redraw(context)
@@ -195,11 +203,8 @@ class OBJECT_OT_body_moments_live(Operator):
 
 
 def _subjects(context: Context) -> list[Object]:
-    """Return the measurable objects among the active and selected ones, with the meshes of posed
-    armatures.
-    """
-    objects = armatures.subjects([context.object, *context.view_layer.objects.selected])
-    return [obj for obj in objects if measurable(obj)]
+    """Return the measurable objects that the panel is about."""
+    return [obj for obj in shown_objects(context) if measurable(obj)]
 
 
 class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):

@@ -10,6 +10,9 @@ from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
 from ...blender.scene.changes import require_storable_data
+from ...blender.session.selected import objects_with_settings
+from ...blender.settings.chosen import chosen_objects
+from ...blender.settings.given import has_density
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.settings.properties import COPIED_PROPERTIES, copy_settings
 from ...blender.write import reports
@@ -17,13 +20,7 @@ from ...core.density.materials import BY_NAME
 from .. import selection
 
 PRESET_FOLDER = "body_moments"  # folder of the user's presets
-
-
-def _targets(context: Context) -> list[Object]:
-    """Return the selected objects, and the active one, whose settings the panel shows."""
-    active = context.view_layer.objects.active
-    objects = list(context.view_layer.objects.selected)
-    return objects if active is None or active in objects else [active, *objects]
+PRESET_PANEL = "OBJECT_PT_body_moments_presets"
 
 
 class OBJECT_OT_body_moments_set_material(Operator):
@@ -44,10 +41,11 @@ class OBJECT_OT_body_moments_set_material(Operator):
         description="Material to take the density from",
         items=MATERIAL_ITEMS,
     )
-
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return bool(_targets(context)) or reports.unavailable(cls, "Select objects")
+    target: StringProperty(
+        name="Object",
+        description="Object to set. If empty, the selected ones",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
 
     def invoke(self, context: Context, _event) -> set[str]:
         context.window_manager.invoke_search_popup(self)
@@ -56,7 +54,10 @@ class OBJECT_OT_body_moments_set_material(Operator):
     def execute(self, context: Context) -> set[str]:
         copy_defaults(context.scene)
         material = BY_NAME[self.material]
-        objects = _targets(context)
+        named = [obj for obj in context.view_layer.objects if obj.name_full == self.target]
+        objects = objects_with_settings(named or context.view_layer.objects.selected)
+        if not objects or not has_density(objects[0]):
+            return selection.refuse(self, "Select objects")
 
         def set_density(obj: Object) -> bool:
             require_storable_data(obj)
@@ -153,16 +154,48 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
 
 
 class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
-    """Add or remove a preset of the active object's settings"""
+    """Add or remove a preset of the settings that the panel shows"""
 
     bl_idname = "object.body_moments_preset_add"
     bl_label = "Add Body Moments Preset"
-    preset_menu = "OBJECT_PT_body_moments_presets"
+    preset_menu = PRESET_PANEL
     preset_subdir = PRESET_FOLDER
     preset_defines = ["settings = bpy.context.object.body_moments"]
     preset_values = [
         "settings." + name for name in COPIED_PROPERTIES if name != "density_volume"
     ]  # an object
+
+    def execute(self, context: Context) -> set[str]:
+        chosen = objects_with_settings(chosen_objects(context))
+        if not chosen:
+            return selection.refuse(self, "Select objects")
+        active = context.object
+        with context.temp_override(object=active if active in chosen else chosen[0]):
+            return AddPresetBase.execute(self, context)
+
+
+class OBJECT_OT_body_moments_preset_apply(Operator):
+    """Give the settings of a preset to the objects that the panel is about"""
+
+    bl_idname = "object.body_moments_preset_apply"
+    bl_label = "Apply Preset"
+    bl_options = {"INTERNAL", "UNDO"}
+
+    filepath: StringProperty(
+        name="Preset", description="File of the preset", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
+
+    def execute(self, context: Context) -> set[str]:
+        def apply(obj: Object) -> None:
+            require_storable_data(obj)
+            with context.temp_override(object=obj):
+                bpy.ops.script.execute_preset(filepath=self.filepath, menu_idname=PRESET_PANEL)
+
+        objects = objects_with_settings(chosen_objects(context))
+        changed, failures = selection.apply_to_all(objects, apply)
+        texts = ("Set {count} object", "Set {count} objects")
+        done = reports.phrase(*texts, count=len(changed))
+        return selection.summarize(self, len(changed), len(objects), done, failures)
 
 
 CLASSES = (
@@ -170,4 +203,5 @@ CLASSES = (
     MATERIAL_OT_body_moments_set_density,
     OBJECT_OT_body_moments_copy_settings,
     OBJECT_OT_body_moments_preset_add,
+    OBJECT_OT_body_moments_preset_apply,
 )

@@ -12,6 +12,7 @@ from ...blender import bodies, scene
 from ...blender.read.visibility import measurable
 from ...blender.scene.changes import require_storable_data
 from ...blender.session import displayed
+from ...blender.session.selected import subject
 from ...blender.session.stored import outcome
 from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
 from ...blender.settings.preferences import copy_defaults
@@ -45,19 +46,19 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
         bpy.ops.object.body_moments_measure()
 
 
-class _OnActive:
-    """Base of operators that change the active object's settings; refused without settings."""
+class _OnSubject:
+    """Base of operators that change the settings of the object that the panel shows."""
 
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = context.object
+        obj = subject(context)
         is_measurable = obj is not None and measurable(obj)
         return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
-        obj = context.object
+        obj = subject(context)
         try:
             return self._change(context, obj)
         except MeasureError as refusal:
@@ -67,7 +68,7 @@ class _OnActive:
         raise NotImplementedError
 
 
-class OBJECT_OT_body_moments_remedy(_OnActive, Operator):
+class OBJECT_OT_body_moments_remedy(_OnSubject, Operator):
     """Repair the active object and measure it again."""
 
     bl_idname = REPAIR
@@ -174,7 +175,7 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_body_moments_accept(_OnActive, Operator):
+class OBJECT_OT_body_moments_accept(_OnSubject, Operator):
     """Accept this warning: it becomes a note, also when the object is measured again"""
 
     bl_idname = "object.body_moments_accept"
@@ -193,20 +194,18 @@ class OBJECT_OT_body_moments_accept(_OnActive, Operator):
     def _change(self, context: Context, obj: Object) -> set[str]:
         """Accept a code, or every warning without one, on the objects that the panel is about."""
         changed = False
-        for subject in displayed.shown_objects(context):
-            own = of_severity(properties.findings(subject), Severity.WARNING)
+        for shown in displayed.shown_objects(context):
+            own = of_severity(properties.findings(shown), Severity.WARNING)
             codes = {self.code} if self.code else {found.code for found in own}
-            if subject != obj and not codes & {
-                found.code for found in properties.findings(subject)
-            }:
+            if shown != obj and not codes & {found.code for found in properties.findings(shown)}:
                 continue
-            require_storable_data(subject)
-            if not any([set_accepted(subject, code, self.accepted) for code in codes]):
+            require_storable_data(shown)
+            if not any([set_accepted(shown, code, self.accepted) for code in codes]):
                 continue
             changed = True
-            if properties.is_stored(subject):
-                kept = with_acceptance(properties.findings(subject), accepted_codes(subject))
-                properties.store_findings(subject, kept)
+            if properties.is_stored(shown):
+                kept = with_acceptance(properties.findings(shown), accepted_codes(shown))
+                properties.store_findings(shown, kept)
         return {"FINISHED"} if changed else {"CANCELLED"}
 
 
@@ -229,7 +228,11 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
             if self.code in ("", group.finding.code)
             for name in group.objects
         }
-        objects = [obj for obj in context.view_layer.objects if obj.name_full in names]
+        for caveat in displayed.total(context).findings if self.code else ():
+            if caveat.code == self.code:
+                listed = caveat.values.get("objects", ())
+                names.update(name if isinstance(name, str) else name[0] for name in listed)
+        objects = [obj for obj in context.view_layer.objects if names & {obj.name_full, obj.name}]
         if not objects:
             return {"CANCELLED"}
         selection.select_only(context, objects, objects[0])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sculpt Balance: move chosen vertices least so that the center of mass comes over a point, "make
+"""Balance: move chosen vertices least so that the center of mass comes over a point, "make
 it stand".
 
 The vertices are the selected ones in Edit Mode, or a vertex group in Object Mode, as freely as
@@ -21,7 +21,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
     """Move vertices as little as possible to bring the center of mass over a point."""
 
     bl_idname = "object.body_moments_sculpt_balance"
-    bl_label = "Sculpt Balance"
+    bl_label = "Balance"
     bl_description = (
         "Make it stand: move the selected vertices (in Object Mode those of a vertex group) as "
         "little as "

@@ -13,8 +13,9 @@ from bpy.types import Context, Object, Scene
 from numpy.typing import NDArray
 
 from ...blender.scale import meters_per_unit
-from ...blender.session import live
-from ...blender.session.live.character import Weight
+from ...blender.scene import fcurves
+from ...blender.session import character
+from ...blender.session.character.weight import Weight
 from ...blender.session.stored import balance_groups, faults, stability
 from ...blender.write import reports
 from ...core.rig.motion import ballistic_arc, find_flights
@@ -64,7 +65,9 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
     details += [_faults(obj, shown) for obj, shown in zip(objects, found) if shown is not None]
     for obj in objects:
         weight = (
-            live.character.weight(obj, context.view_layer.depsgraph) if shows_weight(obj) else None
+            character.weight.weight(obj, context.view_layer.depsgraph)
+            if shows_weight(obj)
+            else None
         )
         if weight is not None:
             details += _weight(context, weight)
@@ -105,14 +108,11 @@ def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
     size = 0.02 * float(np.ptp(path.centers, axis=0).max())
     for first, last in find_flights(path.contact):
         if path.contact[first] and path.contact[last]:
-            step = (
-                (path.frames[last] - path.frames[first])
-                / (last - first)
-                * scene.render.fps_base
-                / scene.render.fps
-            )
+            time = (path.frames[last] - path.frames[first]) / fcurves.time_scale(scene)
+            time *= scene.render.fps_base / scene.render.fps
             ends = path.centers[[first, last]]
-            arc = ballistic_arc(*ends, last - first, step, scene.gravity)
+            shares = np.linspace(0.0, 1.0, last - first + 1)
+            arc = ballistic_arc(*ends, shares, time, scene.gravity)
             crosses = ends[:, None, None] + size * np.stack([-np.eye(3), np.eye(3)], axis=1)
             lines = np.concatenate(
                 [np.stack([arc[:-1], arc[1:]], axis=1), crosses.reshape(-1, 2, 3)]
@@ -148,7 +148,9 @@ def support_detail(support: Support) -> Detail:
     """Return the support polygon, filled if the body stands, and an arrow from the foot to the
     tipping edge.
     """
-    color = look.TIPS if not support.stands else look.EDGE if support.is_near_edge else look.SUPPORT
+    color = look.EDGE if support.is_near_edge else look.SUPPORT
+    if not support.stands:
+        color = look.TIPS
     corners, foot = support.polygon, support.foot
     outline = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     fan = np.stack(

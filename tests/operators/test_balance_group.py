@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Balance Group: the path of a free flight is a parabola, that of several objects the sum of
+"""Follow Center: the path of a free flight is a parabola, that of several objects the sum of
 theirs; keys, signals.
 """
 

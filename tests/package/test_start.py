@@ -44,6 +44,10 @@ for path in sys.argv[4:]:
         layer.objects.active = active
         layer.active_layer_collection = collection
         drawn.update(every_panel())
+        for obj in layer.objects:
+            obj.select_set(obj == layer.objects.active)
+        layer.update()
+        drawn.update(every_panel())
 missing = set(sys.argv[2].splitlines()) - drawn
 assert not missing, (missing, drawn)
 sys.stdout.flush()

@@ -96,11 +96,20 @@ class Layout:
 
     def popover(self, idname, **options):
         check("popover", options)
+        self.label(text=options["text"])
         assert hasattr(bpy.types, idname)
         self.record.append(("menu", idname))
 
     def context_pointer_set(self, name, data):
         pass
+
+    def context_string_set(self, name, value):
+        self.record.append(("prop", value))
+
+    def prop_menu_enum(self, data, prop, **options):
+        check("prop_menu_enum", options)
+        self.prop(data, prop)
+        self.label(text=options["text"])
 
     def template_list(self, name, idname, data, listed, active_data, active, **options):
         check("template_list", options)

@@ -160,14 +160,14 @@ def test_faults_of_xacro_have_the_places_of_their_elements(tmp_path):
         for name, one in links.items()
     }
     assert places == {
-        "a": [("mesh_missing", 6, 3, macro)],
-        "b": [("mesh_unreadable", 6, 3, macro)],
-        "own": [("description_number", 4, 12, "")],
-        "mass": [("inertial_not_positive", 5, 39, "")] * 2,
+        "a": [("mesh_missing", 8, 3, macro)],
+        "b": [("mesh_unreadable", 8, 3, macro)],
+        "own": [("description_number", 5, 12, "")],
+        "mass": [("inertial_not_positive", 6, 39, "")] * 2,
     }
     assert {name: one.link.place for name, one in links.items()} == {
-        **{"a": (2, 1, macro), "b": (2, 1, macro)},
-        **{"own": (3, 1, ""), "mass": (5, 21, "")},
+        **{"a": (3, 1, macro), "b": (3, 1, macro)},
+        **{"own": (4, 1, ""), "mass": (6, 21, "")},
     }
 
 

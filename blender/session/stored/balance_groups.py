@@ -43,9 +43,9 @@ DESCRIPTIONS = {  # of custom properties with F-curves
 class Path:
     """Path of a center of mass over f frames.
 
-    frames: (f,). centers: (f, 3), in Blender's units and the world. inside: (f,), True for a center
-    over the support polygon; None without a polygon. contact, unexplained: (f,), whether anything
-    touches the ground, and whether momentum changes without that; None for groups.
+    frames: (f,) times of the keys. centers: (f, 3), in Blender's units and the world. inside: (f,),
+    True for a center over the support polygon; None without a polygon. contact, unexplained: (f,),
+    whether anything touches the ground, and whether momentum changes without that; None for groups.
     """
 
     frames: NDArray[np.float64]
@@ -76,13 +76,14 @@ def group_text(objects: Iterable[Object]) -> str:
 def store(
     empty: Object,
     frames: NDArray,
+    scale: float,
     centers: NDArray,
     signals: Mapping[str, NDArray],
     supports: Sequence[Support | None],
     spans: Sequence[tuple[float, float, float, float]],
 ) -> None:
     """Put a path and (f,) or (f, 3) signals on the empty as keys, in place of earlier ones, and
-    remember the supports.
+    remember the supports. scale: the time of F-curves that passes in a frame.
 
     Truth values are keyed as 0 and 1; frames without a value, which is NaN, get no key. spans: of
     frames, with momentum from nothing.
@@ -90,26 +91,27 @@ def store(
     empty[BALANCE_SPANS] = [float(value) for span in spans for value in span]
     if not spans:
         del empty[BALANCE_SPANS]
-    curves = fcurves.ensure_curves(empty)
+    curves = fcurves.ensure_curves(empty, alone=True)
+    times = scale * frames
     for axis in range(3):
-        fcurves.write_keys(curves, ("location", axis), frames, centers[:, axis])
+        fcurves.write_keys(curves, ("location", axis), times, centers[:, axis])
     for name, description in DESCRIPTIONS.items():
         path = '["{:s}"]'.format(name)
         values = signals.get(name)
         for axis in range(3):
-            fcurves.write_keys(curves, (path, axis), frames[:0], frames[:0])
+            fcurves.write_keys(curves, (path, axis), times[:0], times[:0])
         if values is None:
             if name in empty:
                 del empty[name]
             continue
         is_truth = values.dtype == bool
-        empty[name] = 0 if is_truth else 0.0 if values.ndim == 1 else [0.0] * 3
+        empty[name] = np.zeros_like(values[0], int if is_truth else float).tolist()
         ui = empty.id_properties_ui(name)
         ui.update(description=description, **({"min": 0, "max": 1} if is_truth else {}))
         for axis, column in enumerate(values.reshape(len(frames), -1).T):
             known = ~np.isnan(column)
             kind = fcurves.CONSTANT if is_truth else fcurves.LINEAR
-            fcurves.write_keys(curves, (path, axis), frames[known], column[known], kind)
+            fcurves.write_keys(curves, (path, axis), times[known], column[known], kind)
     memory.supports[empty] = {
         round(float(frame)): support
         for frame, support in zip(frames, supports)

@@ -9,7 +9,7 @@ its place and center.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -31,6 +31,7 @@ from ....core.verdict.finding import EditRefusedError, Finding, MeasureError
 from ....core.verdict.method import Procedure
 from ...bodies.measure_object import measure_body
 from ...bodies.mesh import MAX_CORNERS, object_hull
+from ...read.mesh import shape_digest
 from ...scene import reframe
 from ...scene.findings import OPEN_OBJECT
 from ...scene.rigid_world import down
@@ -51,24 +52,57 @@ SAME_SHAPE_RTOL = (
 class KnownHull:
     """An object's hull, with its support and poses.
 
-    hull: in the object's coordinates. shape: the (4, 3) scale and center for which `poses` hold.
-    support_key: the generation and the scene for which `support` holds.
+    hull: in the object's coordinates. digest: of the shape that it is of, if it can be compared.
+    earlier: those of earlier shapes, to which undo may return; sought_at: the generation at which
+    the present shape was sought among them. shape: the (4, 3) scale and center for which `poses`
+    hold. support_key: the generation and the scene for which `support` holds.
     """
 
     hull: ConvexHull
+    digest: bytes | None = None
+    earlier: tuple[KnownHull, ...] = ()
+    sought_at: int = -1
     shape: NDArray | None = None
     poses: RestingPoses | Finding | None = None
     support_key: tuple = ()
     support: Support | None = None
 
 
+MAX_EARLIER = 8  # hulls of earlier shapes that are kept
+
+
 def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     """Compute and cache the hull of an evaluated object, or raise MeasureError if it has none."""
     hull = object_hull(obj, depsgraph)
-    memory.hulls[obj] = KnownHull(hull)
+    last = memory.hulls.get(obj)
+    earlier = () if last is None else (*last.earlier, last)[-MAX_EARLIER:]
+    _remember(obj, KnownHull(hull, shape_digest(obj, depsgraph), earlier), depsgraph)
+    return hull
+
+
+def _remember(obj: Object, remembered: KnownHull, depsgraph: Depsgraph) -> None:
+    memory.hulls[obj] = remembered
     staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, memory.state.updates), depsgraph)
     handlers.count_change(obj)
-    return hull
+
+
+def _up_to_date(obj: Object, scene: Scene) -> KnownHull | None:
+    """Return what is cached for the object's present shape, also if undo brought the shape back."""
+    last = memory.hulls.get(obj)
+    if last is None or not staleness.stale_reason(obj, scene, stamp_of):
+        return last
+    depsgraph = bpy.context.view_layer.depsgraph
+    if not last.earlier or last.sought_at == memory.state.generation or depsgraph is None:
+        return None
+    last.sought_at = memory.state.generation
+    digest = shape_digest(obj, depsgraph)
+    known = [one for one in last.earlier if digest is not None and one.digest == digest]
+    if not known:
+        return None
+    others = tuple(one for one in (*last.earlier, last) if one is not known[-1])
+    found = replace(known[-1], earlier=others, support_key=())
+    _remember(obj, found, depsgraph)
+    return found
 
 
 def is_known(obj: Object) -> bool:
@@ -86,8 +120,8 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
     out of date.
     """
     scene = scene or bpy.context.scene
-    remembered = memory.hulls.get(obj)
-    if remembered is None or staleness.stale_reason(obj, scene, stamp_of):
+    remembered = _up_to_date(obj, scene)
+    if remembered is None:
         return None
     key = (memory.state.generation, scene.session_uid)
     if remembered.support_key != key:
@@ -111,8 +145,8 @@ def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | N
     None.
     """
     scene = scene or bpy.context.scene
-    remembered = memory.hulls.get(obj)
-    if remembered is None or staleness.stale_reason(obj, scene, stamp_of):
+    remembered = _up_to_date(obj, scene)
+    if remembered is None:
         return None
     body = drawn(obj, scene)
     if body is None:

@@ -67,7 +67,7 @@ def with_status(document: dict[str, Any]) -> dict[str, Any]:
     or known.
     """
     counts = count_findings(document)
-    return {**document, "status": "findings" if counts["warnings"] + counts["errors"] else "ok"}
+    return document | {"status": "findings" if counts["warnings"] + counts["errors"] else "ok"}
 
 
 def count_findings(document: dict[str, Any]) -> dict[str, int]:
@@ -100,7 +100,7 @@ def failed_document(file: str, reason: Finding) -> dict[str, Any]:
         "line": reason.values.get("line", 1),
         "column": reason.values.get("column", 1),
     }
-    return plain({**head, "links": [], "errors": [{**_finding(reason), **place}]})
+    return plain(head | {"links": [], "errors": [(_finding(reason) | place)]})
 
 
 def _finding(one: Finding) -> dict[str, Any]:

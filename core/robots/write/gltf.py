@@ -50,7 +50,7 @@ def body_extensions(
         values["inertiaOrientation"] = [x, y, z, w]
     kinematic = {"isKinematic": True} if is_fixed else {}
     kind = {"type": "kinematic" if is_fixed else "dynamic"}
-    return {KHR: {"motion": {**kinematic, **values}}, OMI: {"motion": {**kind, **values}}}
+    return {KHR: {"motion": (kinematic | values)}, OMI: {"motion": (kind | values)}}
 
 
 def add_rigid_bodies(

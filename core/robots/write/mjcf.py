@@ -169,7 +169,7 @@ def _add_joints(
 def _add_inertial(body: Element, inertial: Inertial) -> None:
     place = {"pos": numbers(inertial.center), "quat": numbers(quaternion(inertial.axes))}
     values = {"mass": number(inertial.mass), "diaginertia": numbers(inertial.moments)}
-    SubElement(body, "inertial", {**place, **values})
+    SubElement(body, "inertial", (place | values))
 
 
 def inertial_text(inertial: StatedInertial, *_: object) -> str:

@@ -24,8 +24,10 @@ GRAVITY = (0.0, 0.0, -9.80665)
 FAR = 1e3  # rad or m, in the place of an open limit
 ALONG_Y = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # Cylinders stand along y.
 _FORMS = {
-    **{"mesh": ("Mesh", "scale_factors", 1.0), "box": ("Brick", "half_lengths", 0.5)},
-    **{"ellipsoid": ("Ellipsoid", "radii", 1.0), "sphere": ("Sphere", "radius", 1.0)},
+    "mesh": ("Mesh", "scale_factors", 1.0),
+    "box": ("Brick", "half_lengths", 0.5),
+    "ellipsoid": ("Ellipsoid", "radii", 1.0),
+    "sphere": ("Sphere", "radius", 1.0),
     "cylinder": ("Cylinder", "radius", 1.0),
 }
 

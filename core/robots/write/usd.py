@@ -287,8 +287,12 @@ def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
 
 
 _KINDS = {
-    **{"mesh": "Mesh", "box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere"},
-    **{"capsule": "Capsule", "cylinder": "Cylinder"},
+    "mesh": "Mesh",
+    "box": "Cube",
+    "ellipsoid": "Sphere",
+    "sphere": "Sphere",
+    "capsule": "Capsule",
+    "cylinder": "Cylinder",
 }
 
 

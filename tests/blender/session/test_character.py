@@ -9,7 +9,7 @@ import time
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.session.live import character
+from body_moments.blender.session.character import weight as character
 from body_moments.core.verdict.finding import MeasureError
 
 from tests.blender.figure import figure

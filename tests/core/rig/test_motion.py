@@ -6,6 +6,7 @@ rolling balls.
 
 import numpy as np
 import pytest
+from body_moments.core.rig.channels import rotation_values, rotations
 from body_moments.core.rig.motion import (
     Course,
     ballistic_arc,
@@ -13,12 +14,12 @@ from body_moments.core.rig.motion import (
     find_unexplained,
     frames_of_height,
     momenta,
-    momenta_between,
-    turns_of_constant_spin,
     zero_moment_points,
 )
+from body_moments.core.rig.spin import LAST, CarriedParts
 
 STEP, GRAVITY = 1.0 / 24.0, np.array([0.0, 0.0, -9.81])
+SPREAD = np.diag([0.5, 0.3, 0.1])
 TILT = np.linalg.qr(np.random.default_rng(3).standard_normal((3, 3)))[0]
 TILT = TILT * np.linalg.det(TILT)
 FRAMES = 48
@@ -110,7 +111,8 @@ def test_momenta_of_moving_parts_are_those_of_particles():
 
 
 def test_arc_leads_from_place_to_place_as_gravity_demands():
-    arc = ballistic_arc(FALL[0], FALL[-1], FRAMES - 1, STEP, GRAVITY)
+    shares = np.linspace(0.0, 1.0, FRAMES)
+    arc = ballistic_arc(FALL[0], FALL[-1], shares, STEP * (FRAMES - 1), GRAVITY)
     assert np.abs(arc - FALL).max() < 1e-9
     assert frames_of_height(FALL, STEP, GRAVITY) == pytest.approx(FRAMES - 1, rel=2e-3)
 
@@ -170,15 +172,45 @@ def test_spin_from_nothing_is_unexplained():
     assert find_unexplained(tucking(turn([0, 0, 1], angle)), [(0, FRAMES - 1)], GRAVITY)
 
 
-def test_constant_spin_is_kept_by_a_tucking_body():
-    body = tucking()
-    before = momenta_between(body, 0, FRAMES - 1)[0][:, 3:6]
-    turned = body.turned(turns_of_constant_spin(body, 0, FRAMES - 1))
-    after = momenta(turned, [(0, FRAMES - 1)])[0][:, 3:6]
-    size = np.linalg.norm(before[0])
-    assert np.linalg.norm(before, axis=1).min() < 0.2 * size
-    assert np.abs(after - before[0]).max() < 1e-4 * size
-    assert np.abs(turned.center - body.center).max() < 1e-9
+def sampled_top(frames, spread=SPREAD):
+    """Return a rigid body at rest in its carrier's axes, at the nodes of frames."""
+    count = frames * LAST + 1
+    spreads = np.tile(spread, (count, 1, 1, 1))
+    linear = np.tile(np.eye(3), (count, 1, 1, 1))
+    still = Course(STEP, np.array([2.0]), np.zeros((count, 1, 3)), spreads, linear)
+    return CarriedParts.of(still, np.tile(np.eye(3), (count, 1, 1)))
+
+
+def test_constant_spin_of_a_rigid_top_is_that_of_euler():
+    spread = np.diag([0.5, 0.5, 0.1])
+    kept = (np.trace(spread) * np.eye(3) - spread) @ [6.0, 0.0, 5.0]
+    turns = sampled_top(24, spread).constant_spin(kept)[:, 0]
+    exact = turn(kept, np.linalg.norm(kept) / 0.6 * TIME[:24]) @ turn(
+        [0, 0, 1], 5.0 * (1.0 - 1.0 / 0.6) * TIME[:24]
+    )
+    assert np.abs(turns - exact).max() < 3e-6
+
+
+def test_constant_spin_keeps_the_energy_of_a_tumbling_body():
+    body = sampled_top(96)
+    kept = np.array([0.3, 4.0, 0.2])  # about the middle axis: it turns over
+    turns = body.constant_spin(kept)
+    spin = np.linalg.solve(body.inertia[0, 0, 0], (turns[:, 0].swapaxes(1, 2) @ kept)[..., None])
+    energy = np.einsum("fij,fi->f", turns[:, 0].swapaxes(1, 2) @ kept[:, None], spin[..., 0])
+    assert np.ptp(energy) < 1e-6 * energy[0] and np.ptp(turns[:, 0, 1, 1]) > 1.0
+    moved = CarriedParts(STEP, body.masses, turns, body.arms, body.spreads, body.linear)
+    assert moved.deviations(kept).max() < 1e-5
+
+
+@pytest.mark.parametrize("mode", ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "AXIS_ANGLE"])
+def test_channels_of_a_turn_past_its_lock_have_no_jump(mode):
+    """The middle angle passes 90° exactly, or the axis and angle the rest position."""
+    angle = np.linspace(-2.0, 7.0, 97)[:, None, None]
+    axis = np.eye(3)["XYZ".index(mode[1])] if len(mode) == 3 else [0.6, 0.0, 0.8]
+    turns = turn(axis, angle.ravel())
+    values = rotation_values(turns, mode, np.zeros(3) if len(mode) == 3 else [-2.0, *axis])
+    assert np.abs(np.diff(values, axis=0)).max() < 0.1
+    assert np.abs(rotations(values, mode) - turns).max() < 1e-7
 
 
 def test_zero_moment_point_of_a_tipping_force():

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sculpt Balance in Edit Mode and Object Mode: what moves, what does not, and what is refused."""
+"""Balance in Edit Mode and Object Mode: what moves, what does not, and what is refused."""
 
 from contextlib import contextmanager
 
@@ -316,3 +316,51 @@ def test_distant_fine_mesh_is_balanced_to_float32():
     group(obj, lambda co: float(co.z > 0.0))
     assert balance(target="POINT", point=(1000.02, 0.01, 0.0)) == {"FINISHED"}
     assert np.abs(center(obj)[:2] - (1000.02, 0.01)).max() < 1e-4
+
+
+def bracket():
+    """A body of three overlapping boxes that counts as a union."""
+    work = bmesh.new()
+    for center, size in (
+        ((0, 0, 0.1), (2, 1, 0.2)),
+        ((0.9, 0, 0.9), (0.2, 0.8, 1.8)),
+        ((1.7, 0, 1.7), (1.8, 0.6, 0.2)),
+    ):
+        bmesh.ops.create_cube(
+            work, matrix=Matrix.Translation(center) @ Matrix.Diagonal((*size, 1.0))
+        )
+    mesh = bpy.data.meshes.new("Bracket")
+    work.to_mesh(mesh)
+    work.free()
+    obj = add(mesh, "Bracket")
+    obj.body_moments.overlap = "UNION"
+    return obj
+
+
+@pytest.mark.parametrize("vertices", ["lean", "group"])
+def test_union_of_overlapping_boxes_is_balanced(vertices):
+    obj = bracket()
+    before = measured(obj).mass_properties.center
+    if vertices == "group":
+        top = [vertex.index for vertex in obj.data.vertices if vertex.co.z > 1.5]
+        obj.vertex_groups.new(name="Top").add(top, 1.0, "ADD")
+    target = before + (-0.04, 0.01, 0.0)
+    assert balance(target="POINT", point=target) == {"FINISHED"}
+    assert np.abs(measured(obj).mass_properties.center - target)[:2].max() < 1e-5
+
+
+def test_stability_is_valid_after_undo_to_measured_shape():
+    from body_moments.blender.session.stored import stability
+
+    obj = bracket()
+    bpy.ops.object.body_moments_stability()
+    bpy.ops.ed.undo_push(message="checked")
+    first = stability.support(obj, bpy.context.scene)
+    balance(target="POINT", point=(0.9, 0.0, 0.0))
+    bpy.ops.ed.undo_push(message="balanced")
+    moved = stability.support(bpy.context.object, bpy.context.scene)
+    assert abs(moved.margin - first.margin) > 0.01
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    back = stability.support(bpy.context.object, bpy.context.scene)
+    assert back is not None and abs(back.margin - first.margin) < 1e-6

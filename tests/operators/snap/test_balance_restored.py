@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sculpt Balance moves bent faces the least, and keeps the side that faces look to."""
+"""Balance moves bent faces the least, and keeps the side that faces look to."""
 
 from dataclasses import replace
 from itertools import pairwise

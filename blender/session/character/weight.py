@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from ....core.bodies.reading import float64_matrix
 from ....core.inertia.plain_body import COLUMNS, ROWS, PlainBody, principal_axes, tensor_rows
 from ....core.numerics.float32 import shortest_decimal
+from ....core.rig.parts import Parts
 from ....core.statics.support import Support, find_contacts, support_of_contacts
 from ....core.verdict.finding import EditRefusedError, MeasureError, ReadError
 from ...bodies.findings import RIG_WITHOUT_PARTS, UNWEIGHTED_VERTICES
@@ -33,10 +34,10 @@ from ...scene.rigid_world import down
 from ...write import properties
 from ...write.reports import Refused
 from .. import memory, stored
+from ..live.motion import Motion
 from ..tracking import handlers
 from ..tracking.armatures import deformed_meshes
 from ..tracking.staleness import stale_reason
-from .motion import Motion
 
 REACH = 0.01  # points up to this height touch the ground, relative to the character's size
 OUTLINE = 1e-4  # tolerance of the support polygon's corners, relative to its extent
@@ -47,48 +48,6 @@ NO_GRAVITY = (
     "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > "
     "Gravity."
 )
-
-
-@dataclass(frozen=True, eq=False)
-class Parts:
-    """The p parts of one or several characters.
-
-    names: of bones and held objects. masses: (p,) kg, 0 if they cannot be measured. centers: (p,
-    3). spreads: (p, 3, 3) integrals of r rᵀ dm about each part's center. matrices: (p, 4, 4) of
-    bones and objects in the world.
-    """
-
-    names: tuple[str, ...]
-    masses: NDArray[np.float64]
-    centers: NDArray[np.float64]
-    spreads: NDArray[np.float64]
-    matrices: NDArray[np.float64]
-
-    @property
-    def mass(self) -> float:
-        """The total mass, kg."""
-        return float(self.masses.sum())
-
-    @property
-    def center(self) -> NDArray[np.float64]:
-        """(3,) center of the total."""
-        return self.centers[0] + (self.masses / self.mass) @ (self.centers - self.centers[0])
-
-    @property
-    def inertia(self) -> NDArray[np.float64]:
-        """(3, 3) inertia tensor of the total about its center, in kg and Blender's units."""
-        arms = self.centers - self.center
-        spread = self.spreads.sum(axis=0) + np.einsum("p,pi,pj->ij", self.masses, arms, arms)
-        return np.trace(spread) * np.eye(3) - spread
-
-    @classmethod
-    def join(cls, several: Sequence[Parts]) -> Parts:
-        """Return the parts of several as one."""
-        arrays = ("masses", "centers", "spreads", "matrices")
-        names = tuple(name for parts in several for name in parts.names)
-        return cls(
-            names, *(np.concatenate([getattr(parts, name) for parts in several]) for name in arrays)
-        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,19 +86,19 @@ class Weight:
 class Character:
     """A measured character, whose parts follow its pose.
 
-    names: (p) of the bones with parts. masses: (p,) kg. centers: (p, 3), spreads: (p, 3, 3) in the
-    bones' own spaces. size: largest extent of these bones at rest.
+    model: the parts in the bones' own spaces. size: largest extent of their bones at rest.
     """
 
-    names: tuple[str, ...]
-    masses: NDArray[np.float64]
-    centers: NDArray[np.float64]
-    spreads: NDArray[np.float64]
+    model: Parts
     size: float
     _motion: Motion = field(default_factory=lambda: Motion(1))  # of held objects
-    _vertex_bones: dict[int, NDArray[np.intp]] = field(
-        default_factory=dict
-    )  # by session uid of a mesh object
+    # by session uid of a mesh object
+    _vertex_bones: dict[int, NDArray[np.intp]] = field(default_factory=dict)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The bones with parts."""
+        return self.model.names
 
     @classmethod
     def from_bodies(
@@ -170,7 +129,8 @@ class Character:
             ends += [bone.head_local, bone.tail_local]
         masses = np.array([body.mass for body in bodies.values()])
         size = float(np.ptp(np.array(ends) @ place[:3, :3].T, axis=0).max())
-        return cls(tuple(bodies), masses, np.array(centers), np.array(spreads), size)
+        model = Parts(tuple(bodies), masses, np.array(centers), np.array(spreads), np.eye(4)[None])
+        return cls(model, size)
 
     @classmethod
     def from_rig(cls, rig: Rig, unit: float) -> Character | None:
@@ -186,31 +146,13 @@ class Character:
 
     def pose(self, armature: Object, depsgraph: Depsgraph) -> Parts:
         """Return the parts as evaluated, held objects included."""
-        row = {bone.name: index for index, bone in enumerate(armature.pose.bones)}
-        matrices = bone_matrices(armature, depsgraph)[[row[name] for name in self.names]]
-        linear = matrices[:, :3, :3]
-        factors = self._factors(armature)
-        centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
-        spreads = factors[:, None, None] * (linear @ self.spreads @ linear.transpose(0, 2, 1))
-        parts = Parts(self.names, factors * self.masses, centers, spreads, matrices)
-        return Parts.join(
-            [
-                parts,
-                *(self._held_part(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph)),
-            ]
-        )
-
-    def _factors(self, armature: Object) -> NDArray[np.float64]:
-        """Return (p,) factors to the total mass; 1 for bones with their own mass, if it leaves mass
-        for the others.
-        """
-        total = shortest_decimal(armature.body_moments_weight.mass)
         bones = armature.pose.bones
+        row = {bone.name: index for index, bone in enumerate(bones)}
+        matrices = bone_matrices(armature, depsgraph)[[row[name] for name in self.names]]
         shares = np.array([bones[name].body_moments.mass_from != "MASS" for name in self.names])
-        rest = total - self.masses[~shares].sum()
-        if total and rest > 0.0 and shares.any():
-            return np.where(shares, rest / self.masses[shares].sum(), 1.0)
-        return np.full(len(shares), total / self.masses.sum() if total else 1.0)
+        factors = self.model.factors_to(shortest_decimal(armature.body_moments_weight.mass), shares)
+        held = [self._held_part(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph)]
+        return Parts.join([self.model.placed(matrices, factors), *held])
 
     def _held_part(self, obj: Object, depsgraph: Depsgraph) -> Parts:
         """Return a held object as a part at its own place, without mass if it cannot be

@@ -1,0 +1,214 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The bone or object whose channels carry all parts of a character, and its keys."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from bpy.types import Context, Depsgraph, Object, PoseBone
+from numpy.typing import NDArray
+
+from ....core.bodies.reading import float64_matrix
+from ....core.numerics.rotations import polar_rotation, quaternion, rotation_matrix
+from ....core.rig.channels import count_pieces, in_pieces, rotation_values
+from ....core.rig.motion import continuous
+from ...read.tracking import tracking_paused
+from ...scene import fcurves
+from ...scene.changes import require_editable
+from ...scene.transforms import TransformChannels
+from ...write.reports import Refused
+from .weight import Character
+
+# of the character's size: a trial move, and the tolerance of the parts that follow
+TRIAL = 1e-2
+FOLLOWS = 1e-4
+LEAST_NORM = 0.5  # of quaternions and axes that keep the length of the earlier ones
+LAYER = "Body Moments"  # the name of the track and the strip
+
+NOT_FREE = (
+    "“{name}” cannot be keyed: its {channel:word} is {state:word}. Free it, or choose another bone."
+)
+SHARED = (
+    "The action of “{name}” also animates {others}. Make it a single user in the Action Editor."
+)
+
+
+@dataclass(eq=False)
+class Carrier:
+    """A root bone or an armature object whose location and rotation carry all parts of a character.
+
+    frames: at each time so far, its (4, 4) matrices in the world and of its channels, and the
+    channels' values.
+    """
+
+    armature: Object
+    owner: PoseBone | Object
+    frames: list[tuple[NDArray, NDArray, dict[str, NDArray]]] = field(default_factory=list)
+
+    @property
+    def rotation(self) -> str:
+        """The name of the rotation's channel."""
+        kinds = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
+        return kinds.get(self.owner.rotation_mode, "rotation_euler")
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """(s, 3, 3) rotations of the carrier in the world."""
+        polar, _ = polar_rotation(np.array([world for world, _, _ in self.frames]))
+        return polar * np.sign(np.linalg.det(polar))[:, None, None]
+
+    def path(self, channel: str) -> str:
+        """Return the data path of a channel from the armature object."""
+        return channel if self.owner == self.armature else self.owner.path_from_id(channel)
+
+    def read(self, depsgraph: Depsgraph) -> None:
+        """Add the frame that the depsgraph shows."""
+        owner = evaluated = self.armature.evaluated_get(depsgraph)
+        world = float64_matrix(evaluated.matrix_world)
+        if self.owner != self.armature:
+            owner = evaluated.pose.bones[self.owner.name]
+            world = world @ float64_matrix(owner.matrix)
+        values = {
+            name: np.array(getattr(owner, name), np.float64)
+            for name in ("location", self.rotation, "scale")
+        }
+        self.frames.append((world, float64_matrix(owner.matrix_basis), values))
+
+    def require_free(self, turns: bool) -> None:
+        """Raise Refused unless keys on the channels have an effect and are allowed."""
+        require_editable(self.armature)
+        owner = self.owner
+        if others := fcurves.sharing(self.armature):
+            raise Refused(SHARED, name=self.armature.name, others=others)
+        for channel in ("location", "rotation")[: 1 + turns]:
+            path = self.path("location" if channel == "location" else self.rotation)
+            for state, holds in self._states(channel, path):
+                if holds:
+                    raise Refused(NOT_FREE, name=owner.name, channel=channel, state=state)
+
+    def _states(self, channel: str, path: str) -> Iterator[tuple[str, bool]]:
+        """Yield the reasons why keys on a channel would be of no use, and whether they hold."""
+        owner = self.owner
+        animation = self.armature.animation_data
+        curves = fcurves.existing_curves(self.armature)
+        keyed = [curve for curve in curves if curve.data_path == path]
+        locked = any(getattr(owner, "lock_" + channel)) or any(curve.lock for curve in keyed)
+        yield "locked", locked
+        yield "constrained", any(not one.mute and one.influence > 0.0 for one in owner.constraints)
+        yield "muted", any(curve.mute for curve in keyed)
+        modifiers = [one for curve in keyed for one in curve.modifiers if not one.mute]
+        yield "changed by F-curve modifiers", bool(modifiers)
+        if animation is not None:
+            yield "driven", any(driver.data_path == path for driver in animation.drivers)
+            yield "being tweaked in the NLA editor", animation.use_tweak_mode
+        if owner == self.armature:
+            turns = *owner.delta_rotation_euler, *owner.delta_rotation_quaternion[1:]
+            sizes = (factor != 1.0 for factor in owner.delta_scale)
+            yield "changed by Delta Transforms", any((*owner.delta_location, *turns, *sizes))
+
+    def left_behind(self, context: Context, known: Character, turns: bool) -> str:
+        """Try a small move at this frame; return the name of a part that does not follow, or ""."""
+        depsgraph = context.evaluated_depsgraph_get()
+        trial = Carrier(self.armature, self.owner)
+        trial.read(depsgraph)
+        before = known.pose(self.armature, depsgraph)
+        move = np.eye(4)
+        move[:3, 3] = TRIAL * known.size
+        if turns:
+            move[:3, :3] = rotation_matrix([1.0, TRIAL, TRIAL, TRIAL])
+            move[:3, 3] += before.center - move[:3, :3] @ before.center
+        stored = TransformChannels(self.owner)
+        with tracking_paused():
+            place, turn = trial.wanted(move[None])
+            self.owner.location = place[0]
+            values = trial.values(turn, trial._old(self.rotation))
+            setattr(self.owner, self.rotation, values[0])
+            context.view_layer.update()
+            after = known.pose(self.armature, context.evaluated_depsgraph_get())
+            stored.restore()
+            context.view_layer.update()
+        expected = move @ before.matrices
+        units = [np.abs(expected[:, :3, :3]).max()] * 3 + [known.size]
+        off = (np.abs(after.matrices - expected)[:, :3] / units).max(axis=(1, 2))
+        return before.names[int(off.argmax())] if off.max() > FOLLOWS else ""
+
+    def wanted(self, moves: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the (s, 3) locations and (s, 4) continuous quaternions of the channels for a (4,
+        4) move in the world at each time read.
+        """
+        world, basis = (np.array([frame[part] for frame in self.frames]) for part in (0, 1))
+        wanted = basis @ np.linalg.inv(world) @ moves @ world
+        turns = quaternion(wanted[:, :3, :3] / self._old("scale")[:, None])
+        return wanted[:, :3, 3], continuous(turns)
+
+    def values(self, turns: NDArray, old: NDArray) -> NDArray[np.float64]:
+        """Return the (s, k) values of the rotation's channels for (s, 4) quaternions.
+
+        old: (s, k) values, which decide on the first of several and on lengths of no effect.
+        """
+        values = rotation_values(rotation_matrix(turns), self.owner.rotation_mode, old[0])
+        if self.rotation != "rotation_euler":
+            part = slice(-3, None) if self.rotation == "rotation_axis_angle" else slice(None)
+            norms = np.linalg.norm(old[:, part], axis=1, keepdims=True)
+            values[:, part] *= np.maximum(norms, LEAST_NORM)
+        return values
+
+    def _old(self, name: str) -> NDArray[np.float64]:
+        """Return the (s, k) values of a channel at the times read."""
+        return np.array([values[name] for _world, _basis, values in self.frames])
+
+    def key(self, moves: NDArray, times: NDArray, turns: bool, as_layer: bool) -> None:
+        """Key (4, 4) moves at the nodes of frames, which begin and end at these times of F-curves.
+
+        Frames have further keys between them if cubics would not follow the rotation.
+        """
+        armature = self.armature
+        old = {name: self._old(name) for name in ("location", self.rotation)[: 1 + turns]}
+        locations, quaternions = self.wanted(moves)
+        counts = np.ones(len(times) - 1, np.intp)
+        if turns:
+            mode = self.owner.rotation_mode
+            counts = count_pieces(quaternions, mode, old[self.rotation][0])
+            quaternions = in_pieces(quaternions, counts)
+        shares = [np.arange(count) / count for count in counts.tolist()]
+        starts = zip(times, np.diff(times), shares)
+        times = np.append(
+            np.concatenate([at + step * share for at, step, share in starts]), times[-1]
+        )
+        channels = {}
+        for name, before in old.items():
+            fcurves.ensure_keyed(armature, self.path(name), before[0], times[0], as_layer)
+            before = in_pieces(before, counts)
+            if name == "location":
+                new = in_pieces(locations, counts)
+            else:
+                new = self.values(quaternions, before)
+            if as_layer and name == "rotation_quaternion":
+                new = continuous(_quotients(before, new))
+                new *= np.sign(new[0, 0])
+            elif as_layer:
+                new = new - before
+            channels.update({(self.path(name), axis): rows for axis, rows in enumerate(new.T)})
+        if as_layer:
+            fcurves.add_layer(armature, LAYER, times, channels)
+            return
+        for curve in fcurves.ensure_curves(armature):
+            rows = channels.get((curve.data_path, curve.array_index))
+            if rows is not None:
+                fcurves.replace_section(curve, times, rows)
+
+
+def _quotients(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+    """Return the unit quaternions (s, 4) that turn the first to the second, in their own axes."""
+    w, v = first[:, :1], -first[:, 1:]
+    product = np.concatenate(
+        [
+            w * second[:, :1] - (v * second[:, 1:]).sum(axis=1, keepdims=True),
+            w * second[:, 1:] + second[:, :1] * v + np.cross(v, second[:, 1:]),
+        ],
+        axis=1,
+    )
+    return product / np.linalg.norm(product, axis=1, keepdims=True)

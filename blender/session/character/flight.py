@@ -1,0 +1,364 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Characters over frames: their momenta, and keys that put them on a parabola or keep their spin.
+
+The keys go to the carrier of the whole character: its root bone, or the armature object. A small
+move is tried first, and every part must follow. So the pose stays as it is, and the center goes to
+its intended place. Poses are sampled within the frames, too, as the curves pass between the keys.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from bpy.types import Context, Depsgraph, Object, Scene
+from mathutils import Quaternion
+from numpy.typing import NDArray
+
+from ....core.numerics.rotations import quaternion, rotation_matrix
+from ....core.rig import motion, spin
+from ....core.rig.parts import Parts
+from ....core.verdict.finding import EditRefusedError
+from ...read.rig import require_armature
+from ...read.tracking import tracking_paused
+from ...scale import meters_per_unit
+from ...scene import fcurves
+from ...write.reports import Refused
+from ..balance_group import BalanceGroup
+from ..findings import NO_SUCH_NAME
+from ..stored import balance_groups
+from . import weight
+from .carrier import FOLLOWS, Carrier
+
+KEPT = 0.01  # of the angular momentum: the largest deviation in a flight, between frames, too
+MOMENTUM = "body_balance_momentum"
+
+NOT_CARRIED = (
+    "No bone carries the whole character: “{part}” does not follow “{name}”. Choose the bone that "
+    "all others hang on, or parent the targets of its constraints to one."
+)
+HELD_IN_PART = (
+    "“{names}” is held at some of the frames only. Choose frames at which the same objects are "
+    "held."
+)
+LAYERED_TIMES = (
+    "A layer cannot move the landing. Turn off As Layer and empty the NLA, or keep the times."
+)
+MODIFIED_TIMES = (
+    "“{curve}” has F-curve modifiers, which cannot move with the landing. Bake its channel in the "
+    "Graph Editor, or keep the times."
+)
+NO_FLIGHT = (
+    "“{name}” does not leave the ground and land again in frames {start} to {end}. Turn off Find "
+    "by Contacts and type Take-off and Landing, or set Ground."
+)
+SPIN_LOST = (
+    "Nothing was keyed: the keys would change the angular momentum of “{name}” by {off:percent}, "
+    "most at frame {frame}. Set its Rotation Mode to Quaternion, smooth the keys near this frame, "
+    "or turn on Key Anyway."
+)
+
+
+class CharacterMotion(BalanceGroup):
+    """A character that is followed over frames, on the ground that Show Weight shows or finds at
+    the first of them.
+
+    off: the largest distance of the center from its intended place after keying, in meters.
+    deviation, worst: of the angular momentum, relative to it, and its frame.
+    """
+
+    def __init__(self, context: Context, frames: range):
+        scene = context.scene
+        armature = require_armature(context.object)
+        weight.require_gravity(scene)
+        self.gravity = np.array(scene.gravity, np.float64)
+        before = scene.frame_current
+        subframe = scene.frame_subframe
+        scene.frame_set(frames[0])
+        try:
+            self._found = self.known, self.ground, _rig = weight.find(context, armature)
+        finally:
+            scene.frame_set(before, subframe=subframe)
+        self._context = context
+        self.unit = meters_per_unit(scene)
+        self.armature, self.frames = armature, frames
+        self.step = scene.render.fps_base / scene.render.fps
+        self.objects, self.feet = [armature], [armature]
+        self.carrier: Carrier | None = None
+        self._forget()
+
+    def _forget(self) -> None:
+        """Forget all frames."""
+        self.centers, self.supports = [], []
+        self._parts: list[Parts] = []
+
+    def _add_frame(self, motion: object, depsgraph: Depsgraph) -> None:
+        if self.carrier is None:
+            parts, _contacts, support = self.known.stand(self.armature, depsgraph, self.ground)
+            self.supports.append(support)
+        else:
+            parts = self.known.pose(self.armature, depsgraph)
+            self.carrier.read(depsgraph)
+        if self._parts and parts.names != self._parts[0].names:
+            several = set(parts.names).symmetric_difference(self._parts[0].names)
+            raise Refused(HELD_IN_PART, names=", ".join(sorted(several)))
+        self._parts.append(parts)
+        self.centers.append(parts.center)
+
+    @property
+    def course(self) -> motion.Course:
+        """The frames, in Blender's units."""
+        centers, spreads = (
+            np.array([getattr(one, name) for one in self._parts]) for name in ("centers", "spreads")
+        )
+        linear = np.array([parts.matrices[:, :3, :3] for parts in self._parts])
+        return motion.Course(self.step, self._parts[0].masses, centers, spreads, linear)
+
+    @property
+    def touching(self) -> NDArray[np.bool_]:
+        """Mask (f,) of the frames in which the character touches the ground."""
+        return np.array([support is not None for support in self.supports])
+
+    def find_carrier(self, context: Context, name: str, turns: bool, as_layer: bool) -> None:
+        """Find the carrier of all parts: the named bone, else the root, else the object; Refused if
+        there is none.
+        """
+        self.is_layered = as_layer or fcurves.has_strips(self.armature)
+        bones = self.armature.pose.bones
+        part = ""
+        if name and name not in bones:
+            raise EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
+        roots = {
+            [bones[known], *bones[known].parent_recursive][-1].name for known in self.known.names
+        }
+        owners = (
+            [bones[name]]
+            if name
+            else [*map(bones.get, roots if len(roots) == 1 else ()), self.armature]
+        )
+        for owner in owners:
+            self.found = Carrier(self.armature, owner)
+            self.found.require_free(turns)
+            part = self.found.left_behind(context, self.known, turns)
+            if not part:
+                return
+        raise Refused(NOT_CARRIED, part=part, name=owners[0].name)
+
+    def find_flight(self, scene: Scene) -> Iterator[int]:
+        """Follow all frames, and find take-off and landing of the flight at the current frame, else
+        of the longest one.
+        """
+        yield from self.follow(scene, self.frames)
+        touching = self.touching
+        frames = self.frames
+        found = [flight for flight in motion.find_flights(touching) if touching[list(flight)].all()]
+        if not found:
+            raise Refused(NO_FLIGHT, name=self.armature.name, start=frames[0], end=frames[-1])
+        current = scene.frame_current
+        first, last = max(
+            found,
+            key=lambda flight: (frames[flight[0]] <= current < frames[flight[1]], np.ptp(flight)),
+        )
+        self.first, self.last = frames[first], frames[last]
+
+    def follow_flight(
+        self,
+        scene: Scene,
+        flight: tuple[int, int] | None,
+        keep_height: bool,
+        before: int,
+        after: int,
+    ) -> Iterator[int]:
+        """Find a flight if none is given, and follow it at the original times of its poses.
+
+        keep_height: the flight lasts as long as its height demands. before, after: numbers of
+        frames also followed.
+        """
+        if keep_height and self.is_layered:
+            raise Refused(LAYERED_TIMES)
+        if flight is None:
+            yield from self.find_flight(scene)
+        else:
+            self.first, self.last = flight
+        count = self.last - self.first
+        if keep_height:
+            self._forget()
+            yield from (0 for _ in self.follow(scene, range(self.first, self.last + 1)))
+            fall = motion.frames_of_height(np.array(self.centers), self.step, self.gravity)
+            count = max(2, round(fall))
+        self.landing = self.first + count
+        if self.landing != self.last:
+            for curve in fcurves.existing_curves(self.armature):
+                if any(not one.mute for one in curve.modifiers):
+                    raise Refused(MODIFIED_TIMES, curve=curve.data_path)
+        self.before, self.after = before, after
+        yield from self._sample(
+            scene,
+            [
+                *range(self.first - before, self.first),
+                *np.linspace(self.first, self.last, count + 1).tolist(),
+                *range(self.last + 1, self.last + after + 1),
+            ],
+        )
+
+    def _sample(self, scene: Scene, frames: Sequence[float]) -> Iterator[int]:
+        """Follow the poses and the carrier at the nodes between the frames."""
+        self._forget()
+        self.carrier = Carrier(self.armature, self.found.owner)
+        starts = np.array(frames[:-1])[:, None]
+        times = (starts + np.diff(frames)[:, None] * spin.NODES[:-1]).ravel()
+        return (len(self.frames) for _ in self.follow(scene, [*times.tolist(), frames[-1]]))
+
+    @property
+    def _flight(self) -> slice:
+        """The flight's rows of the samples."""
+        end = self.before + self.landing - self.first
+        return slice(spin.LAST * self.before, spin.LAST * end + 1)
+
+    def _carried(self) -> spin.CarriedParts:
+        """Return the parts in flight, in the axes of the carrier."""
+        course = self.course
+        rows = self._flight
+        arrays = (array[rows] for array in (course.centers, course.spreads, course.linear))
+        section = motion.Course(self.step, course.masses, *arrays)
+        assert self.carrier is not None
+        return spin.CarriedParts.of(section, self.carrier.axes[rows])
+
+    def _moves(self, turns: bool) -> NDArray[np.float64]:
+        """Return (s, 4, 4) moves onto the arc between the ends, or turns of constant spin, blended
+        around it.
+        """
+        centers = np.array(self.centers)
+        moves = np.tile(np.eye(4), (len(centers), 1, 1))
+        # of the samples, in frames
+        places = np.arange(len(centers) // spin.LAST)[:, None] + spin.NODES[:-1]
+        places = np.append(places, len(centers) // spin.LAST)
+        if not turns:
+            shares = places / places[-1]
+            time = self.step * places[-1]
+            arc = motion.ballistic_arc(centers[0], centers[-1], shares, time, self.gravity)
+            moves[:, :3, 3] = arc - centers
+            return moves
+        flight = self._flight
+        parts = self._carried()
+        self.kept = parts.first_momentum
+        spun = parts.constant_spin(self.kept) @ parts.axes.swapaxes(-1, -2)
+        spun = np.concatenate([spun[:, :-1].reshape(-1, 3, 3), spun[-1:, -1]])
+        # A turn about the momentum keeps it.
+        axis = self.kept / max(float(np.linalg.norm(self.kept)), np.finfo(float).tiny)
+        share = self.before / (self.before + self.after)
+        back = spin.rotation(-share * spin.angle_about(axis, spun[-1]) * axis)
+        moves[flight, :3, :3] = back @ spun
+        for rows, frames in (
+            (slice(None, flight.start), self.before),
+            (slice(flight.stop, None), -self.after),
+        ):
+            edge = flight.start if frames > 0 else flight.stop - 1
+            whole = Quaternion(quaternion(moves[edge, :3, :3]))
+            for row in range(len(moves))[rows]:
+                left = 1.0 - (places[edge] - places[row]) / frames
+                moves[row, :3, :3] = rotation_matrix(
+                    Quaternion().slerp(whole, left * left * (3.0 - 2.0 * left))
+                )
+        moves[:, :3, 3] = centers - np.einsum("fij,fj->fi", moves[:, :3, :3], centers)
+        return moves
+
+    def key(self, context: Context, turns: bool, anyway: bool = False) -> None:
+        """Key the carrier for a constant spin or a parabola, and check it on the evaluated scene.
+
+        Raise Refused, with all keys as before, if the angular momentum changes by more than 1%
+        between any two frames, unless it shall be keyed anyway.
+        """
+        scene = context.scene
+        moves = self._moves(turns)
+        targets = np.einsum("fij,fj->fi", moves, np.insert(self.centers, 3, 1.0, axis=1))[:, :3]
+        scale = fcurves.time_scale(scene)
+        frames = range(self.first - self.before, self.landing + self.after + 1)
+        restore = fcurves.backup(self.armature)
+        assert self.carrier is not None
+        with tracking_paused():
+            try:
+                if self.landing != self.last:
+                    ends = scale * self.first, scale * self.last
+                    for curve in fcurves.ensure_curves(self.armature):
+                        fcurves.stretch(curve, *ends, scale * (self.landing - self.last))
+                self.carrier.key(moves, scale * np.array(frames), turns, self.is_layered)
+                for _ in self._sample(scene, frames):
+                    pass
+                self._check(np.array(self.centers) - targets, turns)
+                if self.is_lost and not anyway:
+                    values = {"off": self.deviation, "frame": round(self.worst, 1)}
+                    raise Refused(SPIN_LOST, name=self.found.owner.name, **values)
+            except BaseException:
+                restore()
+                raise
+        weight.keep(self.armature, *self._found)
+        self._retrace(context)
+
+    def _check(self, off: NDArray, turns: bool) -> None:
+        """Set the distance of the center, and the deviation of the momentum."""
+        distance = float(np.linalg.norm(off, axis=1).max())
+        self.off = distance * self.unit if distance > FOLLOWS * self.known.size else 0.0
+        self.deviation = self.worst = 0.0
+        if turns:
+            deviations = self._carried().deviations(self.kept)
+            frame, node = np.unravel_index(int(deviations.argmax()), deviations.shape)
+            self.deviation = float(deviations.max())
+            self.worst = float(self.first + frame + spin.NODES[node])
+
+    @property
+    def is_lost(self) -> bool:
+        """True if the keys do not keep the angular momentum."""
+        return self.deviation > KEPT
+
+    def _retrace(self, context: Context) -> None:
+        """Follow the new motion if there is a path or there are curves of the earlier one."""
+        empty = balance_groups.find(context.scene, self.objects)
+        if empty is None:
+            return
+        self.carrier = None
+        self._forget()
+        if (path := balance_groups.path(empty)) is not None:
+            ends = path.frames[[0, -1]] / fcurves.time_scale(context.scene)
+            for _ in self.follow(context.scene, range(round(ends[0]), round(ends[1]) + 1)):
+                pass
+            self.bake(context, MOMENTUM in empty)
+
+    def bake(self, context: Context, curves: bool) -> tuple[Object, int]:
+        """Key the path on an empty, with curves of the momenta; return it and the number of
+        unexplained spans.
+        """
+        weight.keep(self.armature, *self._found)
+        course = self.course
+        touching = self.touching
+        unit = self.unit
+        flights = motion.find_flights(touching)
+        spans = motion.find_unexplained(course, flights, self.gravity)
+        unexplained = np.zeros(len(touching), bool)
+        for first, last, _impulse, _twist in spans:
+            unexplained[first : last + 1] = True
+        signals = {balance_groups.CONTACT: touching, balance_groups.UNEXPLAINED: unexplained}
+        if curves:
+            now, change = motion.momenta(course, flights)
+            mass = course.masses.sum()
+            stands = [
+                (np.nan, np.nan) if one is None else (one.margin, one.height)
+                for one in self.supports
+            ]
+            margin, height = np.array(stands).T
+            force = mass * change[:, :3]
+            torque = change[:, 3:6]
+            zero = motion.zero_moment_points(
+                course.center, height, force, torque, mass * self.gravity
+            )
+            velocity = unit * now[:, :3]
+            angular = unit**2 * now[:, 3:6]
+            energy = unit**2 * now[:, 6]
+            values = velocity, mass * velocity, angular, energy, unit * margin, zero
+            signals.update(zip(list(balance_groups.DESCRIPTIONS)[3:], values))
+        start = self._frames[0]
+        rows = [
+            (start + span[0], start + span[1], unit * span[2], unit**2 * span[3]) for span in spans
+        ]
+        return self.store(context, signals, rows), len(rows)

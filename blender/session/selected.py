@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings of several selected objects as one group, whose properties read and set them all.
+
+Only the panel writes through it: a script that sets a property of one object changes that object.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import bpy
+from bpy.props import StringProperty
+from bpy.types import Context, Object, PropertyGroup, Scene
+
+from ...core.density.materials import DENSITY_UNITS
+from ..settings.chosen import chosen_objects, pinned_object
+from ..settings.given import COLLIDER, GivenPartProperties, has_density
+from ..settings.properties import COPIED_PROPERTIES, BodyMomentsObjectSettings, comparable
+from . import memory
+from .tracking import armatures
+
+NAMES = (*COPIED_PROPERTIES, *("density_" + unit.lower() for unit in DENSITY_UNITS))
+SHAPE = {"kind", "wall", "thickness", "overlap", "density_from"}  # settings without use for volumes
+
+
+def subject(context: Context) -> Object | None:
+    """Return the object whose details a panel shows: the active one if it is among the shown ones
+    or edited, else the only shown one.
+    """
+    active = context.object
+    if active is not None and (active.mode != "OBJECT" or pinned_object(context) is not None):
+        return active
+    shown = armatures.subjects(chosen_objects(context))
+    return active if active in shown else shown[0] if len(shown) == 1 else None
+
+
+def objects_with_settings(objects: Iterable[Object]) -> list[Object]:
+    """Return the objects that have a density, colliders only if nothing else does, else empties."""
+    objects = list(objects)
+    bodies = [obj for obj in objects if has_density(obj)]
+    return (
+        [obj for obj in bodies if COLLIDER not in obj]
+        or bodies
+        or [obj for obj in objects if obj.type == "EMPTY"]
+    )
+
+
+def _owners(context: Context) -> tuple[list[Object], dict[str, bool]]:
+    """Return the chosen objects whose settings the panel shows and sets, and known answers of
+    `is_mixed` about them.
+    """
+    layer = context.view_layer
+    pinned = pinned_object(context)
+    uid = None if pinned is None else pinned.session_uid
+    return memory.current_value(
+        memory.chosen,
+        context.scene,
+        (memory.state.generation, layer.name, len(layer.objects.selected), uid),
+        lambda: (objects_with_settings(chosen_objects(context)), {}),
+    )
+
+
+def owners(context: Context) -> list[Object]:
+    """Return the chosen objects whose settings the panel shows and sets."""
+    return _owners(context)[0]
+
+
+def chosen_settings(context: Context) -> PropertyGroup | None:
+    """Return the settings of the one chosen object, or the group of several; None without any."""
+    objects = owners(context)
+    if len(objects) == 1:
+        return objects[0].body_moments
+    return context.scene.body_moments_selection if objects else None
+
+
+def is_mixed(settings: PropertyGroup, name: str) -> bool:
+    """Return whether a setting differs among the chosen objects; never for those of one object."""
+    if not isinstance(settings, BodyMomentsSelectionSettings):
+        return False
+    objects, mixed = _owners(bpy.context)
+    if name not in mixed:
+        values = {comparable(getattr(obj.body_moments, name)) for obj in objects}
+        mixed[name] = len(values) > 1
+    return mixed[name]
+
+
+def common(settings: PropertyGroup, name: str) -> Any:
+    """Return a setting, or None if it differs among the chosen objects."""
+    return None if is_mixed(settings, name) else getattr(settings, name)
+
+
+def _set_all(name: str, value: Any) -> None:
+    for obj in objects_with_settings(chosen_objects(bpy.context)):
+        if obj.is_editable and (obj.type != "VOLUME" or name not in SHAPE):
+            setattr(obj.body_moments, name, value)
+
+
+def _of_all(name: str, function: Any, keywords: dict[str, Any]) -> Any:
+    """Return the property that shows the first object's setting and sets that of all objects."""
+    items = [item[0] for item in keywords.get("items", ())]
+
+    def read(_settings: PropertyGroup) -> Any:
+        value = getattr(owners(bpy.context)[0].body_moments, name)
+        return items.index(value) if items else value
+
+    def write(_settings: PropertyGroup, new: Any) -> None:
+        _set_all(name, items[new] if items else new)
+
+    kept = {key: known for key, known in keywords.items() if key not in ("update", "override")}
+    return function(**{**kept, "options": set(), "get": read, "set": write})
+
+
+def _find_volumes(_settings: PropertyGroup, _context: Context, _text: str) -> list[str]:
+    return [obj.name for obj in bpy.data.objects if obj.type == "VOLUME"]
+
+
+class BodyMomentsSelectionSettings(PropertyGroup):
+    """Settings of the selected objects: each shows the first object's, and sets that of all."""
+
+
+ANNOTATIONS = {**GivenPartProperties.__annotations__, **BodyMomentsObjectSettings.__annotations__}
+BodyMomentsSelectionSettings.__annotations__ = {
+    name: _of_all(name, ANNOTATIONS[name].function, ANNOTATIONS[name].keywords)
+    for name in NAMES
+    if name != "density_volume"
+}
+BodyMomentsSelectionSettings.__annotations__["density_volume"] = StringProperty(
+    name="Volume",
+    description="Volume object whose grid is the density inside the solids",
+    get=lambda _settings: getattr(owners(bpy.context)[0].body_moments.density_volume, "name", ""),
+    set=lambda _settings, name: _set_all("density_volume", bpy.data.objects.get(name)),
+    search=_find_volumes,
+)
+CLASSES = (BodyMomentsSelectionSettings,)
+POINTERS = {(Scene, "body_moments_selection"): BodyMomentsSelectionSettings}

@@ -1,0 +1,145 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Values of animated channels: rotations as continuous quaternions, axes and angles or Euler
+angles; Bézier handles.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.rotations import quaternion, rotation_matrix
+from .motion import continuous
+from .spin import LAST, NODES, node_weights
+
+LOCKED = 1e-3  # cosine of the middle angle, below which the outer two angles cannot be told apart
+OFF = 0.003  # of the angular velocity: a larger deviation between keys divides a frame
+LEAST_ANGLE = 1e-3  # rad a frame, below which the velocity is not compared
+MOST_PIECES = 32
+
+
+def rotation_values(turns: NDArray, mode: str, first: NDArray) -> NDArray[np.float64]:
+    """Return (s, k) values of rotations (s, 3, 3) without jumps, the first being the nearest to
+    `first`.
+
+    mode: Blender's name of the rotation mode.
+    """
+    if mode in ("QUATERNION", "AXIS_ANGLE"):
+        turns = continuous(quaternion(turns))
+        if mode == "QUATERNION":
+            return turns * (1.0 if turns[0] @ first >= 0.0 else -1.0)
+        return _axis_angles(turns, first)
+    i, j, k = ("XYZ".index(axis) for axis in mode)
+    sign = 1.0 if (j - i) % 3 == 1 else -1.0
+    values = np.empty((len(turns), 3))
+    last = np.asarray(first, np.float64)
+    for row, m in enumerate(turns):
+        cosine = float(np.hypot(m[i, i], m[j, i]))
+        third = last[k] * sign
+        several = []
+        for side in (1.0, -1.0):
+            if cosine > LOCKED:
+                third = np.arctan2(side * m[j, i], side * m[i, i])
+            # The matrix turned back about the third axis shows the first angle, however small the
+            # cosine is.
+            c = np.cos(third)
+            s = np.sin(third)
+            angles = np.empty(3)
+            angles[i] = np.arctan2(s * m[i, k] - c * m[j, k], c * m[j, j] - s * m[i, j])
+            angles[j] = np.arctan2(-m[k, i], side * cosine)
+            angles[k] = third
+            angles *= sign
+            several.append(angles + 2.0 * np.pi * np.round((last - angles) / (2.0 * np.pi)))
+        last = min(several, key=lambda angles: float(np.abs(angles - last).sum()))
+        values[row] = last
+    return values
+
+
+def _axis_angles(turns: NDArray, first: NDArray) -> NDArray[np.float64]:
+    """Return (s, 4) angles and axes of continuous quaternions; close to no turn, the axis stays."""
+    values = np.empty((len(turns), 4))
+    last = np.asarray(first, np.float64)
+    length = float(np.linalg.norm(last[1:]))
+    axis = last[1:] / length if length else np.array([0.0, 1.0, 0.0])
+    angle = last[0]
+    for row, turn in enumerate(turns):
+        sine = float(np.linalg.norm(turn[1:]))
+        if sine > LOCKED:
+            axis = turn[1:] / (sine if turn[1:] @ axis >= 0.0 else -sine)
+        near = 2.0 * np.arctan2(turn[1:] @ axis, turn[0])
+        angle = near + 2.0 * np.pi * np.round((angle - near) / (2.0 * np.pi))
+        values[row] = angle, *axis
+    return values
+
+
+def rotations(values: NDArray, mode: str) -> NDArray[np.float64]:
+    """Return the (s, 3, 3) rotations of values of a rotation mode."""
+    if mode == "QUATERNION":
+        return rotation_matrix(values)
+    half = values / 2.0
+    if mode == "AXIS_ANGLE":
+        axes = values[:, 1:] / np.linalg.norm(values[:, 1:], axis=1, keepdims=True)
+        return rotation_matrix(np.hstack([np.cos(half[:, :1]), np.sin(half[:, :1]) * axes]))
+    total = np.eye(3)
+    for axis in ("XYZ".index(letter) for letter in mode):
+        turn = np.zeros((len(values), 4))
+        turn[:, 0] = np.cos(half[:, axis])
+        turn[:, 1 + axis] = np.sin(half[:, axis])
+        total = rotation_matrix(turn) @ total
+    return total
+
+
+def count_pieces(quaternions: NDArray, mode: str, first: NDArray) -> NDArray[np.intp]:
+    """Return the (f,) numbers of equal pieces of frames, in each of which cubics follow a rotation.
+
+    quaternions: (LAST f + 1, 4), continuous. A frame is divided further while the angular velocity
+    would be off: close to a gimbal lock, or to the rest position of an axis and angle.
+    """
+    counts = np.ones((len(quaternions) - 1) // LAST, np.intp)
+    ends = quaternions[::LAST]
+    cosines = np.abs((ends[1:] * ends[:-1]).sum(axis=1)).clip(max=1.0)
+    limits = np.maximum(2.0 * np.arccos(cosines), LEAST_ANGLE) * OFF / 4.0
+    while True:
+        wanted = rotation_matrix(in_pieces(quaternions, counts))
+        values = rotation_values(wanted, mode, first)
+        right, left = handle_values(values)
+        middle = (values[:-1:LAST] + 3.0 * (right + left) + values[LAST::LAST]) / 8.0
+        between = rotations(middle, mode) - wanted[LAST // 2 :: LAST]
+        off = np.maximum.reduceat(
+            np.linalg.norm(between, axis=(1, 2)) / np.sqrt(2.0), np.cumsum(counts) - counts
+        )
+        # The rate is off by 4 times the value in the middle of a piece.
+        rough = (off * counts > limits) & (counts < MOST_PIECES)
+        if not rough.any():
+            return counts
+        counts[rough] *= 2
+
+
+def in_pieces(values: NDArray, counts: NDArray) -> NDArray[np.float64]:
+    """Return values (LAST f + 1, ...) at the nodes of frames at those of `counts` pieces a frame."""
+    rows = []
+    for frame, count in enumerate(counts.tolist()):
+        places = ((np.arange(count)[:, None] + NODES[:-1]) / count).ravel()
+        rows.append(
+            np.einsum("mn,n...->m...", node_weights(places), values[LAST * frame :][: LAST + 1])
+        )
+    return np.concatenate([*rows, values[-1:]])
+
+
+def handle_values(values: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the values of the handles, a third of a frame after and before the keys, of values at
+    the nodes of frames.
+
+    values: (LAST f + 1, ...). The two (f, ...) handles make the cubic through all nodes but the
+    middle one.
+    """
+    places = NODES[[1, -2]]
+    inner = 3.0 * places * (1.0 - places) ** 2, 3.0 * places**2 * (1.0 - places)
+    start, end = values[:-1:LAST], values[LAST::LAST]
+    near = [
+        values[1::LAST] - (1.0 - places[0]) ** 3 * start - places[0] ** 3 * end,
+        values[LAST - 1 :: LAST] - (1.0 - places[1]) ** 3 * start - places[1] ** 3 * end,
+    ]
+    right, left = np.einsum("ij,jf...->if...", np.linalg.inv(np.transpose(inner)), near)
+    return right, left

@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A flight that keeps its angular momentum: the rotation of a carrier whose parts move relative to
+it.
+
+The momentum about the center is L = Q (h + I ω): Q is the rotation of the carrier, h the momentum
+and I the inertia of the parts in its axes. So Q follows from an initial value problem, Q' = Q [ω],
+with ω = I⁻¹ (Qᵀ L − h). Poses are sampled at `NODES` of every frame and are polynomials between
+them; no polynomial crosses a frame, where keys have corners. The integrator is that of Runge, Kutta
+and Munthe-Kaas of fourth order, with steps halved until it converges.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.rotations import quaternion, rotation_matrix
+from .motion import Course, continuous
+
+# Of a frame, in -1 to 1. A cubic through the first, second, fourth and fifth has the least error of
+# its derivative.
+PLACES = np.cos(np.pi * np.arange(5)[::-1] / 4.0)
+NODES = (PLACES + 1.0) / 2.0
+LAST = len(NODES) - 1
+_FIT = np.linalg.inv(PLACES[:, None] ** np.arange(len(NODES)))
+# of values at the nodes to rates in a frame, and to the mean of the frame
+RATE = 2.0 * (np.arange(len(NODES)) * PLACES[:, None] ** (np.arange(len(NODES)) - 1.0)) @ _FIT
+MEAN = (np.arange(1, len(NODES) + 1) % 2 / np.arange(1.0, len(NODES) + 1)) @ _FIT
+CONVERGED = 1e-6  # rad: change of any rotation when the steps are halved
+MAX_HALVINGS = 7
+SPINLESS = 0.1  # of the parts' momenta: a smaller total is compared with theirs
+
+
+@dataclass(frozen=True, eq=False)
+class CarriedParts:
+    """The p parts of a body at the nodes of f frames, in the axes of their carrier, about the
+    common center.
+
+    The shapes begin with (f, n): n nodes each, the last of one frame being the first of the next.
+    axes: (f, n, 3, 3) rotations of the carrier. arms: (f, n, p, 3). spreads, linear: (f, n, p, 3,
+    3), as in Course.
+    """
+
+    step: float
+    masses: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    arms: NDArray[np.float64]
+    spreads: NDArray[np.float64]
+    linear: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, course: Course, axes: NDArray) -> CarriedParts:
+        """Return the parts of a course at the nodes of f frames, n - 1 a frame and a last one."""
+        rows = LAST * np.arange((len(axes) - 1) // LAST)[:, None] + np.arange(len(NODES))
+        back = axes.swapaxes(-1, -2)[:, None]
+        arms = (back @ (course.centers - course.center[:, None])[..., None])[..., 0]
+        spreads = back @ course.spreads @ back.swapaxes(-1, -2)
+        values = (axes, arms, spreads, back @ course.linear)
+        return cls(course.step, course.masses, *(array[rows] for array in values))
+
+    def rates(self, values: NDArray) -> NDArray[np.float64]:
+        """Return the rates of (f, n, ...) values, by the second."""
+        return np.einsum("mn,fn...->fm...", RATE, values) / self.step
+
+    @cached_property
+    def own_momenta(self) -> NDArray[np.float64]:
+        """(f, n, p, 3) angular momenta of the parts' motion relative to the carrier."""
+        momenta = self.masses[:, None] * np.cross(self.arms, self.rates(self.arms))
+        shape = self.linear.copy()
+        shape[np.linalg.det(shape) == 0.0] = np.eye(3)  # a bone scaled to nothing has no spread
+        flow = self.rates(self.linear) @ np.linalg.inv(shape) @ self.spreads
+        skew = flow - flow.swapaxes(-1, -2)
+        return momenta + np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
+
+    @cached_property
+    def inertia(self) -> NDArray[np.float64]:
+        """(f, n, p, 3, 3) inertia tensors of the parts about the common center."""
+        second = self.spreads + np.einsum("p,fnpi,fnpj->fnpij", self.masses, self.arms, self.arms)
+        return np.trace(second, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) - second
+
+    @cached_property
+    def momenta(self) -> NDArray[np.float64]:
+        """(f, n, p, 3) angular momenta of the parts about the common center, in the world."""
+        turns = continuous(quaternion(self.axes.reshape(-1, 3, 3))).reshape(*self.axes.shape[:2], 4)
+        rate = self.rates(turns)
+        # Twice the vector of the conjugate times the rate is the angular velocity in the carrier's
+        # axes.
+        spin = turns[..., :1] * rate[..., 1:] - rate[..., :1] * turns[..., 1:]
+        spin = 2.0 * (spin - np.cross(turns[..., 1:], rate[..., 1:]))
+        momenta = self.own_momenta + np.einsum("fnpij,fnj->fnpi", self.inertia, spin)
+        return np.einsum("fnij,fnpj->fnpi", self.axes, momenta)
+
+    @property
+    def first_momentum(self) -> NDArray[np.float64]:
+        """(3,) mean angular momentum of the first frame."""
+        return MEAN @ self.momenta[0].sum(axis=1)
+
+    def deviations(self, kept: NDArray) -> NDArray[np.float64]:
+        """Return (f, n) distances of the angular momentum from a constant one, relative to it.
+
+        If it is below a tenth of the parts' momenta, as of a cat that turns in its fall, they are
+        relative to these.
+        """
+        size = float(np.linalg.norm(kept))
+        parts = float(np.linalg.norm(self.momenta, axis=-1).sum(axis=-1).max())
+        scale = size if size > SPINLESS * parts else max(parts, np.finfo(float).tiny)
+        return np.linalg.norm(self.momenta.sum(axis=2) - kept, axis=-1) / scale
+
+    def constant_spin(self, kept: NDArray) -> NDArray[np.float64]:
+        """Return (f, n, 3, 3) rotations of the carrier with a constant momentum, from its own on.
+
+        Steps are halved until no rotation changes by more than 1e-6.
+        """
+        before = self._integrate(kept, 1)
+        for halving in range(1, MAX_HALVINGS + 1):
+            after = self._integrate(kept, 2**halving)
+            if np.abs(after - before).max() <= CONVERGED:
+                break
+            before = after
+        return after
+
+    def _integrate(self, kept: NDArray, steps: int) -> NDArray[np.float64]:
+        """Return the rotations by this number of steps from node to node."""
+        shares = np.arange(2 * steps + 1) / (2.0 * steps)
+        places = PLACES[:-1, None] + np.diff(PLACES)[:, None] * shares
+        weights = node_weights((places + 1.0) / 2.0)
+        own = np.einsum("msn,fni->fmsi", weights, self.own_momenta.sum(axis=2))
+        inertia = np.einsum("msn,fnij->fmsij", weights, self.inertia.sum(axis=2))
+        inverse = np.linalg.pinv(inertia, hermitian=True)
+        lengths = self.step * np.diff(NODES) / steps
+        turn = self.axes[0, 0]
+        turns = np.empty_like(self.axes)
+        for frame in range(len(turns)):
+            turns[frame, 0] = turn
+            for node, length in enumerate(lengths):
+                for row in range(0, 2 * steps, 2):
+                    stages = zip(inverse[frame, node, row:], own[frame, node, row:])
+                    start, middle, end = (next(stages) for _ in range(3))
+                    vector = np.zeros(3)
+                    total = np.zeros(3)
+                    for (inv, momentum), share, weight in (
+                        (start, 0.0, 1.0),
+                        (middle, 0.5, 2.0),
+                        (middle, 0.5, 2.0),
+                        (end, 1.0, 1.0),
+                    ):
+                        vector = share * length * vector
+                        spin = inv @ ((turn @ rotation(vector)).T @ kept - momentum)
+                        # of the rate of a rotation vector, to the order of the integrator
+                        bent = np.cross(vector, spin)
+                        vector = spin + bent / 2.0 + np.cross(vector, bent) / 12.0
+                        total += weight / 6.0 * vector
+                    turn = turn @ rotation(length * total)
+                turns[frame, node + 1] = turn
+        return turns
+
+
+def node_weights(shares: NDArray) -> NDArray[np.float64]:
+    """Return the (..., n) weights of values at the nodes that interpolate at shares of a frame."""
+    return (2.0 * shares[..., None] - 1.0) ** np.arange(len(NODES)) @ _FIT
+
+
+def rotation(vector: NDArray) -> NDArray[np.float64]:
+    """Return the (3, 3) rotation by a vector's length about it."""
+    half = 0.5 * float(np.linalg.norm(vector))
+    return rotation_matrix(np.concatenate([[np.cos(half)], 0.5 * np.sinc(half / np.pi) * vector]))
+
+
+def angle_about(axis: NDArray, turn: NDArray) -> float:
+    """Return the angle by which a (3, 3) rotation turns about an axis, 0 if the axis is."""
+    twist = quaternion(turn)
+    length = float(np.linalg.norm(axis))
+    return 2.0 * float(np.arctan2(twist[1:] @ axis / length, twist[0])) if length else 0.0

@@ -1,0 +1,158 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The selection decides: its settings are shown and set, never those of an unselected active
+object.
+"""
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.objects import add, mesh_body, only
+from tests.panels.drawing import labels, shown
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def set_of(obj):
+    settings = obj.body_moments
+    names = ("kind", "thickness", "mass_from", "mass", "density", "material", "overlap", "wall")
+    return [getattr(settings, name) for name in names]
+
+
+@pytest.fixture
+def mixed():
+    """Two selected bodies of different materials and thicknesses, and an unselected active one."""
+    first, second, active = (
+        add(mesh_body(), name, (5 * i, 0, 0)) for i, name in enumerate(("A", "B", "Ball"))
+    )
+    for obj, density, material, thickness in (
+        (first, 7850.0, "Steel", 0.001),
+        (second, 2700.0, "Aluminum", 0.002),
+        (active, 1240.0, "PLA", 0.003),
+    ):
+        obj.body_moments.density, obj.body_moments.material = density, material
+        obj.body_moments.kind, obj.body_moments.thickness = "SHELL", thickness
+    only(first, second)
+    bpy.context.view_layer.objects.active = active
+    bpy.context.view_layer.update()
+    return first, second, active
+
+
+def test_mixed_settings_of_selection_are_shown_as_mixed(mixed):
+    first, second, active = mixed
+    found = labels(shown())
+    assert "2 Objects" in found and found.count("Mixed") == 2 and "PLA" not in found
+    only(first)
+    bpy.context.view_layer.objects.active = active
+    bpy.context.view_layer.update()
+    assert "A" in labels(shown()) and "Ball" not in labels(shown())
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("kind", "SOLID"),
+        ("wall", "INWARD"),
+        ("thickness", 0.004),
+        ("overlap", "UNION"),
+        ("mass_from", "MASS"),
+        ("mass", 3.0),
+        ("density_g_cm3", 7.0),
+        ("use_center", True),
+        ("given_center", (1.0, 2.0, 3.0)),
+        ("density_polynomial", "1 + x"),
+    ],
+)
+def test_setting_of_selection_leaves_unselected_active(mixed, name, value):
+    *selected, active = mixed
+    before = set_of(active)
+    setattr(bpy.context.scene.body_moments_selection, name, value)
+    for obj in selected:
+        own = getattr(obj.body_moments, name)
+        if isinstance(value, str):
+            assert own == value
+        else:
+            assert np.allclose(own[:] if isinstance(value, tuple) else own, value, 1e-6)
+    assert set_of(active) == before
+
+
+def test_set_material_changes_selected_objects_alone(mixed):
+    *selected, active = mixed
+    empty = bpy.data.objects.new("Point", None)
+    bpy.context.scene.collection.objects.link(empty)
+    empty.body_moments.mass_from = "MASS"
+    empty.select_set(True)
+    before = set_of(active)
+    assert bpy.ops.object.body_moments_set_material(material="Gold") == {"FINISHED"}
+    assert {obj.body_moments.material for obj in selected} == {"Gold"}
+    assert set_of(active) == before and empty.body_moments.mass_from == "MASS"
+    bpy.ops.object.select_all(action="DESELECT")
+    with pytest.raises(RuntimeError, match="Select objects"):
+        bpy.ops.object.body_moments_set_material(material="PLA")
+
+
+def test_setting_of_one_object_by_script_leaves_the_others(mixed):
+    first, second, _ = mixed
+    first.body_moments.thickness = 0.5
+    assert second.body_moments.thickness == pytest.approx(0.002)
+
+
+def test_total_without_some_numbers_is_incomplete(mixed):
+    first, second, _ = mixed
+    only(first)
+    bpy.ops.object.body_moments_measure()
+    only(first, second)
+    bpy.context.view_layer.update()
+    assert {"2 Objects", "Incomplete"} <= {*labels(shown())}
+    bpy.ops.object.body_moments_measure()
+    assert "Incomplete" not in labels(shown())
+
+
+def test_density_that_nobody_set_stands_beside_mass(mixed):
+    first, second, _ = mixed
+    first.body_moments.property_unset("density")
+    second.body_moments.kind = first.body_moments.kind = "SOLID"
+    only(first)
+    bpy.ops.object.body_moments_measure()
+    assert "at 1000 kg/m³, not set" in labels(shown())
+    only(first, second)
+    bpy.ops.object.body_moments_measure()
+    assert any("not set: 1 of 2" in label for label in labels(shown()))
+    only(second)
+    bpy.ops.object.body_moments_measure()
+    assert "at 2700 kg/m³" in labels(shown())
+    only(first)
+    bpy.ops.object.body_moments_clear()
+    bpy.ops.object.body_moments_live()
+    assert "at 1000 kg/m³, not set" in labels(shown())
+    bpy.ops.object.body_moments_live()
+
+
+def test_presets_are_given_to_the_selection_alone(mixed, tmp_path):
+    *selected, active = mixed
+    before = set_of(active)
+    path = tmp_path / "thin.py"
+    path.write_text(
+        "import bpy\nsettings = bpy.context.object.body_moments\nsettings.thickness = 0.25\n"
+    )
+    bpy.ops.object.body_moments_preset_apply(filepath=str(path))
+    assert {obj.body_moments.thickness for obj in selected} == {0.25}
+    assert set_of(active) == before
+
+
+def test_copy_left_in_place_is_a_warning_with_select():
+    body = add(mesh_body(), "Body")
+    linked, other = bpy.data.objects.new("Linked", body.data), add(mesh_body(), "Other", (9, 0, 0))
+    bpy.context.scene.collection.objects.link(linked)
+    copied = add(body.data.copy(), "Copied")
+    only(body, linked, copied, other)
+    bpy.ops.object.body_moments_measure()
+    assert "Copies at an equal place count again" in " ".join(labels(shown()))
+    bpy.ops.object.body_moments_select_refused(code="total_copies_in_place")
+    assert sorted(obj.name for obj in bpy.context.selected_objects) == ["Copied", "Linked"]
+    copied.location.x = linked.location.x = 4.0
+    linked.location.y = 5.0
+    only(body, linked, copied, other)
+    bpy.context.view_layer.update()
+    assert "Copies at an equal place" not in " ".join(labels(shown()))
