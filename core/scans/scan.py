@@ -31,6 +31,7 @@ from .findings import SCAN_SAMPLE_TYPE, SCAN_SIZE
 
 # Most bytes that one byte of a packed file can unpack to; bzip2 packs 900 kB of zeros in 39 bytes.
 MAX_RATIOS = {"gzip": 1032, "bzip2": 23_077}
+STREAMS = {"gzip": "gzip stream", "bzip2": "bzip2 stream"}
 PACKED = 1 << 16  # Packed bytes read at a time; the rest after each small member is copied.
 BLOCK = 1 << 18  # unpacked bytes at a time
 
@@ -166,7 +167,7 @@ def unpacked_blocks(path: Path, start: int, packing: str) -> Iterator[bytes]:
                 except (zlib.error, OSError) as error:
                     reason = str(error).rpartition(": ")[2]
                     raise damaged(
-                        path, DAMAGE_INCOMPLETE, kind=packing + " stream", error=reason
+                        path, DAMAGE_INCOMPLETE, kind=STREAMS[packing], error=reason
                     ) from error
                 is_hungry = getattr(member, "needs_input", True)
                 if is_hungry and not (block or waiting or member.eof):
