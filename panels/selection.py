@@ -10,7 +10,6 @@ from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, UILayout, UIList
 
 from ..blender.session.displayed import SortBy, Verdict, drawn, listed_masses, listing
-from ..blender.session.selected import subject
 from . import rows
 from .places import in_both_places
 
@@ -72,16 +71,11 @@ class SelectionPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        shown = subject(context)
-        others = (obj for obj in context.view_layer.objects if obj != shown)
-        return len(context.selected_objects) > 1 or any("body_mass" in obj for obj in others)
+        return bool(context.view_layer.objects)
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        if len(context.selected_objects) > 1:
-            rows.button(
-                layout, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings"
-            )
+        rows.button(layout, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings")
         _listed(layout, context)
 
 
