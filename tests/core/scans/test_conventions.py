@@ -10,10 +10,10 @@ import struct
 
 import numpy as np
 import pytest
-
 from body_moments.core.scans.formats import read_scan, sample_matrix
 from body_moments.core.scans.labels import count_labels
 from body_moments.core.verdict.finding import FileError
+
 from tests.core.scan_files import nifti, nrrd
 
 VALUES = np.arange(120, dtype="<i2").reshape(4, 5, 6)
