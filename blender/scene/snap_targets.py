@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.plain_body import EQUAL_AXES
 from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
+from ...core.numerics.rotations import polar_rotation
 from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict.finding import EditRefusedError, Finding
 from ...core.verdict.method import Procedure
@@ -29,6 +30,7 @@ from ..bodies.measure_object import Measured, measure_body
 from ..bodies.stacks.many import measured_in_turn
 from ..bodies.stacks.stack import Stacked
 from ..scale import meters_per_unit
+from ..settings.given import COLLIDER
 from ..settings.options import MeasureOptions
 from . import reframe
 from .changes import ancestors
@@ -179,17 +181,20 @@ def matrix_along_axes(obj: Object, body: SnapTarget) -> NDArray | None:
 
 def matrix_for_bullet(obj: Object, body: SnapTarget) -> NDArray | None:
     """Return the matrix of the body's center with the object's rotation, or None if the object has
-    it already; a scale stays unless it mirrors or shears.
+    it already.
 
-    Bullet knows neither mirrored nor sheared bodies.
+    A scale is applied if it mirrors or shears, or if the object has colliders: Bullet knows no
+    mirrored or sheared bodies, and scales the margins of colliders.
     """
     linear = world(obj)[:3, :3]
     products = linear.T @ linear
-    off = np.abs(products - np.diag(np.diag(products))).max()
+    has_colliders = any(COLLIDER in child for child in obj.children)
+    wanted = np.eye(3) if has_colliders else np.diag(np.diag(products))
+    off = np.abs(products - wanted).max()
     if np.linalg.det(linear) > 0.0 and off <= UNIT_SCALE * products.max():
         return matrix_at_center(obj, body)
     target = np.eye(4)
-    target[:3, :3] = obj.matrix_world.to_quaternion().to_matrix()
+    target[:3, :3] = polar_rotation(np.array([obj.matrix_world.to_quaternion().to_matrix()]))[0][0]
     target[:3, 3] = body.center
     return target
 
