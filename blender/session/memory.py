@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from .displayed import Displayed, Listing, Total
     from .live.character import Character, Weight
     from .live.following import Followed
+    from .stored.computed_moments import ComputedMoments
     from .stored.faults import Faults
-    from .stored.moments import ComputedMoments
     from .stored.outcome import ActionOutcome
     from .stored.sliders import SliderGrid, SliderWalls
     from .stored.stability import KnownHull

@@ -142,7 +142,9 @@ def _moments(context: Context) -> Copied | str:
     settings = scene.body_moments
     about = scene.body_moments.moments_about
     reference = stored.moments.reference_of(obj, computed, scene) if about == "REFERENCE" else None
-    text = stored.moments.as_csv(computed, settings.moments_of, about, settings.frame, reference)
+    text = stored.computed_moments.as_csv(
+        computed, settings.moments_of, about, settings.frame, reference
+    )
     return text, reports.phrase("Copied {count} moments", count=text.count("\n") - 2)
 
 

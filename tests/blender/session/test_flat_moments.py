@@ -25,10 +25,11 @@ L_SHAPE = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2.5), (0, 2.5)]
 
 def table():
     """(the comment, the rows as they are)"""
+    from body_moments.blender.session.stored import computed_moments
     from body_moments.blender.session.stored import moments as moments_table
 
     group = bpy.context.scene.body_moments
-    text = moments_table.as_csv(
+    text = computed_moments.as_csv(
         moments_table.computed_moments(bpy.context.object),
         group.moments_of,
         group.moments_about,

@@ -46,10 +46,11 @@ def compute(order=4):
 
 
 def rows():
+    from body_moments.blender.session.stored import computed_moments
     from body_moments.blender.session.stored import moments as moments_table
 
     group = bpy.context.scene.body_moments
-    text = moments_table.as_csv(
+    text = computed_moments.as_csv(
         moments_table.computed_moments(bpy.context.object),
         group.moments_of,
         group.moments_about,
