@@ -11,8 +11,8 @@ from pathlib import Path, PurePosixPath
 
 import pytest
 
-from tests.package import extension
 from tests.package.test_architecture import WINGS
+from tools import extension
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
