@@ -139,7 +139,8 @@ def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -
     actions = layout.column(align=True)
     actions.enabled = stored is not None
     _actions(actions, target, isinstance(root, Collection))
-    rows.stale_state(layout, None if stored is None else stale_reason(root, context.scene))
+    reason = None if stored is None else stale_reason(root, context.scene)
+    rows.state(layout, rows.outdated(reason) if reason else "", "FILE_REFRESH" if reason else "")
     if stored is None:
         return
     findings = properties.findings(root)

@@ -365,11 +365,6 @@ def state(layout: UILayout, text: str, icon: str = "") -> None:
     row.label(text=text, icon=icon or "BLANK1", translate=False)
 
 
-def stale_state(layout: UILayout, reason: str | None) -> None:
-    """Draw the row with the reason why numbers are out of date, blank if they are not."""
-    state(layout, outdated(reason) if reason else "", "FILE_REFRESH" if reason else "")
-
-
 def stale_row(layout: UILayout, reason: str | None) -> None:
     """Draw the reason why numbers are out of date, if any."""
     if reason is not None:
