@@ -18,7 +18,7 @@ from bpy.types import Context, Event, Operator, PropertyGroup, Scene
 
 from ...blender import session
 from ...blender.read.visibility import measurable_objects
-from ...blender.session.selected import subject
+from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
 from ...core.verdict.finding import Finding, MeasureError, system_reason
 from .. import selection
@@ -91,7 +91,7 @@ class _SearchMixin:
         similarity.
         """
         search = context.scene.body_moments_search
-        search.wanted = subject(context).name
+        search.wanted = require_subject(context).name
         search.looked_at = looked_at
         search.found.clear()
         for match in matches[:MAX_LISTED_BODIES]:
@@ -135,7 +135,7 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
     scaled: SCALED
 
     def _begin(self, context: Context) -> int:
-        wanted = subject(context)
+        wanted = require_subject(context)
         self._others = [
             obj
             for obj in measurable_objects(context.view_layer)
@@ -167,7 +167,7 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
                 "scaled_mirror": self.mirrored and self.scaled,
             }
             picked = {match.obj for match in matches if chosen.get(match.verdict)}
-            wanted = subject(context)
+            wanted = require_subject(context)
             selection.select_only(context, {*picked, wanted}, wanted)
         return self.store_and_report(context, matches, "", self._failures)
 
@@ -194,14 +194,14 @@ class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
 
     def execute(self, context: Context) -> set[str]:
         path = Path(bpy.path.abspath(self.filepath))
-        search = session.SimilarSearch(subject(context), context.evaluated_depsgraph_get())
+        search = session.SimilarSearch(require_subject(context), context.evaluated_depsgraph_get())
         try:
             matches, missing = search.find_in_library(path, self.scaled, self.mirrored)
         except OSError as error:
             text = "{file} cannot be read: {error}"
             return selection.refuse(self, text, file=path.name, error=system_reason(error))
         except MeasureError as error:
-            return selection.refuse(self, error.about(subject(context).name))
+            return selection.refuse(self, error.about(require_subject(context).name))
         return self.store_and_report(context, matches, path.name, missing)
 
 
