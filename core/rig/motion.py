@@ -214,7 +214,7 @@ def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
     )
 
 
-def continuous(quaternions: NDArray) -> NDArray[np.float64]:
+def continuous(quaternions: NDArray) -> NDArray:
     """Return (s, 4) quaternions, each with the sign that is nearer to the previous one."""
     signs = np.where((quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
     return np.concatenate([quaternions[:1], quaternions[1:] * np.cumprod(signs)[:, None]])

@@ -233,7 +233,8 @@ CLICKED = {
     ),
     "object.body_moments_preset_apply": (
         {"filepath": PRESET},
-        f"open({PRESET!r}, 'w').write('import bpy; bpy.context.object.body_moments.kind = \"SHELL\"')",
+        f"open({PRESET!r}, 'w').write('import bpy; '"
+        "'bpy.context.object.body_moments.kind = \"SHELL\"')",
         f"{PART}.body_moments.kind == 'SHELL'",
     ),
     "object.body_moments_select_found": (
