@@ -33,7 +33,7 @@ from ..scene.rigid_world import (
     remove_joint,
     require_rigid_world,
 )
-from ..scene.snap_targets import POSE, SnapTarget, matrix_along_axes, matrix_at_center
+from ..scene.snap_targets import SnapTarget, matrix_along_axes, matrix_at_center
 from ..settings.given import COLLIDER
 from ..write import reports
 from .stored import assembly
@@ -199,7 +199,7 @@ def _measure_in_turn(
 ) -> Callable[[Object], MeasuredBody | Stacked]:
     """Return a function that measures the objects of the bodies, one at a time and in order."""
     parts = [part for body in bodies for part in (body.obj, *body.members)]
-    return measured_in_turn(parts, context.evaluated_depsgraph_get(), POSE)
+    return measured_in_turn(parts, context.evaluated_depsgraph_get())
 
 
 def _measured(
