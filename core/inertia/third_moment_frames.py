@@ -130,7 +130,7 @@ def third_moment_frames(
         4.0 * moments.rounding_error[:, 4:10].max(axis=1) / (total * scale)
         + 8.0 * np.finfo(float).eps
     )
-    is_body = spread[:, 2] >= -rounding
+    is_body = (spread[:, 2] >= -rounding) & (total * scale >= np.finfo(float).tiny)
     spread = np.maximum(spread, 0.0)
 
     size = np.sqrt(
