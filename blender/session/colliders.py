@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ...core.colliders.effects import correct_masses, correct_vertices, effect, uniform_masses
 from ...core.colliders.fits import Wanted, distances, make_colliders
+from ...core.inertia.mass_properties import MassProperties
 from ...core.measurement.documents import plain
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import digest
@@ -32,6 +33,7 @@ from ..settings.given import COLLIDER, COLLIDERS
 from .tracking import staleness, stamps
 
 SAME = 1e-5  # relative: float32 matrices of turned copies differ by less
+LIMITED = ("automatic", "hull", "pieces")  # shapes with tolerances
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,9 +91,17 @@ def plan_colliders(
     elif correct == "VERTICES" or wanted.shape.startswith("equal_"):
         masses = [mass * body.mass / sum(masses) for mass in masses]
     shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
-    record = {"shape": wanted.shape, "correct": correct.lower(), "count": len(shapes)}
+    record: dict[str, Any] = {
+        "shape": wanted.shape,
+        "correct": correct.lower(),
+        "count": len(shapes),
+    }
+    if wanted.shape in LIMITED:
+        record["tolerance"] = [wanted.outward, wanted.inward]
+        record["limits"] = [wanted.pieces, wanted.vertices]
     record |= zip(("outward", "inward", "distance_bound"), distances(surface, shapes, hull))
     record |= effect(body, shapes, measurement.volume).as_record()
+    record["body"] = _describe_body(body)
     known[key] = Plan(obj, tuple(shapes), stretch, plain(record), measurement.fingerprint, key)
     return known[key]
 
@@ -203,10 +213,28 @@ def collider_record(
         for key, value in obj[COLLIDERS].items()
     }
     reason = staleness.stale_reason(obj, context.scene, stamps.of_colliders)
-    if reason is None and stamps.Stamp.parse(measurement.fingerprint).geometry != stamp.geometry:
+    # Without the add-on nobody notes edits, and a turned body has another digest of its geometry.
+    is_same = stamps.Stamp.parse(measurement.fingerprint).geometry == stamp.geometry
+    is_same = is_same or _is_same_body(stored.get("body", ()), measurement.in_object_frame())
+    if reason is None and not is_same:
         reason = stamps.Stale.GEOMETRY
-    shown = stored.keys() - {"fingerprint", "digest"}
+    shown = stored.keys() - {"fingerprint", "digest", "body", "limits"}
     return {
         **{key: stored[key] for key in stored if key in shown},
         "out_of_date": reason and str(reason),
     }
+
+
+def _describe_body(body: MassProperties) -> list[float]:
+    """Return mass, center and inertia, in kg and m, so that a turned body is recognized."""
+    return [body.mass, *body.center.tolist(), *body.inertia.ravel().tolist()]
+
+
+def _is_same_body(stored: Sequence[float], body: MassProperties) -> bool:
+    """Return whether a described body is this one, but for the rounding of turned matrices."""
+    if len(stored) != 13 or not body.mass > 0.0:
+        return False
+    before = np.array(stored, np.float64)
+    size = (float(body.inertia.trace()) / body.mass) ** 0.5
+    limits = body.mass * np.repeat([1.0, size / body.mass, size**2], [1, 3, 9])
+    return bool((np.abs(before - _describe_body(body)) <= SAME * limits).all())

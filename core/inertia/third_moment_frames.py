@@ -121,6 +121,7 @@ def third_moment_frames(
         - shift[:, :, None] * shift[:, None, :]
     )
     scale = np.abs(second.trace(axis1=1, axis2=2))
+    is_lost = total * scale < np.finfo(float).tiny
     scale[scale == 0.0] = 1.0  # keeps eigh clear of overflow and denormals
     spread, axes = np.linalg.eigh(second / scale[:, None, None])
     spread = spread[:, ::-1]
@@ -130,7 +131,7 @@ def third_moment_frames(
         4.0 * moments.rounding_error[:, 4:10].max(axis=1) / (total * scale)
         + 8.0 * np.finfo(float).eps
     )
-    is_body = (spread[:, 2] >= -rounding) & (total * scale >= np.finfo(float).tiny)
+    is_body = (spread[:, 2] >= -rounding) & ~is_lost
     spread = np.maximum(spread, 0.0)
 
     size = np.sqrt(
