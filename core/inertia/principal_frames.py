@@ -171,8 +171,8 @@ def frames_of_body(
     refined = None if refine is None else (lambda _which: refine().at(None))
     fixed = third_moment_frames(moments.at(None), refined, noise_factor)
     if not fixed.is_body[0]:
-        # lost in the smallest of numbers
-        is_lost = moments.raw[0] * fixed.size[0, 0] ** 2 < np.finfo(float).tiny
+        second = moments.truncate(2).about_center().raw[4:]
+        is_lost = np.abs(second).max() < np.finfo(float).tiny  # in the smallest of numbers
         raise MeasureError(OBJECT_TOO_SMALL if is_lost else NEGATIVE_INERTIA)
     return fixed
 
