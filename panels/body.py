@@ -3,8 +3,9 @@
 """The main panel: the answer (a verdict, mass, volume and center of mass), the buttons, and then
 the findings.
 
-Nothing that comes and goes stands above a button of this panel: warnings are below them, refusals of
-the last action below all sub-panels. The rest is in sub-panels, in the order of CAD's mass property dialogs (`places.ORDER`).
+Nothing that comes and goes stands above a button of this panel: warnings are below them, refusals
+of the last action below all sub-panels. The rest is in sub-panels, in the order of CAD's mass
+property dialogs (`places.ORDER`).
 """
 
 from __future__ import annotations

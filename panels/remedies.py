@@ -65,8 +65,9 @@ def lines(
 
 
 def notes(layout: UILayout, idname: str, findings: Sequence[Finding]) -> None:
-    """Draw a sub-panel, closed at first, of notes and accepted warnings; it is there without any, so
-    that nothing moves when one comes.
+    """Draw a sub-panel, closed at first, of notes and accepted warnings.
+
+    It is there without any, so that nothing moves when one comes.
     """
     shown_notes = of_severity(findings, Severity.NOTE)
     header, body = layout.panel(idname, default_closed=True)

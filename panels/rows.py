@@ -357,8 +357,9 @@ def remark(
 
 
 def state(layout: UILayout, text: str, icon: str = "") -> None:
-    """Draw one row about the state of numbers. It is there without a text too, so that nothing below
-    it moves.
+    """Draw one row about the state of numbers.
+
+    It is there without a text too, so that nothing below it moves.
     """
     row = layout.row()
     row.alert = icon == "FILE_REFRESH"

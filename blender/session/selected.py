@@ -36,6 +36,13 @@ def subject(context: Context) -> Object | None:
     return active if active in shown else shown[0] if len(shown) == 1 else None
 
 
+def require_subject(context: Context) -> Object:
+    """Return the subject, which the poll of an operator has seen."""
+    obj = subject(context)
+    assert obj is not None
+    return obj
+
+
 def objects_with_settings(objects: Iterable[Object]) -> list[Object]:
     """Return the objects that have a density, colliders only if nothing else does, else empties."""
     objects = list(objects)

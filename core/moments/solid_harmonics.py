@@ -8,8 +8,8 @@ matrix; so their sum of squares is invariant, and so is any coupling of three of
 3j symbols). Y_lm are orthonormal, with the Condon-Shortley phase, and their polynomials are
 (Varshalovich et al., Quantum Theory of Angular Momentum, 5.1)
 
-    r^l Y_lm = sqrt((2l+1)/4π (l+m)! (l-m)!) Σ_k (-(x+iy)/2)^(k+m) ((x-iy)/2)^k z^(l-m-2k) / ((k+m)!
-    k! (l-m-2k)!).
+    r^l Y_lm = sqrt((2l+1)/4π (l+m)! (l-m)!)
+               Σ_k (-(x+iy)/2)^(k+m) ((x-iy)/2)^k z^(l-m-2k) / ((k+m)! k! (l-m-2k)!).
 """
 
 from __future__ import annotations

@@ -8,8 +8,8 @@ Sheynin and Tuzikov (*Explicit formulae for polyhedra moments*, Pattern Recognit
 the origin on a triangle a, b, c with determinant w, and over the triangle itself, with doubled area
 A, are
 
-    ∫ x^p y^q z^r dV = w p! q! r! / (p+q+r+3)! S_pqr,    ∫ x^p y^q z^r dA = A p! q! r! / (p+q+r+2)!
-                                                         S_pqr.
+    ∫ x^p y^q z^r dV = w p! q! r! / (p+q+r+3)! S_pqr,
+    ∫ x^p y^q z^r dA = A p! q! r! / (p+q+r+2)! S_pqr.
 
 The recursion of `any_order_kernel` replaces their explicit sum for S. Coordinates are taken about a
 point of the body, and scaled by a power of two to at most about 1 if they are far from it, so that

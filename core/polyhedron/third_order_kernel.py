@@ -4,13 +4,14 @@
 that is made once.
 
 A face is a base a-c with a corner b on one side, and perhaps a corner d on the other: the triangles
-a, b, c and a, c, d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (v b + w
-d),
+a, b, c and a, c, d. With their determinants v and w, u = v + w, q = a + c and
+Z = u q + 2 (v b + w d),
 
     H = u (a a' + c c') + 2 (v b b' + w d d')
     120 ∫ x x'     = H + (q Z' + Z q') / 2
-    288 ∫ x x' x'' = q H + the same for the other two orders of the indices, but for the third
-    moments about q / 2.
+    288 ∫ x x' x'' = q H + the same for the other two orders of the indices,
+
+but for the third moments about q / 2.
 
 With e = c - a and f = 2 b - q these are v / 2880 (f (f f' + e e') + the other two orders) for one
 triangle. They are of the order of an edge cubed, and added on request. No sum cancels, because all

@@ -8,8 +8,8 @@ by the complete homogeneous polynomials of their corners (Sheynin and Tuzikov's 
 order): with s = a + b + c, P = aa' + bb' + cc' and a triangle's weight w,
 
     24 ∫ x = Σ w s,   120 ∫ x x' = Σ w (s s' + P),
-    720 ∫ x x' x'' = Σ w (s s' s'' + s P' + the same for the other two orders of the indices + 2
-    Σ_corners c c' c'').
+    720 ∫ x x' x'' = Σ w (s s' s'' + s P' + the same for the other two orders of the indices
+                          + 2 Σ_corners c c' c'').
 
 Each body's sums run over its own segment of the rows, so that they are the same to the bit for any
 neighbors.

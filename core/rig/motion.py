@@ -196,7 +196,7 @@ def zero_moment_points(
 def ballistic_arc(
     start: NDArray, end: NDArray, shares: NDArray, time: float, gravity: ArrayLike
 ) -> NDArray[np.float64]:
-    """Return the (n, 3) places of a free fall from one place to another at (n,) shares of its time."""
+    """Return (n, 3) places of a free fall between two places, at (n,) shares of its time."""
     share = shares[:, None]
     fall = np.asarray(gravity, np.float64) * (0.5 * time**2)
     return start + share * (end - start) - share * (1.0 - share) * fall
@@ -214,7 +214,7 @@ def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
     )
 
 
-def continuous(quaternions: NDArray) -> NDArray[np.float64]:
+def continuous(quaternions: NDArray) -> NDArray:
     """Return (s, 4) quaternions, each with the sign that is nearer to the previous one."""
     signs = np.where((quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
     return np.concatenate([quaternions[:1], quaternions[1:] * np.cumprod(signs)[:, None]])

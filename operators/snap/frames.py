@@ -20,6 +20,7 @@ from ...blender import bodies, scene, session
 from ...blender.read.visibility import measurable
 from ...blender.scale import meters_per_unit
 from ...blender.scene.findings import OPEN_OBJECT
+from ...blender.session.selected import subject
 from ...blender.write import reports
 from ...core import inertia
 from ...core.verdict.finding import EditRefusedError, MeasureError, Severity
@@ -358,7 +359,7 @@ class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
 
     def execute(self, context: Context) -> set[str]:
         group = scene.center_of_mass_group()
-        obj = context.object
+        obj = subject(context)
         if not self.marker or obj is None or not measurable(obj):
             return reports.report(
                 self, reports.phrase("Added the node group “{group}”", group=group.name)

@@ -19,7 +19,7 @@ pytest.importorskip("bpy")
 
 from tests.command import slurm_controller
 from tests.command.test_process import BLENDER, ROOT, in_blender, process, script
-from tests.soak import commands
+from tools.soak import commands
 
 ENGINES = ROOT / "docs" / "engines"
 OPENJD = shutil.which(

@@ -22,7 +22,7 @@ from body_moments.command.supervisor import listing, processes
 
 from tests.blender import batch_files as files
 from tests.command.test_process import BLENDER, SCRIPT, in_blender, process, script
-from tests.soak import commands, hostile, kills
+from tools.soak import commands, hostile, kills
 
 on_linux = pytest.mark.skipif(
     not sys.platform.startswith("linux"), reason="not on this system: /proc"

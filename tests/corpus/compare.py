@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The numbers of the corpus, before and after a change.
 
-    python tests/corpus/compare.py --write OUT.json     measure the corpus and keep all numbers
-                                                        (.json)
-    python tests/corpus/compare.py REFERENCE.json       measure it and compare with them, bit for
-                                                        bit
+    python tests/corpus/compare.py --write OUT.json  measure the corpus and keep all numbers (.json)
+    python tests/corpus/compare.py REFERENCE.json    measure it and compare with them, bit for bit
 
 for a Python with the bpy module (.envs/blender-5.2/bin/python). The second prints every difference
 and their count, and ends with 1 if there is one. A file that ends in .txt holds the summary instead

@@ -28,9 +28,9 @@ from body_moments.core.robots.write import mjcf
 from body_moments.core.robots.write.shapes import with_colliders, with_meshes
 from body_moments.core.robots.write.stl import to_stl
 
-from tests import benchmark_colliders
 from tests.core.bodies import box, joined, sphere
 from tests.robots.links import rotation
+from tools import benchmark_colliders
 
 DENSITY = 700.0
 SLOW = {"helix", "knot", "spiral", "bowl", "goblet", "hook", "dumbbell", "cup", "crescent"}

@@ -199,6 +199,7 @@ class _Search:
             lift = [] if handle.turns else [up @ (head - seen.head)]
             return np.array([*((self.target - seen.center) @ self.axes[:, :2]), *lift])
 
+        gap = 0.0
         seen = self.look(handle, change @ units / self.scale)
         for _ in range(MAX_STEPS):
             gap = float(np.linalg.norm(missing(seen)))

@@ -3,7 +3,7 @@
 """Convex pieces beside those of CoACD: the sum of hulls over the body's volume, at the same number
 of pieces.
 
-    python tests/benchmark_colliders.py [NAME ...]
+    python tools/benchmark_colliders.py [NAME ...]
 
 Needs numpy and coacd. Times are the processor's. Prints a row for each concave body, then the
 median and the largest ratio. CoACD's results are kept in the folder of temporary files.
@@ -11,7 +11,6 @@ median and the largest ratio. CoACD's results are kept in the folder of temporar
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import multiprocessing
 import shutil
@@ -24,7 +23,6 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).parents[1]
 Part = tuple[np.ndarray, np.ndarray]
 SUZANNE = """
 import bpy, numpy as np
@@ -37,15 +35,6 @@ mesh.calc_loop_triangles()
 triangles = [t.vertices[:] for t in mesh.loop_triangles]
 np.savez({!r}, points=[v.co[:] for v in mesh.vertices], triangles=triangles)
 """
-
-
-def load_package() -> None:
-    """Import the product under its name."""
-    spec = importlib.util.spec_from_file_location(
-        "body_moments", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
-    )
-    sys.modules["body_moments"] = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(sys.modules["body_moments"])
 
 
 def cells(*layers: str, lines=None) -> Part:
@@ -322,7 +311,9 @@ def hull_sum(sets) -> float:
 
 
 def main(names: list[str]) -> None:
-    load_package()
+    from loading import load_checkout
+
+    load_checkout()
     from body_moments.core import Surface
     from body_moments.core.colliders.convex_pieces import cut_into_pieces
     from body_moments.core.polyhedron.integration import volume_and_center

@@ -15,7 +15,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
+ROOT = Path(__file__).resolve().parent.parent
 
 
 def _scripts() -> Path:
@@ -53,8 +53,8 @@ def build(source: Path, output: Path) -> Path:
     output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="body_moments_") as work:
         copy = Path(work) / "source"
-        large = shutil.ignore_patterns(".git", ".envs", "tests", "demo", "dist")
-        shutil.copytree(source, copy, ignore=large)
+        left_out = (".git", ".envs", "tests", "tools", "findings", "demo", "dist")
+        shutil.copytree(source, copy, ignore=shutil.ignore_patterns(*left_out))
         manual = [sys.executable, "-P", str(Path(__file__).with_name("manual.py")), str(copy)]
         made = subprocess.run(manual, capture_output=True, encoding="utf-8", errors="replace")
         if made.returncode:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.soak import commands
+from tools.soak import commands
 
 
 def run(

@@ -12,7 +12,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from tests.soak import commands, hostile_files
+from tools.soak import commands, hostile_files
 
 TIMEOUT = 20
 

@@ -3,7 +3,7 @@
 """Runs what takes long: every module of this folder that has `run(budget_seconds, seed)`, which
 returns a report.
 
-    python tests/soak [--minutes N] [--seed S] [NAME[:PART,…] …]
+    python tools/soak [--minutes N] [--seed S] [NAME[:PART,…] …]
 
 PART is a further argument of that `run`. A module fails by an exception. Each report is a file in
 the folder that --reports names.
@@ -46,7 +46,7 @@ def main() -> int:
         begun = time.monotonic()
         print("{} with seed {} ...".format(word, options.seed), flush=True)
         try:
-            report = importlib.import_module("tests.soak." + name).run(
+            report = importlib.import_module("tools.soak." + name).run(
                 60.0 * options.minutes / len(names), options.seed, *filter(None, parts.split(","))
             )
         except Exception:

@@ -3,7 +3,7 @@
 """Times and ratios against trimesh, libigl, Blender's BMesh and the floor of reading and gathering,
 from one run.
 
-    python tests/benchmark.py [--quick] [--stream M]
+    python tools/benchmark.py [--quick] [--stream M]
 
 Every table interleaves its rows in one process, so that its ratios hold whatever else the machine
 does. It prints medians and least times and asserts nothing: a busy machine is no failure. Programs
@@ -27,21 +27,9 @@ from pathlib import Path
 from types import ModuleType
 
 import numpy as np
+from loading import load_checkout
 
-ROOT = Path(__file__).resolve().parent.parent
-
-
-def load_package() -> None:
-    """The project's root as the package `body_moments`, whatever its folder is called."""
-    spec = importlib.util.spec_from_file_location(
-        "body_moments", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
-    )
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["body_moments"] = module
-    spec.loader.exec_module(module)
-
-
-load_package()
+load_checkout()
 
 from body_moments.core.fourier.grid import GridTransform
 from body_moments.core.fourier.transform import run_to_completion, solid_transform

@@ -17,7 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
+ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs"
 FOLDER = "manual"  # in the zip; `panels/menus.py` opens its pages
 UNUSED = (".buildinfo", "objects.inv", "_static/**/*.map", "_static/**/*.LICENSE.txt")

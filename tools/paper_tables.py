@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables 2 and 3 of Soldea, Elber and Rivlin beside the numbers of core/density/spline_grid.py.
 
-    python tests/paper_tables.py        with numpy; or python3 tests/project.py tables
+    python3 tests/project.py tables
 
 What the paper leaves unsaid, and its Analytic columns fix: the unit is the patch's width W; samples
 stand at (i - N/2) h, h = W / N; a sample is 1 strictly inside of the body, else 0; splines are
@@ -16,22 +16,17 @@ making up for the strict inequality.
 
 from __future__ import annotations
 
-import importlib.util
 import math
 import sys
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, ROUND_HALF_UP, Decimal
-from pathlib import Path
 
 import numpy as np
 
 if "body_moments" not in sys.modules:
-    root = Path(__file__).resolve().parent.parent
-    spec = importlib.util.spec_from_file_location(
-        "body_moments", root / "__init__.py", submodule_search_locations=[str(root)]
-    )
-    sys.modules["body_moments"] = module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    from loading import load_checkout
+
+    load_checkout()
 
 from body_moments.core.density.spline_grid import grid_moments
 from body_moments.core.inertia.mass_properties import MassProperties

@@ -18,7 +18,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from tests.soak import commands, hostile, hostile_files
+from tools.soak import commands, hostile, hostile_files
 
 NUMBERS = ("mass", "volume", "area", "center_of_mass", "inertia")
 CHECKED = (".3mf", ".usdz", ".npz", ".nii.gz", ".nrrd")
