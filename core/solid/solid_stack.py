@@ -27,8 +27,7 @@ from ..mesh.welding import may_have_neighbor
 from ..moments.moments import Moments, U, stack_moments, sum_moments
 from ..numerics.arrays import NEXT_AXIS, PREVIOUS_AXIS, segment_starts
 from ..polyhedron.any_order import extend_small_moments
-from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
-from ..polyhedron.third_order_small import small_moments
+from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, small_moments
 from ..verdict.finding import Finding
 from ..verdict.health import DefectiveElements, Intersection, MeshHealth
 from ..verdict.tolerances import WELDING_RTOL

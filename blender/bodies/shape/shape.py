@@ -45,7 +45,7 @@ from ....core.moments.moments import Moments
 from ....core.numerics.arrays import segment_starts
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.any_order import extend_small_moments
-from ....core.polyhedron.third_order_small import small_moments
+from ....core.polyhedron.third_order import small_moments
 from ....core.shape.point_groups import PlacedTriangles
 from ....core.shape.registration import MAX_AXIS_ORDER, Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature, signatures
