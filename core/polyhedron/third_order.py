@@ -35,16 +35,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.planarity import PlanarityAccumulator
-from ..mesh.surface import HALVES, Surface, turned_quads
+from ..mesh.surface import Surface, has_flipped_corners
 from ..moments.exponents import monomial_count, monomials
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, unchecked_moments
-from ..numerics.arrays import NEXT_AXIS, PREVIOUS_AXIS, batches, indices_in_range
+from ..numerics.arrays import batches, indices_in_range
+from ..numerics.vectors import cross
 from ..verdict.tolerances import check_size
 
 # Up to this number of triangles the third order is always exact, which takes half as long again.
 MAX_TRIANGLES_EXACT_THIRD = 100_000
 MAX_SMALL_TRIANGLES = 1024  # triangles of a body in a stack, and of a segment of a large mesh
-TRIANGLES_PER_BLOCK = 4096  # triangles whose products stay in the cache
+SLICES = 16  # parts of a whole segment, whose products are added up
+TRIANGLES_PER_BLOCK = 8192  # triangles whose products stay in the cache
 # Triangles that are worth a thread: with fewer, calls are short, and wait for the interpreter.
 MIN_TRIANGLES_PER_THREAD = 250_000
 # Reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow
@@ -66,7 +68,6 @@ THIRD_ORDER_SHARE = np.repeat(
 )  # the third moments about the middles come to as much again at most
 CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
-ROWS, COLUMNS = np.triu_indices(3)
 AXIS_PAIRS = (1, 2), (2, 0), (0, 1)
 TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
 PAIR_INDEX = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
@@ -123,29 +124,26 @@ def integrate(
 
     def sum_block(block: tuple[int, NDArray]) -> _Sums:
         start, faces = block
-        is_quad = faces.shape[1] == 4
-        triangles = (
-            turned_quads(points, faces)[:, HALVES].reshape(-1, 2, 3).T.reshape(3, -1)
-            if is_quad
-            else faces.T
-        )
-        corners = coordinates.take(triangles, axis=1).astype(np.float64, copy=False)
-        widths = _segment_counts(corners.shape[2])
-        observe = None
-        if planarity is not None and is_quad:
+        corners = coordinates.take(faces.T, axis=1)
+        is_quad = len(corners[0]) == 4
+        if is_quad:
+            flipped = np.flatnonzero(has_flipped_corners(*corners.swapaxes(0, 1)))
+            corners[:, :, flipped] = np.roll(corners[:, :, flipped], -1, axis=1)
+            corners = corners[:, [[0, 0], [1, 2], [2, 3]]].reshape(3, 3, -1)
+        corners = corners.astype(np.float64, copy=False)
 
-            def observe(edges: NDArray, normals: NDArray, lengths: NDArray) -> None:
+        def observe(edges: NDArray, normals: NDArray, lengths: NDArray) -> None:
+            if planarity is None:
+                return
+            if is_quad:
                 k = len(faces)
-                volume = np.add.reduce(normals[:, :k] * edges[:, 1, k:])
-                cosine = np.add.reduce(normals[:, :k] * normals[:, k:])
-                folded = np.flatnonzero(cosine <= 0.0)
-                planarity.add_quads(start, lengths.reshape(2, k), volume, folded, np.empty((2, k)))
+                normal = normals[:, :k] + normals[:, k:]
+                tetrahedra = np.abs(np.add.reduce(normals[:, :k] * edges[:, 1, k:]))
+                planarity.add_quads(start, np.sqrt(np.add.reduce(normal * normal)), tetrahedra)
+            else:
+                planarity.add_triangles(start, lengths)
 
-        elif planarity is not None:
-
-            def observe(edges: NDArray, normals: NDArray, lengths: NDArray) -> None:
-                planarity.add_triangles([start], 1, lengths[None])
-
+        widths = _segment_counts(corners.shape[2])
         return _segment_sums(corners, widths, centers, area, area_moments, exact, observe)
 
     blocks = [
@@ -219,6 +217,11 @@ def small_moments(
     )
 
 
+def _products(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+    """Return (6, t) products xx, xy, xz, yy, yz, zz of (3, t) vectors."""
+    return np.concatenate([first[0] * second, first[1] * second[1:], first[2:] * second[2:]])
+
+
 def _segment_counts(count: int) -> NDArray[np.intp]:
     """Return the number of triangles in each segment of a block of `count` triangles."""
     starts = np.arange(0, count, MAX_SMALL_TRIANGLES)
@@ -241,16 +244,14 @@ def _segment_sums(
     """
     starts = np.cumsum(counts) - counts
     edges = corners[:, 1:] - corners[:, :1]
-    after = edges.take(NEXT_AXIS, 0)
-    before = edges.take(PREVIOUS_AXIS, 0)
-    normals = after[:, 0] * before[:, 1] - before[:, 0] * after[:, 1]
+    normals = np.array(cross(edges[:, 0], edges[:, 1]))
     middle = center.T if len(center) == 1 else np.repeat(center.T, counts, axis=1)
     nodes = corners - middle[:, None]
-    det = np.add.reduce(normals * nodes[:, 0])
+    det = np.einsum("it,it->t", normals, nodes[:, 0])
     sizes = np.zeros((2, len(det)))
     np.abs(det, sizes[0])
     if area:
-        np.sqrt(np.add.reduce(normals * normals), sizes[1])
+        np.sqrt(np.einsum("it,it->t", normals, normals), sizes[1])
     if observe is not None:
         observe(edges, normals, sizes[1])
     a = nodes[:, 0]
@@ -261,23 +262,37 @@ def _segment_sums(
     if exact:
         tips = 2.0 * b - q
         base = edges[:, 1]
-        local = tips[ROWS] * tips[COLUMNS] + base[ROWS] * base[COLUMNS]
+        local = _products(tips, tips) + _products(base, base)
+
+    is_even = len(center) == 1 < len(counts) and counts[-1] == MAX_SMALL_TRIANGLES
+
+    def scalar_products(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+        """Return the (m n, s) scalar products of m rows with n in each segment."""
+        count = len(first) * len(second)
+        if not is_even:
+            products = (first[:, None] * second).reshape(count, -1)
+            return np.add.reduceat(products, starts, axis=1)
+        # einsum adds slices in one pass, into rows that stay in the cache.
+        shape = -1, len(counts), SLICES, int(counts[0]) // SLICES
+        first = first.reshape(shape)
+        second = second.reshape(shape)
+        return np.add.reduce(np.einsum("msjt,nsjt->mnst", first, second), axis=3).reshape(count, -1)
 
     def weighted_sums(weight: NDArray) -> NDArray[np.float64]:
-        double = (2.0 * weight) * b
+        heavy = nodes * weight
+        heavy[:, 1] *= 2.0
         table = np.empty((9, len(weight)))  # H and Z
-        np.multiply((weight * a)[ROWS], a[COLUMNS], table[:6])
-        table[:6] += (weight * c)[ROWS] * c[COLUMNS]
-        table[:6] += double[ROWS] * b[COLUMNS]
-        np.add(weight * q, double, table[6:])
-        products = np.add.reduceat((q[:, None] * table).reshape(27, -1), starts, axis=1)
+        np.einsum("ct,dct->dt", heavy[0], nodes, out=table[:3])
+        np.einsum("ct,dct->dt", heavy[1], nodes[1:], out=table[3:5])
+        np.einsum("ct,ct->t", heavy[2], nodes[2], out=table[5])
+        of_q = heavy[:, 0] + heavy[:, 2]
+        np.add(of_q, heavy[:, 1], table[6:])
+        products = scalar_products(q, table)
         third = np.add.reduce(products.take(CUBE, 0))
         if exact:
-            of_tips = (tips[:, None] * (weight * local)).reshape(18, -1)
-            third += 0.1 * np.add.reduce(
-                np.add.reduceat(of_tips, starts, axis=1).take(LOCAL_CUBE, 0)
-            )
-        first = 0.5 * np.add.reduceat(weight * q + table[6:], starts, axis=1)
+            of_tips = scalar_products(tips, weight * local)
+            third += 0.1 * np.add.reduce(of_tips.take(LOCAL_CUBE, 0))
+        first = 0.5 * np.add.reduceat(of_q + table[6:], starts, axis=1)
         second = np.add.reduceat(table[:6], starts, axis=1)
         second += 0.5 * np.add.reduce(products.take(SQUARE, 0))
         total = np.add.reduceat(weight, starts)[None]
