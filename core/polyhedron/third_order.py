@@ -118,6 +118,20 @@ def integrate(
     for faces in (surface.triangles, surface.quads):
         if not indices_in_range(faces, len(points)):
             raise ValueError(NO_VERTEX)
+    if count <= MAX_SMALL_TRIANGLES:
+        volume, areas, cones = small_moments(
+            points,
+            surface.all_triangles()[0],
+            np.array([count]),
+            center[None],
+            reach[None],
+            surface.coordinate_error[None],
+            area=area,
+            area_moments=area_moments,
+        )
+        if planarity is not None:
+            planarity.cones = float(cones[0, 0]), float(cones[0, 1])
+        return volume.at(0), areas.at(0)
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
     coordinates = np.ascontiguousarray(points.T)
     centers = center[None]
