@@ -26,8 +26,7 @@ from ..mesh.surface_stack import Connections, SurfaceStack, TriangleStack
 from ..mesh.welding import may_have_neighbor
 from ..moments.moments import Moments, U, sum_moments
 from ..numerics.arrays import NEXT_AXIS, PREVIOUS_AXIS
-from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
-from ..polyhedron.third_order_small import small_moments
+from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, small_moments
 from ..verdict.finding import Finding
 from ..verdict.health import DefectiveElements, Intersection, MeshHealth
 from ..verdict.tolerances import WELDING_RTOL

@@ -38,7 +38,7 @@ from ....core.moments.moments import Moments
 from ....core.numerics.arrays import segment_starts
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.any_order import extend_small_moments
-from ....core.polyhedron.third_order_small import small_moments
+from ....core.polyhedron.third_order import small_moments
 from ....core.shape.axial_harmonics import (
     MAX_AXIAL_ORDER,
     AxialHarmonics,
