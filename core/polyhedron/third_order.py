@@ -303,7 +303,7 @@ def _segment_sums(
         np.add(of_q, heavy[:, 1], table[6:])
         products = scalar_products(q, table)
         third = np.add.reduce(products.take(CUBE, 0))
-        if exact:
+        if tips is not None:
             of_tips = scalar_products(tips, weight * local)
             third += 0.1 * np.add.reduce(of_tips.take(LOCAL_CUBE, 0))
         first = 0.5 * np.add.reduceat(of_q + table[6:], starts, axis=1)

@@ -52,7 +52,9 @@ def unique_frame(moments: Moments, preferred_axes: ArrayLike | None = None) -> P
     --------
     >>> from body_moments.core import Surface, polyhedron_moments
     >>> from body_moments.core.shape import unique_frame
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> surface = Surface.from_triangles(
+    ...     np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    ... )
     >>> frame = unique_frame(polyhedron_moments(surface, 6)[0])
     >>> frame.symmetry, frame.undetermined_axes, frame.finding.code
     ('oblate', (), 'axes_free_by_shape')

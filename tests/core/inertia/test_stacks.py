@@ -131,9 +131,7 @@ def test_one_body_or_some_are_taken_out_of_a_stack():
 
 @pytest.mark.parametrize("name", PARTS)
 def test_copies_share_the_axes_of_their_shape(name):
-    """Wherever a copy stands, however it is turned and scaled: its frame is its shape's, turned with
-    it.
-    """
+    """However a copy is turned and scaled, its frame is its shape's, turned with it."""
     matrices = placed(6)
     matrices = matrices[np.linalg.det(matrices[:, :3, :3]) > 0.0]
     scale = np.cbrt(np.linalg.det(matrices[:, :3, :3]))
