@@ -143,7 +143,6 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
         findings=tuple(findings),
         face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
         solids=((solid, np.eye(4)[None]),),
-        _known={},
     )
 
 

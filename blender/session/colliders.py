@@ -33,13 +33,11 @@ from ..scale import meters_per_unit
 from ..scene import colliders as scene
 from ..scene.changes import require_storable_data
 from ..settings.given import COLLIDER, COLLIDERS
-from ..settings.options import MeasureOptions
 from ..write import properties
 from .tracking import staleness, stamps
 
 SAME = 1e-5  # relative: float32 matrices of turned copies differ by less
 LIMITED = ("automatic", "hull", "pieces")  # shapes with tolerances
-WITHOUT_AXES = MeasureOptions(axes=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +69,7 @@ def plan_colliders(
     plans of this run by their keys, to which this one is added.
     """
     require_storable_data(obj)
-    measured = measure_body(obj, depsgraph, WITHOUT_AXES)
+    measured = measure_body(obj, depsgraph)
     measurement = measured.measurement
     unit = meters_per_unit(depsgraph.scene)
     surface = _surface(obj, measured)

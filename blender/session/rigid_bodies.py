@@ -35,12 +35,7 @@ from ..scene.rigid_world import (
     remove_joint,
     require_rigid_world,
 )
-from ..scene.snap_targets import (
-    POSE,
-    SnapTarget,
-    matrix_along_axes,
-    matrix_for_bullet,
-)
+from ..scene.snap_targets import SnapTarget, matrix_along_axes, matrix_for_bullet, target_of
 from ..scene.transforms import world
 from ..settings.given import COLLIDER
 from ..write import reports
@@ -225,7 +220,7 @@ def _measure_in_turn(
 ) -> Callable[[Object], MeasuredBody | Stacked]:
     """Return a function that measures the objects of the bodies, one at a time and in order."""
     parts = [part for body in bodies for part in (body.obj, *body.members)]
-    return measured_in_turn(parts, context.evaluated_depsgraph_get(), POSE)
+    return measured_in_turn(parts, context.evaluated_depsgraph_get())
 
 
 def _measured(
@@ -240,16 +235,17 @@ def _measured(
         except MeasureError as error:
             raise EditRefusedError(error.finding.of_sources([part.name_full])) from error
     measurements = [measured.measurement for _, measured in parts]
-    whole = measurements[0].mass_properties
     if body.members:
         moments = [measurement.mass_moments for measurement in measurements]
         whole = combine(moments, preferred_axes=measurements[0].rotation)
-    if whole.mass < MIN_MASS:
-        raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(whole.mass), limit=MIN_MASS)
-    unit = meters_per_unit(context.scene)
-    target = SnapTarget.of_body(body.obj, whole, whole.principal, unit)
+        unit = meters_per_unit(context.scene)
+        target = SnapTarget.of_body(body.obj, whole, whole.principal, unit)
+    else:
+        target = target_of(context, *parts[0])
+    if target.mass < MIN_MASS:
+        raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(target.mass), limit=MIN_MASS)
     volume = sum(measurement.volume for measurement in measurements)
-    return Measured(body, target, whole.mass / volume, tuple(parts))
+    return Measured(body, target, target.mass / volume, tuple(parts))
 
 
 def _measured_part(

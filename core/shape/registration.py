@@ -24,13 +24,13 @@ from itertools import count
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.canonical_frame import EquivalentFrames
-from ..inertia.principal_frames import equivalent_frames, undetermined_axes
 from ..inertia.third_moment_frames import HALF_TURN_SIGNS, complete_free_axes
 from ..moments.images import invert_through_point
 from ..moments.moments import Moments
 from ..numerics.arrays import distinct_arrays
+from .canonical_frame import EquivalentFrames
 from .symmetries import Symmetry
+from .unique_frame import equivalent_frames, undetermined_axes
 from .zernike import degrees
 
 # relative to the size: residuals nearer than this are equal, and the smallest turn is taken

@@ -24,11 +24,9 @@ from ..mesh.scan_lines import LineGrids, find_crossings, line_counts
 from ..mesh.surface import Surface
 from ..mesh.surface_stack import Connections, SurfaceStack, TriangleStack
 from ..mesh.welding import may_have_neighbor
-from ..moments.moments import Moments, U, stack_moments, sum_moments
-from ..numerics.arrays import NEXT_AXIS, PREVIOUS_AXIS, segment_starts
-from ..polyhedron.any_order import extend_small_moments
-from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
-from ..polyhedron.third_order_small import small_moments
+from ..moments.moments import Moments, U, sum_moments
+from ..numerics.arrays import NEXT_AXIS, PREVIOUS_AXIS
+from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, small_moments
 from ..verdict.finding import Finding
 from ..verdict.health import DefectiveElements, Intersection, MeshHealth
 from ..verdict.tolerances import WELDING_RTOL
@@ -36,7 +34,7 @@ from .boundary_loops import OwnedLoops, has_distinct_vertices, side_ends
 from .closedness import SUM_ROUNDING, GivenIntegrals, prove_closed, same_sign
 from .orientation import zero_volume
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
-from .solid_method import SolidIntegrals, cap_finding, shape_findings
+from .solid_method import cap_finding, shape_findings
 
 MAX_COMPONENTS = 16  # Limit for one body: all pairs are compared.
 # times the volume that counts as none: bodies with smaller components are measured one by one
@@ -109,45 +107,6 @@ class SolidStack:
 
     def _cap_share(self, i: int) -> float:
         return float(self.caps.counts[i, 2] / self.area.raw[i, 0])
-
-    def to_order(self, rows: NDArray[np.intp], order: int) -> Moments:
-        """Return the volume moments of the bodies `rows`, ascending, to a higher order than
-        third.
-        """
-        stack = self.caps.triangles.some(rows)
-        return _extend(self.volume.at(rows), order, stack, stack.coordinate_error)
-
-
-def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Moments:
-    """Return volumes, to an order above third, of single solids of at most MAX_SMALL_TRIANGLES
-    triangles each.
-    """
-    surfaces = [solid.repaired_surface for solid in solids]
-    triangles = [surface.all_triangles()[0] for surface in surfaces]
-    point_counts = np.array([len(surface.points) for surface in surfaces])
-    stack = TriangleStack(
-        np.concatenate([surface.points.astype(np.float64) for surface in surfaces]),
-        np.concatenate(
-            [rows + start for rows, start in zip(triangles, segment_starts(point_counts).tolist())]
-        ),
-        point_counts,
-        np.array([len(rows) for rows in triangles]),
-    )
-    error = np.array([surface.coordinate_error for surface in surfaces])
-    return _extend(stack_moments([solid.volume for solid in solids]), order, stack, error)
-
-
-def _extend(
-    volume: Moments, order: int, stack: TriangleStack, error: NDArray[np.float64]
-) -> Moments:
-    """Return the volume moments of the stack's bodies to an order. error: (n, 3) shifts of the
-    points by storing.
-    """
-    low, high = stack.box
-    reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + error
-    return extend_small_moments(
-        volume, order, stack.points, stack.triangles, stack.triangle_counts, reach
-    )
 
 
 def can_be_stacked(surfaces: Sequence[Surface]) -> list[bool]:

@@ -24,9 +24,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..inertia.third_moment_frames import NOISE_LEVEL
 from ..mesh.surface import Surface
 from ..numerics.vectors import cross, dot
-from .canonical_frame import NOISE_LEVEL, EquivalentFrames, lexicographic_maximum
+from .canonical_frame import EquivalentFrames, lexicographic_maximum
 
 MAX_AXIAL_ORDER = 30
 MAX_TILT = 1e-2  # rad; harmonics about an axis with a larger tilt say nothing about the body

@@ -8,9 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from body_moments.core.bodies.mesh_body import with_input_error
 from body_moments.core.inertia.principal_frames import (
-    equivalent_frames,
-    nearest_frame,
     pose_matrix,
     principal_frame,
     zhang_chen_frame,
@@ -19,6 +18,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.images import invert_through_point
 from body_moments.core.moments.moments import Moments, monomial_index, monomials
 from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.shape.unique_frame import equivalent_frames, nearest_frame, unique_frame
 from body_moments.core.solid.measure import measure_solid
 
 from tests.core import bodies, shapes
@@ -28,7 +28,7 @@ from tests.core.recursion import moments
 
 def pose(part, prefer=None):
     found = moments(part, 6)
-    frame = principal_frame(found.truncate(3), prefer, higher=lambda: found)
+    frame = unique_frame(found, prefer)
     return frame, pose_matrix(found.center, frame.axes)
 
 
@@ -92,7 +92,7 @@ def test_equal_frames_resolve_to_the_nearest_preferred_axes(name):
         assert np.trace(prefer.T @ axes) == pytest.approx(
             max(np.trace(prefer.T @ frame) for frame in frames)
         )
-        again = principal_frame(found.truncate(3), axes, higher=lambda: found)
+        again = unique_frame(found, axes)
         assert np.allclose(again.axes, axes, atol=1e-9)
 
 
@@ -165,7 +165,7 @@ def test_moments_beyond_the_range_of_numbers_have_no_frames(box, size, mass):
     with refused("moments_overflow", order=6):
         equivalent_frames(found)
     with refused("moments_overflow", order=6):
-        principal_frame(found.truncate(3), higher=lambda: found)
+        unique_frame(found)
 
 
 def test_a_lamina_has_no_skewness_across():
@@ -220,7 +220,7 @@ def test_a_ball_takes_the_preferred_axes():
         }:
             raw[monomial_index(*powers)] = value / 315
     ball, prefer = Moments(raw, np.zeros(3)), bodies.rotation(5)
-    frame = principal_frame(ball.truncate(3), prefer, higher=lambda: ball)
+    frame = unique_frame(ball, prefer)
     assert (
         np.array_equal(frame.axes, prefer)
         and not frame.is_unique
@@ -262,12 +262,11 @@ def test_storage_noise_never_flips_a_nearly_free_frame(name, higher):
         turn = bodies.rotation(seed)
         points, triangles = bodies.moved(part, turn)
         body = measure_solid(Surface(points.astype(np.float32), triangles))
-        frame = principal_frame(
-            body.volume,
-            turn,
-            body.exact_third_order,
-            (lambda body=body: polyhedron_moments(body.repaired_surface, 6)[0]) if higher else None,
-        )
+        if higher:
+            sixth = polyhedron_moments(body.repaired_surface, 6, about=body.volume.about)[0]
+            frame = unique_frame(with_input_error(sixth, body.volume), turn)
+        else:
+            frame = principal_frame(body.volume, turn, body.exact_third_order)
         found.append(turn.T @ frame.axes)
     assert np.abs(np.array(found) - found[0]).max() < 0.2
 

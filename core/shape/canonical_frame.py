@@ -23,17 +23,16 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ..inertia.findings import MOMENTS_OVERFLOW
+from ..inertia.plain_body import frame_about
+from ..inertia.third_moment_frames import NOISE_LEVEL, SecondMomentAxes
 from ..moments.exponents import monomial_index, monomials, tensor_index
 from ..moments.moments import Measure, Moments
 from ..numerics.arrays import distinct_arrays
 from ..numerics.quadrature import spread_directions
 from ..verdict.finding import MeasureError
-from .findings import MOMENTS_OVERFLOW
-from .plain_body import frame_about
 
 MAX_ORDER = 6  # enough for the axes of prisms up to hexagonal, of a cube and of an icosahedron
-# a normalized third moment below this is noise: ten times the noise of float32 coordinates
-NOISE_LEVEL = 1e-5
 # Growth of the noise with the degree: as the moments of a normal distribution grow.
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
 # a harmonic above this fixes a direction well; weaker ones are used only without a better one
@@ -55,48 +54,13 @@ DISTINCT_DIRECTIONS = 1e-2  # extreme directions closer than this are one
 
 
 @dataclass(frozen=True, eq=False)
-class SecondMomentAxes:
-    """Axes from second moments.
-
-    axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents (standard
-    deviations) along them. undetermined_axes: the axes that equal moments leave free. step: shift
-    of the points by float32, as a length. tilt: the angle by which this shift and rounding may have
-    turned the other axes. noise: normalized third moments that differ by less are equal.
-    """
-
-    axes: NDArray[np.float64]
-    size: NDArray[np.float64]
-    undetermined_axes: tuple[int, ...]
-    step: float
-    tilt: float = 0.0
-    noise: float = NOISE_LEVEL
-
-
-@dataclass(frozen=True)
-class FrameRule:
-    """Rule that fixes the frames that second moments leave open.
-
-    extreme: the degree of the moment that is extreme along the frames' third axis; 0 if second
-    moments fix an axis. axis, harmonic: the axis about which the harmonic (degree, m, k) is real;
-    None if no harmonic is clear. sign: the harmonic's sign.
-    """
-
-    extreme: int
-    axis: int
-    harmonic: tuple[int, int, int] | None
-    sign: float
-
-
-@dataclass(frozen=True, eq=False)
 class EquivalentFrames:
     """Frames in which a body is the same.
 
     frames: (k, 3, 3) rotations with the axes as columns. values, noise: (n,) the normalized central
     moments in each frame, of third to the highest order, and their noise. revolution_axes: the
     directions that no moment fixes: none (), all around one axis of the frames (that axis,), or all
-    (0, 1, 2). tilt: an estimate of the angle by which noise may have turned them. rule: the rule
-    that fixes the frames; None if second moments fix them, or the poles of a circle of extreme
-    directions.
+    (0, 1, 2). tilt: an estimate of the angle by which noise may have turned them.
     """
 
     frames: NDArray[np.float64]
@@ -104,7 +68,6 @@ class EquivalentFrames:
     noise: NDArray[np.float64]
     revolution_axes: tuple[int, ...]
     tilt: float
-    rule: FrameRule | None = None
 
 
 def canonical_frames(
@@ -122,10 +85,10 @@ def canonical_frames(
         rounding_error=central.rounding_error / total,
         measure=Measure.MASS,
     )
-    frames, revolution_axes, tilt, rule = _candidates(central, spread, starts)
+    frames, revolution_axes, tilt = _candidates(central, spread, starts)
     values, noise = _normalized_moments(central, spread, frames)
     return EquivalentFrames(
-        *lexicographic_maximum(frames, values, noise), noise, revolution_axes, tilt, rule
+        *lexicographic_maximum(frames, values, noise), noise, revolution_axes, tilt
     )
 
 
@@ -141,25 +104,20 @@ def check_range(moments: Moments, size: NDArray[np.float64]) -> None:
 
 def _candidates(
     central: Moments, spread: SecondMomentAxes, starts: NDArray
-) -> tuple[NDArray, tuple[int, ...], float, FrameRule | None]:
-    """Return candidate frames, and `revolution_axes`, `tilt` and `rule` as in
-    `EquivalentFrames`.
-    """
+) -> tuple[NDArray, tuple[int, ...], float]:
+    """Return candidate frames, and `revolution_axes` and `tilt` as in `EquivalentFrames`."""
     if not spread.undetermined_axes:
-        return starts, (), spread.tilt, None
+        return starts, (), spread.tilt
     if len(spread.undetermined_axes) == 2:
         axis = 3 - sum(spread.undetermined_axes)
         starts = starts[
             np.unique(starts[:, :, axis] @ spread.axes[:, axis] > 0.0, return_index=True)[1]
         ]
         frames, harmonic, turn = _fix_rotation_about_axis(central, spread, starts, axis)
-        rule = FrameRule(0, axis, harmonic, _sign(harmonic, -1.0))
-        return frames, () if harmonic else (axis,), spread.tilt + turn, rule
+        return frames, () if harmonic else (axis,), spread.tilt + turn
     for clear in (CLEAR_HARMONIC, 0.0):
         for degree in range(3, central.order + 1):
-            directions, sign, tilt, are_isolated = _extreme_directions(
-                central, spread, degree, clear
-            )
+            directions, sign, tilt = _extreme_directions(central, spread, degree, clear)
             if not len(directions):
                 continue
             bases = np.array(
@@ -167,31 +125,24 @@ def _candidates(
             ).transpose(0, 2, 1)
             fourfold = sign if degree == 4 else -1.0
             frames, harmonic, turn = _fix_rotation_about_axis(central, spread, bases, 2, fourfold)
-            rule = (
-                FrameRule(degree, 2, harmonic, _sign(harmonic, fourfold)) if are_isolated else None
-            )
-            return frames, () if harmonic else (2,), tilt + turn, rule
-    return spread.axes[None], (0, 1, 2), 0.0, FrameRule(0, 2, None, 1.0)
-
-
-def _sign(harmonic: tuple[int, int, int] | None, fourfold: float) -> float:
-    """Return the sign that a harmonic (degree, m, k) gets: `fourfold` if m = 4, else 1."""
-    return fourfold if harmonic and harmonic[1] == 4 else 1.0
+            return frames, () if harmonic else (2,), tilt + turn
+    return spread.axes[None], (0, 1, 2), 0.0
 
 
 def _fix_rotation_about_axis(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int, fourfold: float = -1.0
-) -> tuple[NDArray, tuple[int, int, int] | None, float]:
-    """Turn bases about an axis so that the first clear harmonic is real.
+) -> tuple[NDArray, bool, float]:
+    """Turn bases about an axis so that the first clear harmonic is real, with the sign `fourfold`
+    if it repeats at quarter turns.
 
-    Return the frames, the (degree, m, k) of that harmonic, or None, and the angular uncertainty of
-    the frames.
+    Return the frames, whether there is such a harmonic, and the angular uncertainty of the frames.
     """
     harmonic = _clear_harmonic(central, spread, bases, axis)
     if harmonic is None:
-        return bases, None, 0.0
-    degree, m, k, c, least = harmonic
-    c = _sign((degree, m, k), fourfold) * c
+        return bases, False, 0.0
+    m, c, least = harmonic
+    if m == 4:
+        c = fourfold * c
     angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
     cos = np.cos(angles)[..., None]
     sin = np.sin(angles)[..., None]
@@ -205,14 +156,14 @@ def _fix_rotation_about_axis(
     noise = spread.noise / NOISE_LEVEL * least
     largest = np.abs(c).max()
     alike = np.abs(c) > largest - min(2.0 * noise, MAX_EQUAL_SHARE * largest)
-    return frames[alike].reshape(-1, 3, 3), (degree, m, k), noise / (m * largest)
+    return frames[alike].reshape(-1, 3, 3), True, noise / (m * largest)
 
 
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
-) -> tuple[int, int, int, NDArray[np.complex128], float] | None:
-    """Return degree, m, k, (n,) values and noise of the first clear harmonic about an axis, else of
-    the first one.
+) -> tuple[int, NDArray[np.complex128], float] | None:
+    """Return m, (n,) values and noise of the first clear harmonic about an axis, else of the first
+    one.
     """
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order = [first, second, axis]
@@ -235,9 +186,9 @@ def _clear_harmonic(
                 least = weight * noise[monomial_index(*powers) - monomial_index(degree, 0, 0)]
                 largest = np.abs(c).max()
                 if largest > max(least, CLEAR_HARMONIC):
-                    return degree, m, k, c, least
+                    return m, c, least
                 if weaker is None and largest > least:
-                    weaker = degree, m, k, c, least
+                    weaker = m, c, least
     return weaker
 
 
@@ -258,12 +209,12 @@ def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.comple
 
 def _extreme_directions(
     central: Moments, spread: SecondMomentAxes, degree: int, clear: float
-) -> tuple[NDArray, float, float, bool]:
+) -> tuple[NDArray, float, float]:
     """Return the (k, 3) directions u of the largest E[(u·x)^degree], or of the least, whichever are
     fewer.
 
-    Return also 1 for the largest or -1 for the least, the angle by which noise may have turned the
-    directions, and whether they are isolated. A circle of directions is replaced by its poles.
+    Return also 1 for the largest or -1 for the least, and the angle by which noise may have turned
+    the directions. A circle of directions is replaced by its poles.
     There are no directions, (0, 3), if the moment is the same in all of them.
     """
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
@@ -274,14 +225,14 @@ def _extreme_directions(
     everywhere = spread_directions(START_DIRECTIONS)
     span = np.ptp(_contract(tensor, degree, everywhere))
     if span <= least / 2.0:
-        return np.empty((0, 3)), 1.0, 0.0, False
+        return np.empty((0, 3)), 1.0, 0.0
     extremes = []
     for sign in (1.0, -1.0) if degree % 2 == 0 else (1.0,):
         within = min(noise, MAX_EQUAL_SHARE * span)
         points = _maximize_on_sphere(sign * tensor, degree, span, within)
         height = _contract(sign * tensor, degree, points)
         if height.max() - _contract(sign * tensor, degree, everywhere).min() <= least:
-            return np.empty((0, 3)), sign, 0.0, False
+            return np.empty((0, 3)), sign, 0.0
         top = points[height > height.max() - within]
         extremes.append((distinct_arrays(top, DISTINCT_DIRECTIONS), sign))
     directions, sign = min(extremes, key=lambda pair: len(pair[0]))
@@ -292,8 +243,8 @@ def _extreme_directions(
     pole = np.linalg.eigh(around.T @ around)[1][:, 0]
     is_round = np.abs(around @ pole).max() <= min(noise, MAX_EQUAL_SHARE * span)
     if is_round and np.linalg.norm(np.cross(directions, pole), axis=1).max() > DISTINCT_DIRECTIONS:
-        return np.array([pole, -pole]), sign, tilt, False
-    return directions, sign, tilt, True
+        return np.array([pole, -pole]), sign, tilt
+    return directions, sign, tilt
 
 
 def _maximize_on_sphere(
