@@ -8,6 +8,7 @@ their search.
 """
 
 import importlib.util
+import json
 import re
 import sys
 from pathlib import Path
@@ -36,6 +37,8 @@ html_theme = "furo"
 html_title = "Body Moments"
 html_static_path = ["_static"]
 html_css_files = ["manual.css"]
+html_js_files = ["excerpts.js"]
+html_search_scorer = str(Path(__file__).with_name("_static") / "scorer.js")
 html_extra_path = ["../CITATION.cff"]
 html_copy_source = False
 html_show_copyright = False
@@ -61,7 +64,26 @@ def keep_tables(_app, what: str, _name: str, _object, _options, lines: list[str]
         lines[:] = text.split("\n")
 
 
+texts: dict[str, str] = {}  # by page, what the excerpts of the search are cut from
+
+
+def keep_text(_app, doctree, page: str) -> None:
+    """Remember the text of a page, except those of the API."""
+    if not page.startswith("api"):
+        texts[page] = " ".join(doctree.astext().split())
+
+
+def write_texts(app, error) -> None:
+    """Write the texts of all pages for `_static/excerpts.js`."""
+    if error is not None:
+        return
+    code = "const PAGE_TEXTS = {};\n".format(json.dumps(texts, ensure_ascii=False))
+    Path(app.outdir, "_static", "texts.js").write_text(code, encoding="utf-8")
+
+
 def setup(app) -> None:
     """Connect the above with Sphinx."""
     load_package()
     app.connect("autodoc-process-docstring", keep_tables)
+    app.connect("doctree-resolved", keep_text)
+    app.connect("build-finished", write_texts)

@@ -18,6 +18,7 @@ MODULES = (
     "rig",
     "motion",
     *("shape." + name for name in ("match_pose", "find_similar", "find_symmetry", "link_copies")),
+    "help",
     "batch",
     # is removed first: its last notes need the properties of all others
     ".blender.session.subscriptions",

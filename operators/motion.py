@@ -133,8 +133,8 @@ class KeyedFlight(ModalDialog, OnArmature):
             }
             texts.append(reports.phrase(text, **values))
         if followed.off > 0.0:
-            text = "The center is off by up to {off:length}: constraints hold parts in the world"
-            texts.append(reports.phrase(text, off=followed.off))
+            text = "The center is off by up to {off}: constraints hold parts in the world"
+            texts.append(reports.phrase(text, off=reports.distance(followed.off)))
             level = Severity.WARNING
         if followed.is_lost:
             text = "The momentum changes by more than 1%, most at frame {frame}"

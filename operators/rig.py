@@ -169,7 +169,7 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
             ("MIDDLE", "Middle", "Over the middle of the support polygon"),
             ("INSIDE", "Inside", "Over the nearest point with the margin from the edge"),
         ),
-        default="MIDDLE",
+        default="INSIDE",
     )
     margin: FloatProperty(
         name="Margin",
@@ -179,14 +179,19 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
         unit="LENGTH",
     )
 
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop_search(self, "bone", context.object.pose, "bones", icon="BONE_DATA")
+        layout.prop(self, "target")
+        if self.target == "INSIDE":
+            layout.prop(self, "margin")
+
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         margin = self.margin if self.target == "INSIDE" else None
         values = session.balance_pose(context, context.object, self.bone, margin)
-        text = (
-            "Moved “{bone}”: the center is {gap:length} from its target, {margin:length} inside "
-            "the support"
-        )
+        text = "Moved “{bone}”: the center is {gap} from its target, {margin} inside the support"
         selection.report(self, reports.phrase(text if values else BALANCED, **values))
         return {"FINISHED" if values else "CANCELLED"}
 

@@ -34,12 +34,12 @@ class AdvancedPanel:
         layout = self.layout
         obj = subject(context)
         scene = context.scene
+        rows.button(layout, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
         shown = displayed(obj, scene)
         if shown is not None and shown.live is None:
             numbers = shown.in_frame(scene.body_moments.frame)
             _bounds(layout, obj, numbers)
             _display_mesh(layout, obj, numbers)
-        rows.button(layout, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
 
 
 def _display_mesh(layout: UILayout, obj: Object, shown: PlainBody) -> None:
@@ -89,7 +89,9 @@ class MomentsPanel:
         rows.setting(column, settings, "moments_of")
         rows.setting(column, settings, "moments_about")
         rows.setting(column, settings, "frame", expand=True)
-        rows.button(layout, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
+        row = layout.row(align=True)
+        rows.button(row, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
+        row.operator("object.body_moments_copy", text="", icon="COPYDOWN").what = "MOMENTS"
         table = loaded_module(stored, "moments")
         computed = None if table is None else table.computed_moments(obj)
         if computed is None:
@@ -111,7 +113,6 @@ class MomentsPanel:
             text = "Orders {first} to {last} are only in the copy."
             first = table.MAX_SHOWN_ORDER + 1
             rows.remark(layout, text, first=first, last=computed.order)
-        rows.button(layout, "object.body_moments_copy", "COPYDOWN").what = "MOMENTS"
 
 
 CLASSES = (

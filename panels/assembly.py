@@ -9,9 +9,19 @@ active collection has a panel among the collection's properties too.
 
 from __future__ import annotations
 
+import re
 from itertools import islice
 
-from bpy.types import Collection, Context, Object, Panel, PropertyGroup, UILayout, UIList
+from bpy.types import (
+    Collection,
+    Context,
+    Object,
+    Panel,
+    PropertyGroup,
+    UILayout,
+    UIList,
+    bpy_prop_collection,
+)
 
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings.assembly import Root, active_assembly, settings_of
@@ -33,7 +43,7 @@ MEMBER_ICONS = {
     "POINT": "EMPTY_SINGLE_ARROW",
 }
 LINES = 8  # height of the tree, before it scrolls
-BAR_WIDTH = 2.2  # of a share: the mass beside it is complete at the sidebar's default width
+EQUAL_RTOL = 1e-5  # of the masses of equal parts: turned copies differ by rounding
 
 
 class BODY_MOMENTS_UL_assembly(UIList):
@@ -50,36 +60,67 @@ class BODY_MOMENTS_UL_assembly(UIList):
             line.prop(row, "is_open", text="", icon=icon, emboss=False)
         else:
             line.label(text="", icon="BLANK1")
-        split = line.split(factor=0.44, align=True)
-        name = split.row(align=True)
+        name = line.row(align=True)
         name.active = row.is_counted
-        name.label(text=row.name, icon=MEMBER_ICONS[row.member], translate=False)
-        numbers = split.row(align=True)
+        copies = _count_equal(tree, index)
+        text = row.name if copies == 1 else "{:d} × {:s}".format(copies, _base_name(row.name))
+        name.label(text=text, icon=MEMBER_ICONS[row.member], translate=False)
+        numbers = line.row(align=True)
         numbers.active = row.is_counted
         numbers.alignment = "RIGHT"
         findings = properties.findings_in(row.findings)
         if row.mass > 0.0:
-            numbers.label(text=rows.scene_units().text("mass", row.mass), translate=False)
+            mass = rows.scene_units().text("mass", copies * row.mass)
+            numbers.label(text=mass, translate=False)
             if row.is_counted and row.depth:
-                bar = numbers.row(align=True)
-                bar.ui_units_x = BAR_WIDTH
-                bar.progress(text="{:.0f}%".format(100.0 * row.share), factor=row.share)
+                share = "{:.0f}%".format(100.0 * copies * row.share)
+                numbers.label(text=share, translate=False)
         if findings:
             worst = max(findings, key=lambda found: tuple(rows.ICONS).index(severity(found)))
             numbers.label(text="", icon=rows.ICONS[severity(worst)])
 
     def filter_items(self, _context, data, name) -> tuple[list[int], list[int]]:
-        """Hide rows below a closed member, and rows that do not match a search."""
+        """Hide rows below a closed member, rows that do not match a search, and equal parts but for
+        the first.
+        """
         flags = []
         closed = None
+        before = None
         for row in getattr(data, name):
-            if closed is not None and row.depth > closed:
+            last, before = before, row
+            is_hidden = closed is not None and row.depth > closed
+            if is_hidden or last is not None and _are_equal(last, row):
                 flags.append(0)
                 continue
             closed = None if row.is_open else row.depth
             found = not self.filter_name or self.filter_name.lower() in row.name.lower()
             flags.append(self.bitflag_filter_item if found else 0)
         return flags, []
+
+
+def _base_name(name: str) -> str:
+    """Return a name without the number that Blender gives to copies."""
+    return re.sub(r"\.\d{3,}$", "", name)
+
+
+def _are_equal(row: PropertyGroup, other: PropertyGroup) -> bool:
+    """Return whether two neighboring rows show equal parts."""
+    return (
+        row.member == other.member == "OBJECT"
+        and (row.depth, row.is_counted, row.findings)
+        == (other.depth, other.is_counted, other.findings)
+        and abs(row.mass - other.mass) <= EQUAL_RTOL * row.mass
+        and _base_name(row.name) == _base_name(other.name)
+    )
+
+
+def _count_equal(tree: bpy_prop_collection, first: int) -> int:
+    """Return the number of equal parts from a row on."""
+    end = first + 1
+    while end < len(tree) and _are_equal(tree[end - 1], tree[end]):
+        end += 1
+    has_members = end < len(tree) and tree[end].depth > tree[first].depth
+    return 1 if has_members else end - first
 
 
 def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -> None:
@@ -94,17 +135,25 @@ def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -
     button = layout.row()
     button.scale_y = 1.4
     button.operator("object.body_moments_measure_assembly", icon="PHYSICS").target = target
-    stored = properties.stored(root)
-    if stored is None or properties.method_text(root) != "assembly":
+    stored = properties.stored(root) if properties.method_text(root) == "assembly" else None
+    actions = layout.column(align=True)
+    actions.enabled = stored is not None
+    _actions(actions, target, isinstance(root, Collection))
+    reason = None if stored is None else stale_reason(root, context.scene)
+    rows.state(layout, rows.outdated(reason) if reason else "", "FILE_REFRESH" if reason else "")
+    if stored is None:
         return
     findings = properties.findings(root)
-    rows.stale_row(layout, stale_reason(root, context.scene))
-    remedies.lines(layout, context, [Group(found) for found in findings], can_accept=False)
     rows.quantities(layout, [("Mass", "mass", stored.mass)])
     _tree(layout, settings)
     _numbers(layout, stored, isinstance(root, Collection))
+    remedies.lines(layout, context, [Group(found) for found in findings], can_accept=False)
     remedies.notes(layout, "body_moments_assembly_notes", findings)
-    row = layout.row(align=True)
+
+
+def _actions(column: UILayout, target: str, is_collection: bool) -> None:
+    """Draw the buttons for a measured assembly, always at the same place."""
+    row = column.row(align=True)
     rows.button(
         row,
         "object.body_moments_export_bill",
@@ -113,16 +162,11 @@ def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -
         short="Masses...",
     ).target = target
     row.operator("object.body_moments_clear_assembly", text="", icon="TRASH").target = target
-    column = layout.column(align=True)
     rows.button(
         column, "view3d.body_moments_cursor_to_assembly", "PIVOT_CURSOR", short="Cursor"
     ).target = target
     rows.button(column, "object.body_moments_assembly_empty", "OUTLINER_OB_EMPTY").target = target
-    text = (
-        "Instance Offset to Center of Mass"
-        if isinstance(root, Collection)
-        else "Origin to Center of Mass"
-    )
+    text = "Instance Offset to Center of Mass" if is_collection else "Origin to Center of Mass"
     rows.button(
         column, "object.body_moments_assembly_origin", "OBJECT_ORIGIN", text=text
     ).target = target

@@ -87,7 +87,7 @@ def _one_object(layout: UILayout, context: Context, obj: Object) -> None:
     material_row(layout, context)
     _buttons(layout, context)
     state = ""
-    icon = "BLANK1"
+    icon = ""
     now = current_numbers(obj)
     if shown is not None and shown.reason is not None:
         state = rows.outdated(shown.reason)
@@ -95,7 +95,7 @@ def _one_object(layout: UILayout, context: Context, obj: Object) -> None:
     elif shown is not None and shown.live is not None:
         state = localized(LIVE[shown.lag]).format(milliseconds=1e3 * shown.live.seconds)
         icon = "REC"
-    _state(layout, state, icon)
+    rows.state(layout, state, icon)
     if now is not None and now.refusal is not None and outcome.last() is None:
         rows.message(layout, now.refusal)
     _details(layout, obj, shown, numbers)
@@ -138,7 +138,7 @@ def _several_objects(layout: UILayout, context: Context) -> None:
     if is_rest:
         reason = posed.reason
         text = "The mass is that of the rest pose"
-        _state(
+        rows.state(
             layout,
             localized(text) if reason is None else rows.outdated(reason),
             "INFO" if reason is None else "FILE_REFRESH",
@@ -150,7 +150,7 @@ def _several_objects(layout: UILayout, context: Context) -> None:
             for names, text in ((missing, "Not measured: {:s}"), (shown.stale, "Out of date: {:s}"))
             if names
         ]
-        _state(layout, "; ".join(texts), "FILE_REFRESH" if texts else "BLANK1")
+        rows.state(layout, "; ".join(texts), "FILE_REFRESH" if texts else "")
     findings, groups = (posed.findings, ()) if is_rest else (shown.findings, shown.groups)
     remedies.lines(layout, context, [*map(Group, findings), *groups])
 
@@ -171,15 +171,6 @@ def _verdict(layout: UILayout, text: str, icon: str, verdict: Verdict | None) ->
     end.alignment = "RIGHT"
     icon, word = rows.VERDICTS[verdict]
     end.label(text=word, icon=icon)
-
-
-def _state(layout: UILayout, text: str, icon: str) -> None:
-    """Draw one row that says whether the numbers follow the scene: it is always there, so that
-    nothing below it moves.
-    """
-    row = layout.row()
-    row.alert = icon == "FILE_REFRESH"
-    row.label(text=text, icon=icon, translate=False)
 
 
 def _density(numbers: PlainBody, length: float | None, template: str, *counts: int) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from bpy.types import Context
 
+from ..blender.read.visibility import measurable
 from ..blender.session import stored
 from ..blender.session.displayed import displayed, shown_objects, total
 from ..blender.session.selected import subject
@@ -32,18 +33,15 @@ class InertiaPanel:
 
     bl_label = "Inertia"
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return _shown(context) is not None
-
     def draw(self, context: Context) -> None:
         layout = self.layout
-        shown = _shown(context)
-        if shown is None:
-            return
         row = layout.row()
         row.enabled = not _are_several(context)
         row.prop(context.scene.body_moments, "frame", expand=True)
+        shown = _shown(context)
+        if shown is None:
+            layout.label(text="Not Measured", icon="RADIOBUT_OFF")
+            return
         moments = shown.moments
         rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", moments)
         column = layout.column(align=True)
@@ -136,6 +134,11 @@ class ReferencePanel:
 
 
 CLASSES = (
-    *in_both_places(InertiaPanel, "inertia"),
+    *in_both_places(
+        InertiaPanel,
+        "inertia",
+        shown_for=lambda obj: measurable(obj) or obj.type in ("EMPTY", "ARMATURE"),
+        of_all=True,
+    ),
     *in_both_places(ReferencePanel, "reference", parent="inertia"),
 )

@@ -15,7 +15,7 @@ from contextlib import suppress
 import bpy
 from bpy.types import Context, Menu, UILayout
 
-from ..blender.settings.preferences import address, manual_folder, shows_advanced
+from ..blender.settings.preferences import manual_folder, shows_advanced
 
 Entry = tuple[str, str]  # an operator, which has one name wherever it stands, and its icon
 MEASURE: Entry = ("object.body_moments_measure", "PHYSICS")
@@ -197,9 +197,7 @@ def _map() -> tuple[str, tuple[tuple[str, str], ...]]:
 
 def _help_entry(self: Menu, _context: Context) -> None:
     self.layout.separator()
-    self.layout.operator("wm.url_open", text="Body Moments Manual", icon="HELP").url = address(
-        "index.html"
-    )
+    self.layout.operator("wm.body_moments_manual", icon="HELP")
 
 
 MENUS = (
@@ -222,19 +220,18 @@ MENUS = (
     (bpy.types.TOPBAR_MT_file_import, _imports),
     (bpy.types.VIEW3D_MT_empty_add, _entries(EMPTY)),
     (bpy.types.PHYSICS_PT_rigid_body, _rigid_body_panel),
+    (bpy.types.TOPBAR_MT_help, _help_entry),
 )
 CLASSES = (VIEW3D_MT_body_moments_shape, VIEW3D_MT_body_moments_advanced, VIEW3D_MT_body_moments)
 
 
 def register() -> None:
-    """Add the manual to *Help* and *Online Manual*, if there is one."""
+    """Add the pages of the manual to *Online Manual*, if they are there."""
     if manual_folder().is_dir():
         bpy.utils.register_manual_map(_map)
-        bpy.types.TOPBAR_MT_help.append(_help_entry)
 
 
 def unregister() -> None:
-    """Remove the manual from *Help* and *Online Manual*."""
-    with suppress(ValueError):  # there was no manual
+    """Remove the pages of the manual from *Online Manual*."""
+    with suppress(ValueError):  # there were none
         bpy.utils.unregister_manual_map(_map)
-        bpy.types.TOPBAR_MT_help.remove(_help_entry)

@@ -15,6 +15,7 @@ from ..blender.session import character
 from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
+from ..blender.write.reports import distance
 from ..blender.write.translations import localized
 from ..core.lazy import loaded_module
 from . import rows
@@ -80,45 +81,55 @@ class WeightPanel:
         layout, armature = self.layout, context.object
         layout.use_property_decorate = False
         settings = armature.body_moments_weight
-        unit = meters_per_unit(context.scene)
-        row = layout.row()
-        row.scale_y = 1.4
-        row.operator("pose.body_moments_show_weight", icon="CON_FLOOR", depress=settings.show)
+        column = layout.column()
+        column.scale_y = 1.4
+        show = "pose.body_moments_show_weight"
+        column.operator(show, icon="CON_FLOOR", depress=settings.show)
         if not settings.show:
             return
+        # Buttons and settings first: they stay in place however the character stands.
+        column.operator("pose.body_moments_balance_pose", icon="PIVOT_CURSOR")
+        column = layout.column(align=True)
+        rows.button(column, "pose.body_moments_parabola", "FORCE_FORCE")
+        rows.button(column, "pose.body_moments_keep_spin", "FORCE_VORTEX")
+        rows.button(column, "pose.body_moments_bake_curves", "FCURVE")
+        rows.button(column, "pose.body_moments_trace", "CON_FOLLOWPATH")
+        column = layout.column()
+        mass = column.column()
+        mass.active = settings.mass > 0.0
+        rows.setting(mass, settings, "shown_mass", text="Total Mass (kg)")
+        rows.setting(column, settings, "ground")
+        column.prop(settings, "show_axes")
+        if context.active_pose_bone is not None:
+            column.prop(context.active_pose_bone.body_moments, "is_contact")
         posed = loaded_module(character, "weight")
         depsgraph = context.view_layer.depsgraph
-        weight = None if posed is None or depsgraph is None else posed.weight(armature, depsgraph)
+        weight = None
+        if posed is not None and depsgraph is not None:
+            weight = posed.weight(armature, depsgraph)
         rows.stale_row(layout, stale_reason(armature, context.scene))
         if weight is None:
             rows.remark(layout, "The bones have not been measured. Show the weight again.")
         else:
-            _standing(layout, weight, unit)
-        button = layout.row()
-        button.scale_y = 1.4
-        button.operator("pose.body_moments_balance_pose", icon="PIVOT_CURSOR")
-        column = layout.column()
-        rows.setting(column, settings, "mass", text="Total Mass (kg)")
-        rows.setting(column, settings, "ground")
-        if context.active_pose_bone is not None:
-            column.prop(context.active_pose_bone.body_moments, "is_contact")
-        _motion(layout, context)
+            _standing(layout, weight, meters_per_unit(context.scene))
+        _spans(layout, context)
 
 
-def standing(weight: Weight, unit: float) -> tuple[str, dict[str, float], str]:
-    """Return the English text on how a character stands, the lengths in it, m, and its icon."""
+def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:
+    """Return the English text on how a character stands, the lengths in it, and its icon."""
     support = weight.support
     height = weight.contacts.height
     if height is None:
         return "No mesh can touch the ground", {}, "INFO"
     if support is None:
-        return "In the air: {height:length} above the ground", {"height": height * unit}, "INFO"
-    margin = {"margin": abs(support.margin) * unit}
+        lengths = {"height": distance(height * unit)}
+        return "In the air: {height} above the ground", lengths, "INFO"
+    margin = {"margin": distance(abs(support.margin) * unit)}
     if not support.stands:
-        return "Falls: {margin:length} outside the support", margin, "CANCEL"
+        return "Falls: {margin} outside the support", margin, "CANCEL"
     if support.is_near_edge:
-        return "Near the edge: {margin:length} inside the support", margin, "ERROR"
-    return "Balanced: {margin:length} inside the support", margin, "CHECKMARK"
+        return "Near the edge: {margin} inside the support", margin, "ERROR"
+    return "Balanced: {margin} inside the support", margin, "CHECKMARK"
 
 
 def _standing(layout: UILayout, weight: Weight, unit: float) -> None:
@@ -127,19 +138,16 @@ def _standing(layout: UILayout, weight: Weight, unit: float) -> None:
     box = layout.box()
     box.alert = icon == "CANCEL"
     rows.remark(box, text, icon=icon, boxed=True, **lengths)
-    shown = [("Mass", "mass", weight.parts.mass)]
-    support = weight.support
-    contacts = weight.contacts
-    if support is not None:
-        shown += [
-            ("Margin", "length", support.margin * unit),
-            ("Height", "length", support.height * unit),
-        ]
-    rows.quantities(layout.column(align=True), shown)
+    shown = [rows.quantity_cell("Mass", "mass", weight.parts.mass)]
+    if weight.support is not None:
+        lengths = {"Margin": weight.support.margin * unit, "Height": weight.support.height * unit}
+        shown += [(name, distance(si), repr(float(si)), "m") for name, si in lengths.items()]
+    rows.table(layout.column(align=True), shown)
     missing = [name for name, mass in zip(weight.parts.names, weight.parts.masses) if not mass]
     if missing:
         rows.remark(layout, "Not measured: {objects}", icon="ERROR", objects=missing)
     column = layout.column(align=True)
+    contacts = weight.contacts
     for names, icon, word in (
         (contacts.names, "CHECKMARK", "Carries"),
         (contacts.lifted, "X", "Lifted"),
@@ -150,26 +158,16 @@ def _standing(layout: UILayout, weight: Weight, unit: float) -> None:
             rows.right(row, localized(word))
 
 
-def _motion(layout: UILayout, context: Context) -> None:
-    """Draw the buttons for motion over frames, and the spans of frames whose momentum comes from
-    nothing.
-    """
-    column = layout.column(align=True)
-    rows.button(column, "pose.body_moments_parabola", "FORCE_FORCE")
-    rows.button(column, "pose.body_moments_keep_spin", "FORCE_VORTEX")
-    rows.button(column, "pose.body_moments_bake_curves", "FCURVE")
-    rows.button(column, "pose.body_moments_trace", "CON_FOLLOWPATH")
+def _spans(layout: UILayout, context: Context) -> None:
+    """Draw the spans of frames in whose motion the momentum comes from nothing."""
     name = context.object.name_full
-    empties = (
-        obj
-        for obj in context.scene.objects
-        if obj.type == "EMPTY" and obj.get(properties.BALANCE_GROUP) == name
-    )
     spans = next(
         (
-            list(empty[properties.BALANCE_SPANS])
-            for empty in empties
-            if properties.BALANCE_SPANS in empty
+            list(obj[properties.BALANCE_SPANS])
+            for obj in context.scene.objects
+            if obj.type == "EMPTY"
+            and obj.get(properties.BALANCE_GROUP) == name
+            and properties.BALANCE_SPANS in obj
         ),
         [],
     )

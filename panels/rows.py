@@ -356,6 +356,15 @@ def remark(
     )
 
 
+def state(layout: UILayout, text: str, icon: str = "") -> None:
+    """Draw one row about the state of numbers. It is there without a text too, so that nothing below
+    it moves.
+    """
+    row = layout.row()
+    row.alert = icon == "FILE_REFRESH"
+    row.label(text=text, icon=icon or "BLANK1", translate=False)
+
+
 def stale_row(layout: UILayout, reason: str | None) -> None:
     """Draw the reason why numbers are out of date, if any."""
     if reason is not None:

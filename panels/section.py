@@ -32,7 +32,9 @@ class SectionPanel:
 
     def draw(self, context: Context) -> None:
         obj, layout = subject(context), self.layout
-        rows.button(layout, "object.body_moments_measure_section", "FACESEL", short="Measure")
+        row = layout.row(align=True)
+        rows.button(row, "object.body_moments_measure_section", "FACESEL", short="Measure")
+        row.operator("object.body_moments_copy", text="", icon="COPYDOWN").what = "SECTION"
         stored = record.stored(obj)
         if stored is None:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
@@ -44,7 +46,6 @@ class SectionPanel:
         _numbers(layout, stored.section)
         _more_numbers(layout, stored.section)
         remedies.notes(layout, "body_moments_section_notes", stored.findings)
-        rows.button(layout, "object.body_moments_copy", "COPYDOWN").what = "SECTION"
 
 
 def _may_have_section(obj: Object) -> bool:

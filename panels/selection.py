@@ -7,10 +7,9 @@ body.
 from __future__ import annotations
 
 from bpy.props import BoolProperty, EnumProperty
-from bpy.types import Context, UILayout, UIList
+from bpy.types import Context, UIList
 
 from ..blender.session.displayed import SortBy, Verdict, drawn, listed_masses, listing
-from ..blender.session.selected import subject
 from . import rows
 from .places import in_both_places
 
@@ -72,33 +71,25 @@ class SelectionPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        shown = subject(context)
-        others = (obj for obj in context.view_layer.objects if obj != shown)
-        return len(context.selected_objects) > 1 or any("body_mass" in obj for obj in others)
+        return bool(context.view_layer.objects)
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        if len(context.selected_objects) > 1:
-            rows.button(
-                layout, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings"
-            )
-        _listed(layout, context)
-
-
-def _listed(layout: UILayout, context: Context) -> None:
-    """Draw the measured objects, and the buttons that make a table of the selected ones."""
-    layout.template_list(
-        BODY_MOMENTS_UL_measured.__name__,
-        "",
-        context.view_layer,
-        "objects",
-        context.scene,
-        "body_moments_listed",
-        rows=LINES,
-    )
-    column = layout.column(align=True)
-    rows.button(column, "object.body_moments_copy", "COPYDOWN", text="Copy Table").what = "TABLE"
-    rows.button(column, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
+        rows.button(layout, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings")
+        layout.template_list(
+            BODY_MOMENTS_UL_measured.__name__,
+            "",
+            context.view_layer,
+            "objects",
+            context.scene,
+            "body_moments_listed",
+            rows=LINES,
+        )
+        column = layout.column(align=True)
+        rows.button(
+            column, "object.body_moments_copy", "COPYDOWN", text="Copy Table"
+        ).what = "TABLE"
+        rows.button(column, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
 
 
 CLASSES = (BODY_MOMENTS_UL_measured, *in_both_places(SelectionPanel, "selection"))

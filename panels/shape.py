@@ -40,13 +40,15 @@ class ShapePanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        rows.button(layout, "object.body_moments_find_symmetry", "MOD_MIRROR", short="Symmetry")
-        _symmetry(layout, context, subject(context))
         column = layout.column(align=True)
+        rows.button(column, "object.body_moments_find_symmetry", "MOD_MIRROR", short="Symmetry")
         rows.button(column, "object.body_moments_match_pose", "SNAP_ON")
         row = column.row(align=True)
         rows.button(row, "object.body_moments_find_similar", "VIEWZOOM", short="Similar")
-        row.operator("object.body_moments_find_in_library", text="", icon="FILEBROWSER")
+        if shows_advanced():
+            row.operator("object.body_moments_find_in_library", text="", icon="FILEBROWSER")
+        rows.button(column, "object.body_moments_link_copies", "LINKED")
+        _symmetry(layout, context, subject(context))
         _similar(layout, context)
 
 
@@ -111,6 +113,4 @@ def _similar(layout: UILayout, context: Context) -> None:
         rows.right(row, "{:s}{:s}, {:.2g}".format(words, size, shape.distance))
 
 
-CLASSES = in_both_places(
-    ShapePanel, "shape", shown_for=lambda obj: measurable(obj) and shows_advanced(), of_all=True
-)
+CLASSES = in_both_places(ShapePanel, "shape", shown_for=measurable, of_all=True)

@@ -3,9 +3,10 @@
 """Colliders as objects: children of their body, in a collection of their own, displayed as wire and
 not rendered.
 
-The parent inverse undoes the body's scale, so that colliders have none, as engines expect. A
-primitive has its pose in the body's frame; a hull has its origin at its own center, which Godot
-Physics takes for the center of mass, and the rotation of the body.
+A hull has its origin at its own center, because Godot Physics and others take the origin for the
+center, and its vertices along the body's own axes: so it is exact wherever the body lies, and
+follows its scale. A primitive has its pose in the body's frame; its parent inverse undoes the
+body's scale.
 """
 
 from __future__ import annotations
@@ -26,14 +27,16 @@ from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import polar_rotation, quaternion
 from ...core.polyhedron.integration import volume_and_center
 from ...core.robots.model import Pose, Shape
+from ...core.verdict.finding import EditRefusedError
 from ..read.mesh import mesh_surface
 from ..settings.given import COLLIDER
 from .changes import made_collection
+from .empties import PLACE_RTOL
+from .findings import TRANSFORM_CONSTRAINED
 
 # odd, so that no ring lies on the equator
 SEGMENTS = 32
 RINGS = 17
-SAME_SCALE = 1e-5
 COLLECTION = "body_moments_colliders"  # ID property of the collection
 HULL, CYLINDER = "mesh", "cylinder"
 PREFIXES = {"box": "UBX", "sphere": "USP", "capsule": "UCP"}  # Unreal knows no other primitives.
@@ -62,39 +65,42 @@ def stretch_of(obj: Object, rotation: NDArray[np.float64]) -> NDArray[np.float64
     return rotation.T @ float64_matrix(obj.matrix_world)[:3, :3]
 
 
-def as_stored(shape: Shape, unit: float) -> Shape:
-    """Return a shape with the vertices of its hull as a mesh stores them, in the object's frame
-    in m.
+def as_stored(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Shape:
+    """Return a shape with the vertices of its hull as a mesh of the object stores them, in the
+    object's frame in m.
     """
     if shape.surface is None:
         return shape
-    center, points = _stored_points(shape, unit)
-    surface = Surface.from_triangles((points + center) * unit, shape.surface.all_triangles()[0])
-    return replace(shape, size=(1.0, 1.0, 1.0), pose=Pose(), surface=surface)
+    center, points = _origin_and_points(shape, stretch, unit)
+    triangles = shape.surface.all_triangles()[0]
+    stored = (points + center) @ stretch.T * unit
+    return replace(shape, surface=Surface.from_triangles(stored, triangles))
 
 
-def _stored_points(shape: Shape, unit: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the center of a hull, where its origin stands, and its points from there, in Blender
-    units, both rounded to single precision.
-    """
+def _origin_and_points(
+    shape: Shape, stretch: NDArray[np.float64], unit: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return a hull's (3,) center and its (n, 3) points from there, as its object stores them."""
     assert shape.surface is not None
-    points = shape.pose.apply(shape.surface.points * shape.size) / unit
-    _, center = volume_and_center(Surface(points, shape.surface.all_triangles()[0]))
-    if not np.isfinite(center).all():  # a flat hull
+    points = shape.surface.points @ shape.pose.rotation.T + shape.pose.position
+    points = np.linalg.solve(stretch, points.T).T / unit
+    center = volume_and_center(Surface.from_triangles(points, shape.surface.all_triangles()[0]))[1]
+    if not np.isfinite(center).all():  # it is flat
         center = points.mean(axis=0)
     center = center.astype(np.float32).astype(np.float64)
     return center, (points - center).astype(np.float32).astype(np.float64)
 
 
-def collider_mesh(shape: Shape, unit: float) -> Mesh:
-    """Return the mesh of a hull about its center, or of a primitive in its own frame, in Blender
+def collider_mesh(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Mesh:
+    """Return the mesh of a hull about its center, or of a primitive in its own frame, in Blender's
     units.
     """
     mesh = bpy.data.meshes.new("Collider")
     if shape.surface is None:
         _draw_primitive(mesh, shape, unit)
     else:
-        mesh.from_pydata(_stored_points(shape, unit)[1], [], shape.surface.all_triangles()[0])
+        corners = shape.surface.all_triangles()[0][:, :: -1 if np.linalg.det(stretch) < 0.0 else 1]
+        mesh.from_pydata(_origin_and_points(shape, stretch, unit)[1], [], corners)
     return mesh
 
 
@@ -128,14 +134,14 @@ def place_colliders(
         collider.display_type = "WIRE"
         collider.hide_render = True
         collider.parent = obj
-        collider.matrix_parent_inverse = undo_scale
+        collider.matrix_parent_inverse = undo_scale if shape.surface is None else Matrix()
         collider.matrix_basis = Matrix()
         collider.rotation_mode = "QUATERNION"
-        is_primitive = shape.surface is None
-        collider.location = (
-            shape.pose.position / unit if is_primitive else _stored_points(shape, unit)[0]
-        )
-        collider.rotation_quaternion = quaternion(shape.pose.rotation)
+        if shape.surface is None:
+            collider.location = shape.pose.position / unit
+            collider.rotation_quaternion = quaternion(shape.pose.rotation)
+        else:
+            collider.location = _origin_and_points(shape, stretch, unit)[0]
         collider[COLLIDER] = {
             "kind": shape.kind,
             "size": [float(size) for size in shape.size],
@@ -147,26 +153,37 @@ def place_colliders(
         names = {"name": obj.name, "number": number, "prefix": PREFIXES.get(shape.kind, "UCX")}
         collider.name = collider.data.name = NAMES[engine].format(**names)
     bpy.data.batch_remove([mesh for mesh in replaced if not mesh.users])
+    if obj.type == "CURVE":
+        _undo_path(context, obj, kept)
     return kept
 
 
-def hold_in_place(colliders: Sequence[Object]) -> None:
-    """Undo what the path animation of a curve adds to the transforms of its children.
+def _undo_path(context: Context, curve: Object, colliders: Sequence[Object]) -> None:
+    """Take back the place along a curve's path, on which the curve lays its children.
 
-    The colliders must be evaluated.
+    Raises EditRefusedError if the colliders are still elsewhere.
     """
+    context.view_layer.update()
+    place = float64_matrix(curve.matrix_world)
+    wanted = []
     for collider in colliders:
-        step = _path_step(collider)
-        collider.matrix_parent_inverse = step.inverted() @ collider.matrix_parent_inverse
+        inverse = float64_matrix(collider.matrix_parent_inverse)
+        own = inverse @ float64_matrix(collider.matrix_basis)
+        laid = float64_matrix(collider.matrix_world) @ np.linalg.inv(own)
+        collider.matrix_parent_inverse = Matrix(np.linalg.solve(laid, place @ inverse).tolist())
+        wanted.append(place @ own)
+    context.view_layer.update()
+    off = np.array([float64_matrix(collider.matrix_world) for collider in colliders]) - wanted
+    if not np.abs(off).max(initial=0.0) <= PLACE_RTOL * np.abs(wanted).max(initial=1.0):
+        raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location", sources=[curve.name])
 
 
-def _path_step(collider: Object) -> Matrix:
-    """Return the motion along a curve with path animation that its children follow."""
-    body = collider.parent
-    if body.type != "CURVE" or not body.data.use_path:
-        return Matrix()
-    own = collider.matrix_parent_inverse @ collider.matrix_basis
-    return body.matrix_world.inverted() @ collider.matrix_world @ own.inverted()
+def _in_body(collider: Object) -> NDArray[np.float64]:
+    """Return the (4, 4) transform of a collider in its body's own coordinates."""
+    if collider.parent.type == "CURVE":  # the parent inverse also undoes the place along the path
+        to_body = np.linalg.inv(float64_matrix(collider.parent.matrix_world))
+        return to_body @ float64_matrix(collider.matrix_world)
+    return float64_matrix(collider.matrix_parent_inverse) @ float64_matrix(collider.matrix_basis)
 
 
 def apply_for_bullet(collider: Object) -> None:
@@ -175,13 +192,14 @@ def apply_for_bullet(collider: Object) -> None:
     Bullet knows place and rotation of a child in its body, but no scale of the child, and applies
     the body's scale to its mesh.
     """
-    body = collider.parent
-    own = collider.matrix_parent_inverse @ collider.matrix_basis
+    own = Matrix(_in_body(collider).tolist())
     linear = own.to_3x3()
     turn = own.to_quaternion().to_matrix()
-    is_scaled = max(abs(length - 1.0) for length in body.matrix_world.to_scale()) > SAME_SCALE
-    off = max((linear - turn)[i][j] ** 2 for i in range(3) for j in range(3)) ** 0.5
-    if off <= SAME_SCALE and not is_scaled:
+    is_scaled = (
+        max(abs(size - 1.0) for size in collider.parent.matrix_world.to_scale()) > PLACE_RTOL
+    )
+    off = max(abs((linear - turn)[i][j]) for i in range(3) for j in range(3))
+    if off <= PLACE_RTOL and not is_scaled:
         return
     if collider.data.users > 1:
         collider.data = collider.data.copy()
@@ -213,8 +231,7 @@ def read_colliders(
     shapes = []
     for collider in colliders:
         stored = collider[COLLIDER]
-        relative = float64_matrix(_path_step(collider) @ collider.matrix_parent_inverse)
-        relative = relative @ float64_matrix(collider.matrix_basis)
+        relative = _in_body(collider)
         place = unit * stretch_of(collider.parent, rotation) @ relative[:3]
         to_frame = place[:, :3]
         place = place[:, 3]

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """F-curves of objects: the keys of slotted actions, sections of keys, and additive layers.
 
-Keys are structured arrays with all that Blender keeps of them, so that the keys outside a section stay to the last bit.
-Times are those of F-curves, which a scene stretches from its frames.
+Keys are structured arrays with all that Blender keeps of them, so that the keys outside a section
+stay to the last bit. Times are those of F-curves, which a scene stretches from its frames.
 """
 
 from __future__ import annotations
@@ -99,7 +99,9 @@ def _curves_of(keyed: bpy.types.AnimData | bpy.types.NlaStrip) -> Iterator[FCurv
 
 
 def sharing(obj: Object) -> list[str]:
-    """Return the names of other data that the keys of an object's action, which is not linked, also animate."""
+    """Return the names of other data that the keys of an object's action, which is not linked, also
+    animate.
+    """
     animation = obj.animation_data
     if animation is None or animation.action is None or animation.action.library is not None:
         return []
@@ -123,7 +125,9 @@ def has_strips(obj: Object) -> bool:
 
 
 def ensure_keyed(obj: Object, path: str, values: NDArray, time: float, in_strips: bool) -> None:
-    """Key the components of a property that have no keys, neither in the action nor, if these count, in strips."""
+    """Key the components of a property that have no keys, neither in the action nor, if these
+    count, in strips.
+    """
     curves = all_curves(obj) if in_strips else existing_curves(obj)
     keyed = {curve.array_index for curve in curves if curve.data_path == path}
     for axis, value in enumerate(values):
@@ -232,7 +236,9 @@ def backup(obj: Object) -> Callable[[], None]:
 
 
 def section_keys(times: NDArray, values: NDArray) -> NDArray:
-    """Return keys at (f + 1,) times, and between them cubics through a curve's values at the nodes of f frames."""
+    """Return keys at (f + 1,) times, and between them cubics through a curve's values at the nodes
+    of f frames.
+    """
     keys = np.zeros(len(times), KEY)
     keys["interpolation"] = BEZIER
     keys["co"] = np.stack([times, values[:: (len(values) - 1) // (len(times) - 1)]], axis=1)
@@ -247,7 +253,9 @@ def section_keys(times: NDArray, values: NDArray) -> NDArray:
 
 
 def replace_section(curve: FCurve, times: NDArray, values: NDArray) -> None:
-    """Replace the keys between two times by those of a section; the keys at its ends keep their values."""
+    """Replace the keys between two times by those of a section; the keys at its ends keep their
+    values.
+    """
     keys = cut(curve, cut(curve, read(curve), times[0]), times[-1])
     new = section_keys(times, values)
     before = keys[keys["co"][:, 0] <= times[0] + SAME_TIME]
@@ -271,7 +279,7 @@ def replace_section(curve: FCurve, times: NDArray, values: NDArray) -> None:
 
 
 def _hold_slopes(curve: FCurve, keys: NDArray, start: NDArray, end: NDArray) -> None:
-    """Keep the extrapolation of a curve that begins or ends with a section, by the handles outside."""
+    """Keep the extrapolation of a curve whose first or last key ends a section, by its handle."""
     for key, row, neighbor, side in ((start, 0, 1, HANDLES[0]), (end, -1, -2, HANDLES[1])):
         kind = key["interpolation"][0]
         if curve.extrapolation == "LINEAR" and key["co"][0, 0] == keys["co"][row, 0]:
@@ -283,7 +291,9 @@ def _hold_slopes(curve: FCurve, keys: NDArray, start: NDArray, end: NDArray) -> 
 
 
 def cut(curve: FCurve, keys: NDArray, time: float) -> NDArray:
-    """Return keys with one at a time that leaves the curve as it is, or raise EditRefusedError if that is impossible."""
+    """Return keys with one at a time that leaves the curve as it is, or raise EditRefusedError if
+    that is impossible.
+    """
     times = keys["co"][:, 0].astype(np.float64)
     if (np.abs(times - time) <= SAME_TIME).any():
         return keys
@@ -318,7 +328,9 @@ def cut(curve: FCurve, keys: NDArray, time: float) -> NDArray:
 
 
 def _split(previous: NDArray, new: NDArray, following: NDArray, time: float) -> None:
-    """Set the handles of a key that divides a Bézier segment, and of its neighbors, by de Casteljau's rule."""
+    """Set the handles of a key that divides a Bézier segment, and of its neighbors, by de
+    Casteljau's rule.
+    """
     points = [previous["co"], previous["handle_right"], following["handle_left"], following["co"]]
     points = np.concatenate(points).astype(np.float64)
     lengths = np.abs(points[[0, 3], 0] - points[[1, 2], 0])
@@ -342,7 +354,9 @@ def _split(previous: NDArray, new: NDArray, following: NDArray, time: float) -> 
 
 
 def stretch(curve: FCurve, first: float, last: float, shift: float) -> None:
-    """Move the keys after `last` by a shift, and stretch those from `first` to `last` to the place between."""
+    """Move the keys after `last` by a shift, and stretch those from `first` to `last` to the place
+    between.
+    """
     keys = read(curve)
     times = keys["co"][:, 0]
     for time in (first, last):
@@ -366,7 +380,9 @@ def stretch(curve: FCurve, first: float, last: float, shift: float) -> None:
 
 
 def add_layer(obj: Object, name: str, times: NDArray, channels: Mapping[Channel, NDArray]) -> None:
-    """Add a strip of sections that is combined with the animation below; the action becomes a strip, too."""
+    """Add a strip of sections that is combined with the animation below; the action becomes a
+    strip, too.
+    """
     scene = bpy.context.scene
     scale = time_scale(scene)
     beyond = int(

@@ -129,6 +129,6 @@ RIGID_WORLD_LINKED = error(
 )
 INTERPOLATION_UNCUT = error(
     "interpolation_uncut",
-    "“{curve}” eases from frame {start} to {end} and cannot be divided at {frame}. Insert a key there, or set its"
-    " interpolation to Bézier.",
+    "“{curve}” eases from frame {start} to {end} and cannot be divided at {frame}. Insert a key "
+    "there, or set its interpolation to Bézier.",
 )

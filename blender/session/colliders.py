@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...core.bodies.reading import float64_matrix
 from ...core.colliders.effects import correct_masses, correct_vertices, effect, uniform_masses
 from ...core.colliders.fits import Wanted, distances, make_colliders
-from ...core.inertia.findings import NO_CERTAIN_VOLUME
+from ...core.inertia.mass_properties import MassProperties
 from ...core.measurement.documents import plain
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import digest
@@ -25,7 +25,7 @@ from ...core.mesh.surface import Surface, join_surfaces
 from ...core.moments.affine_maps import are_singular
 from ...core.numerics.rotations import polar_rotation
 from ...core.robots.model import Pose, Shape
-from ...core.verdict.finding import MeasureError, ReadError
+from ...core.verdict.finding import ReadError
 from ..bodies.measure_object import Measured, measure_body
 from ..read.findings import OBJECT_WITHOUT_GEOMETRY, SCALE_ZERO_AXIS
 from ..read.fingerprint import colliders_digest, scale_products
@@ -38,6 +38,7 @@ from ..write import properties
 from .tracking import staleness, stamps
 
 SAME = 1e-5  # relative: float32 matrices of turned copies differ by less
+LIMITED = ("automatic", "hull", "pieces")  # shapes with tolerances
 WITHOUT_AXES = MeasureOptions(axes=False)
 
 
@@ -86,21 +87,27 @@ def plan_colliders(
         wanted = replace(wanted, outward=size * wanted.outward, inward=size * wanted.inward)
     hull = convex_hull(surface.points)
     shapes = yield from make_colliders(surface, body, wanted, hull)
-    shapes = [scene.as_stored(shape, unit) for shape in shapes]
+    shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     if correct == "VERTICES":
         shapes = correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
-        shapes = [scene.as_stored(shape, unit) for shape in shapes]
+        shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     masses = uniform_masses(measurement.density, shapes)
     if correct == "MASSES":
         masses = correct_masses(body, shapes)
-    elif not sum(masses) > 0.0:
-        raise MeasureError(NO_CERTAIN_VOLUME)
     elif correct == "VERTICES" or wanted.shape.startswith("equal_"):
         masses = [mass * body.mass / sum(masses) for mass in masses]
     shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
-    record = {"shape": wanted.shape, "correct": correct.lower(), "count": len(shapes)}
+    record: dict[str, Any] = {
+        "shape": wanted.shape,
+        "correct": correct.lower(),
+        "count": len(shapes),
+    }
+    if wanted.shape in LIMITED:
+        record["tolerance"] = [wanted.outward, wanted.inward]
+        record["limits"] = [wanted.pieces, wanted.vertices]
     record |= zip(("outward", "inward", "distance_bound"), distances(surface, shapes, hull))
     record |= effect(body, shapes, measurement.volume).as_record()
+    record["body"] = _describe_body(body)
     known[key] = Plan(obj, tuple(shapes), stretch, plain(record), measurement.fingerprint, key)
     return known[key]
 
@@ -145,19 +152,21 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
     made = []
     for plan in plans:
         if plan.key not in meshes:
-            meshes[plan.key] = [scene.collider_mesh(shape, unit) for shape in plan.shapes]
+            meshes[plan.key] = [
+                scene.collider_mesh(shape, plan.stretch, unit) for shape in plan.shapes
+            ]
         made += scene.place_colliders(
-            context,
-            plan.obj,
-            earlier.get(plan.obj, ()),
-            plan.shapes,
-            meshes[plan.key],
-            plan.stretch,
-            unit,
-            engine,
+            *(
+                context,
+                plan.obj,
+                earlier.get(plan.obj, ()),
+                plan.shapes,
+                meshes[plan.key],
+                plan.stretch,
+                unit,
+                engine,
+            )
         )
-    context.view_layer.update()
-    scene.hold_in_place(made)
     context.view_layer.update()
     for plan in plans:
         staleness.note_edits(plan.obj)
@@ -238,10 +247,28 @@ def collider_record(
         for key, value in obj[COLLIDERS].items()
     }
     reason = staleness.stale_reason(obj, context.scene, stamps.of_colliders)
-    if reason is None and stamps.Stamp.parse(measurement.fingerprint).geometry != stamp.geometry:
+    # Without the add-on nobody notes edits, and a turned body has another digest of its geometry.
+    is_same = stamps.Stamp.parse(measurement.fingerprint).geometry == stamp.geometry
+    is_same = is_same or _is_same_body(stored.get("body", ()), measurement.in_object_frame())
+    if reason is None and not is_same:
         reason = stamps.Stale.GEOMETRY
-    shown = stored.keys() - {"fingerprint", "digest", "scale"}
+    shown = stored.keys() - {"fingerprint", "digest", "scale", "body", "limits"}
     return {
         **{key: stored[key] for key in stored if key in shown},
         "out_of_date": reason and str(reason),
     }
+
+
+def _describe_body(body: MassProperties) -> list[float]:
+    """Return mass, center and inertia, in kg and m, so that a turned body is recognized."""
+    return [body.mass, *body.center.tolist(), *body.inertia.ravel().tolist()]
+
+
+def _is_same_body(stored: Sequence[float], body: MassProperties) -> bool:
+    """Return whether a described body is this one, but for the rounding of turned matrices."""
+    if len(stored) != 13 or not body.mass > 0.0:
+        return False
+    before = np.array(stored, np.float64)
+    size = (float(body.inertia.trace()) / body.mass) ** 0.5
+    limits = body.mass * np.repeat([1.0, size / body.mass, size**2], [1, 3, 9])
+    return bool((np.abs(before - _describe_body(body)) <= SAME * limits).all())

@@ -49,6 +49,8 @@ class Displayed(NamedTuple):
     numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason:
     the reason if the numbers are out of date. live: the result with Live on. lag: the lag of live
     numbers behind the object. is_posed: whether the numbers are a sum of parts in the present pose.
+    is_plumbed: whether a plumb line is drawn with a support polygon, in place of a drop line.
+    shows_axes: whether principal axes may be drawn.
     """
 
     numbers: PlainBody
@@ -61,6 +63,8 @@ class Displayed(NamedTuple):
     live: LiveResult | None = None
     lag: Lag = Lag.NONE
     is_posed: bool = False
+    is_plumbed: bool = False
+    shows_axes: bool = True
 
     @property
     def is_assumed(self) -> bool:
@@ -273,7 +277,19 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     reason = stale_reason(armature, scene)
     verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
     own = weight.body.in_object(armature.matrix_world, unit)
-    return Displayed(own, weight.body, unit, method, findings, verdict, reason, is_posed=True)
+    shows_axes = armature.body_moments_weight.show_axes
+    return Displayed(
+        own,
+        weight.body,
+        unit,
+        method,
+        findings,
+        verdict,
+        reason,
+        is_posed=True,
+        is_plumbed=True,
+        shows_axes=shows_axes,
+    )
 
 
 def shown_objects(context: Context) -> list[Object]:

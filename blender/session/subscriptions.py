@@ -17,6 +17,7 @@ from .tracking import armatures, handlers, staleness, updates
 SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
     (handlers.on_update, updates.note_updates),
     (handlers.on_update, armatures.note_updates),
+    (handlers.on_update, armatures.redraw_weights),
     (handlers.on_update, displayed.note_updates),
     (
         handlers.on_update,

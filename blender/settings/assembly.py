@@ -133,6 +133,10 @@ class BodyMomentsBoneSettings(PropertyGroup):
     )
 
 
+def _set_mass(settings: PropertyGroup, mass: float) -> None:
+    settings.mass = mass
+
+
 class BodyMomentsWeightSettings(PropertyGroup):
     """Settings of an armature's weight: what the viewport shows, its total mass and its ground."""
 
@@ -150,6 +154,24 @@ class BodyMomentsWeightSettings(PropertyGroup):
         min=0.0,
         step=10,
         precision=3,
+        override={"LIBRARY_OVERRIDABLE"},
+        update=part_changed,
+    )
+    shown_mass: FloatProperty(
+        name="Total Mass",
+        description=(
+            "Mass of all bones in kilograms; those with a mass of their own keep it. At 0, the "
+            "measured mass, which is shown in gray"
+        ),
+        min=0.0,
+        step=10,
+        precision=3,
+        get=lambda settings: settings.mass or settings.id_data.get("body_mass", 0.0),
+        set=_set_mass,
+    )
+    show_axes: BoolProperty(
+        name="Principal Axes",
+        description="Draw the principal axes of the character, too",
         override={"LIBRARY_OVERRIDABLE"},
         update=part_changed,
     )

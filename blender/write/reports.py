@@ -60,6 +60,13 @@ def _length(meters: float) -> str:
     return Units.from_settings(bpy.context.scene.unit_settings).text("length", meters)
 
 
+def distance(meters: float) -> str:
+    """Return a length on a body: in centimeters or less where the scene's unit is the meter."""
+    units = Units.from_settings(bpy.context.scene.unit_settings)
+    units = units._replace(length="ADAPTIVE") if units.length == "METERS" else units
+    return units.text("length", meters)
+
+
 def _rank(part: Finding | str) -> Severity:
     return Severity.NOTE if isinstance(part, str) else severity(part)
 

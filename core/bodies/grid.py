@@ -20,7 +20,9 @@ from ..density.threshold import ThresholdBody, threshold_body
 from ..measurement.measurement import Body
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Measure, Moments
+from ..scans.findings import SCAN_LABELS
 from ..scans.formats import EVEN, Positions
+from ..scans.labels import count_labels
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method, Procedure, Source
@@ -251,6 +253,9 @@ def threshold_grid_body(
     ]
     if above.clipped:
         findings.append(finding(THRESHOLD_CLIPPED, grid=grid.name))
+    label_count = 0 if preview else count_labels(grid.values)
+    if label_count:
+        findings.append(finding(SCAN_LABELS, count=label_count))
     return ThresholdGridBody(
         above.volume,
         above.area,

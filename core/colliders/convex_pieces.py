@@ -22,6 +22,7 @@ from ..mesh.point_triangle import triangle_distances
 from ..mesh.surface import Surface, triangle_areas
 from ..numerics.graph import connected_components
 from ..numerics.quadrature import spread_directions
+from ..verdict.finding import MeasureError
 from .plane_cuts import ON_PLANE_RTOL, Piece, connected_parts, cut, piece_from_surface
 
 HULL_RTOL = 1e-6  # of the resulting hulls
@@ -65,7 +66,19 @@ def cut_into_pieces(
         [piece.points for piece in (*done, *(piece for piece, *_ in open_pieces))], pieces, volume
     )
     yield 0.95
-    return [convex_hull(points, HULL_RTOL, corners) for points in groups]
+    return [_solid_hull(points, HULL_RTOL, corners) for points in groups]
+
+
+def _solid_hull(points: NDArray, tolerance: float, corners: int) -> ConvexHull:
+    """Return the hull of points; one that the tolerance makes flat, such as a long rod's, without.
+
+    tolerance, corners: as for `convex_hull`.
+    """
+    try:
+        hull = convex_hull(points, tolerance, corners)
+    except MeasureError:
+        return convex_hull(points, max_corners=corners)
+    return convex_hull(points, max_corners=corners) if hull.is_flat else hull
 
 
 def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, NDArray[np.float64]]:
@@ -112,7 +125,7 @@ def _is_near_hull(piece: Piece, limit: float) -> bool:
     """Return whether places on the hull's faces and edges, of the largest faces first, are all this
     near to a piece.
     """
-    hull = convex_hull(piece.points, SEARCH_RTOL, 64)
+    hull = _solid_hull(piece.points, SEARCH_RTOL, 64)
     largest = np.argsort(-triangle_areas(hull.points, hull.triangles), kind="stable")
     corners = hull.points[hull.triangles[largest]]
     fans = piece.points[np.stack([piece.first()[piece.face], piece.start, piece.end], axis=1)]
@@ -348,7 +361,7 @@ def _merge(sets: list[NDArray[np.float64]], most: int, volume: float) -> list[ND
 
     Merges that add nothing go on. The hulls that are compared have few corners.
     """
-    hulls = [convex_hull(points, SEARCH_RTOL, MERGE_CORNERS).points for points in sets]
+    hulls = [_solid_hull(points, SEARCH_RTOL, MERGE_CORNERS).points for points in sets]
     volumes = _volumes(hulls)
     cost = np.full((len(sets), len(sets)), np.inf)
     rows, columns = np.triu_indices(len(sets), 1)
@@ -361,7 +374,7 @@ def _merge(sets: list[NDArray[np.float64]], most: int, volume: float) -> list[ND
         if len(sets) <= most and cost[i, j] > LEAST_GAIN * volume:
             break
         keep = [k for k in range(len(sets)) if k not in (i, j)]
-        merged = convex_hull(
+        merged = _solid_hull(
             np.concatenate([hulls[i], hulls[j]]), SEARCH_RTOL, MERGE_CORNERS
         ).points
         sets = [*(sets[k] for k in keep), np.concatenate([sets[i], sets[j]])]
@@ -380,4 +393,5 @@ def _volumes(sets: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     if not sets:
         return np.zeros(0)
     starts = np.cumsum([0, *(len(points) for points in sets[:-1])])
-    return hull_volumes(np.concatenate(sets), starts, SEARCH_RTOL)
+    volumes = hull_volumes(np.concatenate(sets), starts, SEARCH_RTOL)
+    return volumes if volumes.all() else hull_volumes(np.concatenate(sets), starts, 1e-8)

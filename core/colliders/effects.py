@@ -30,7 +30,6 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.findings import NO_CERTAIN_VOLUME
 from ..inertia.mass_properties import MassProperties
 from ..mesh.hulls import ConvexHull, convex_hull
 from ..mesh.surface import Surface, triangle_areas
@@ -42,6 +41,7 @@ from ..robots.model import Effect, Inertial, Pose, Shape, compare, ratio
 from ..robots.primitives import moments_of
 from ..statics.gradient import volume_gradient
 from ..verdict.finding import MeasureError
+from .findings import COLLIDERS_FLAT
 
 SUMS = monomial_count(2)  # mass, first and second moments
 DEGREE = monomials(2).sum(axis=1)
@@ -76,7 +76,7 @@ def effect(body: MassProperties, shapes: Sequence[Shape], volume: float) -> Effe
     shares, rows = _ten_sums(body, shapes)
     sums = rows @ [shape.mass for shape in shapes]
     if not sums[0] > 0.0:
-        raise MeasureError(NO_CERTAIN_VOLUME)
+        raise MeasureError(COLLIDERS_FLAT)
     shift = sums[1:4] / sums[0]
     second = sums[SECOND_MOMENT_INDEX] - sums[0] * np.outer(shift, shift)
     own = Inertial(
@@ -98,7 +98,7 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
     """
     volumes, rows = _ten_sums(body, shapes)
     if not sum(volumes) > 0.0 or not body.mass > 0.0:
-        raise MeasureError(NO_CERTAIN_VOLUME)
+        raise MeasureError(COLLIDERS_FLAT)
     weights = np.sqrt(volumes / sum(volumes))
     second = body.inertia.trace() / 2.0 * np.eye(3) - body.inertia
     target = np.zeros(SUMS)
@@ -213,7 +213,14 @@ def correct_vertices(
     parts = [
         shapes[place].pose.apply(mesh.points * shapes[place].size) for place, mesh in meshes.items()
     ]
-    volume = polyhedron_moments(surface)[0].total
+    try:
+        volume = polyhedron_moments(surface)[0].total
+    except MeasureError:  # an open sheet encloses nothing
+        volume = 0.0
+    if not volume > 0.0:
+        volume = sum(float(moments_of(shape).total) for shape in shapes)
+    if not volume > 0.0:
+        raise MeasureError(COLLIDERS_FLAT)
     hulls = _Hulls(body, volume, parts, fixed)
     points, off = _solve(hulls, min(outward, inward) / hulls.size)
     if off > NEAR:

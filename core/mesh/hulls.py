@@ -100,9 +100,6 @@ def convex_hull(
     grid = np.rint((points - points.min(axis=0)) / extent * 2.0**GRID_BITS).astype(np.int64)
     step = tolerance * 2.0**GRID_BITS
     corners = _first_corners(grid.astype(np.float64), max(step, 1.0))
-    while len(corners) < 4 and step > 1.0:  # thinner than the tolerance
-        step /= 100.0
-        corners = _first_corners(grid.astype(np.float64), max(step, 1.0))
     if len(corners) == 2:
         raise MeasureError(HULL_WITHOUT_EXTENT)
     if len(corners) == 3:

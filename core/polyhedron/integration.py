@@ -220,7 +220,7 @@ def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
     """
     points = np.ascontiguousarray(surface.points.T, np.float64)
     middle = points.mean(axis=1)
-    points -= middle[:, None]
+    points = points - middle[:, None]  # the array may be the surface's own
     sums = np.zeros(4)
     for start in range(0, len(surface.triangles), FACES_PER_BLOCK):
         sums += _triangles(points, surface.triangles[start : start + FACES_PER_BLOCK])

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Values of animated channels: rotations as continuous quaternions, axes and angles or Euler angles; Bézier handles."""
+"""Values of animated channels: rotations as continuous quaternions, axes and angles or Euler
+angles; Bézier handles.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,8 @@ MOST_PIECES = 32
 
 
 def rotation_values(turns: NDArray, mode: str, first: NDArray) -> NDArray[np.float64]:
-    """Return (s, k) values of rotations (s, 3, 3) without jumps, the first being the nearest to `first`.
+    """Return (s, k) values of rotations (s, 3, 3) without jumps, the first being the nearest to
+    `first`.
 
     mode: Blender's name of the rotation mode.
     """
@@ -38,7 +41,8 @@ def rotation_values(turns: NDArray, mode: str, first: NDArray) -> NDArray[np.flo
         for side in (1.0, -1.0):
             if cosine > LOCKED:
                 third = np.arctan2(side * m[j, i], side * m[i, i])
-            # The matrix turned back about the third axis shows the first angle, however small the cosine is.
+            # The matrix turned back about the third axis shows the first angle, however small the
+            # cosine is.
             c = np.cos(third)
             s = np.sin(third)
             angles = np.empty(3)
@@ -124,9 +128,11 @@ def in_pieces(values: NDArray, counts: NDArray) -> NDArray[np.float64]:
 
 
 def handle_values(values: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the values of the handles, a third of a frame after and before the keys, of values at the nodes of frames.
+    """Return the values of the handles, a third of a frame after and before the keys, of values at
+    the nodes of frames.
 
-    values: (LAST f + 1, ...). The two (f, ...) handles make the cubic through all nodes but the middle one.
+    values: (LAST f + 1, ...). The two (f, ...) handles make the cubic through all nodes but the
+    middle one.
     """
     places = NODES[[1, -2]]
     inner = 3.0 * places * (1.0 - places) ** 2, 3.0 * places**2 * (1.0 - places)

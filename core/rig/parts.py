@@ -53,7 +53,9 @@ class Parts:
         )
 
     def placed(self, matrices: NDArray, factors: NDArray) -> Parts:
-        """Return parts that are in the spaces of their bones at (p, 4, 4) matrices, their masses times (p,) factors."""
+        """Return parts that are in the spaces of their bones at (p, 4, 4) matrices, their masses
+        times (p,) factors.
+        """
         linear = matrices[:, :3, :3]
         centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
         spreads = factors[:, None, None] * (linear @ self.spreads @ linear.swapaxes(1, 2))

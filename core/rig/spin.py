@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A flight that keeps its angular momentum: the rotation of a carrier whose parts move relative to it.
+"""A flight that keeps its angular momentum: the rotation of a carrier whose parts move relative to
+it.
 
-The momentum about the center is L = Q (h + I ω): Q is the rotation of the carrier, h the momentum and I the inertia of
-the parts in its axes. So Q follows from an initial value problem, Q' = Q [ω], with ω = I⁻¹ (Qᵀ L − h). Poses are
-sampled at `NODES` of every frame and are polynomials between them; no polynomial crosses a frame, where keys have
-corners. The integrator is that of Runge, Kutta and Munthe-Kaas of fourth order, with steps halved until it converges.
+The momentum about the center is L = Q (h + I ω): Q is the rotation of the carrier, h the momentum
+and I the inertia of the parts in its axes. So Q follows from an initial value problem, Q' = Q [ω],
+with ω = I⁻¹ (Qᵀ L − h). Poses are sampled at `NODES` of every frame and are polynomials between
+them; no polynomial crosses a frame, where keys have corners. The integrator is that of Runge, Kutta
+and Munthe-Kaas of fourth order, with steps halved until it converges.
 """
 
 from __future__ import annotations
@@ -19,7 +21,8 @@ from numpy.typing import NDArray
 from ..numerics.rotations import quaternion, rotation_matrix
 from .motion import Course, continuous
 
-# Of a frame, in -1 to 1. A cubic through the first, second, fourth and fifth has the least error of its derivative.
+# Of a frame, in -1 to 1. A cubic through the first, second, fourth and fifth has the least error of
+# its derivative.
 PLACES = np.cos(np.pi * np.arange(5)[::-1] / 4.0)
 NODES = (PLACES + 1.0) / 2.0
 LAST = len(NODES) - 1
@@ -34,10 +37,12 @@ SPINLESS = 0.1  # of the parts' momenta: a smaller total is compared with theirs
 
 @dataclass(frozen=True, eq=False)
 class CarriedParts:
-    """The p parts of a body at the nodes of f frames, in the axes of their carrier, about the common center.
+    """The p parts of a body at the nodes of f frames, in the axes of their carrier, about the
+    common center.
 
-    The shapes begin with (f, n): n nodes each, the last of one frame being the first of the next. axes: (f, n, 3, 3)
-    rotations of the carrier. arms: (f, n, p, 3). spreads, linear: (f, n, p, 3, 3), as in Course.
+    The shapes begin with (f, n): n nodes each, the last of one frame being the first of the next.
+    axes: (f, n, 3, 3) rotations of the carrier. arms: (f, n, p, 3). spreads, linear: (f, n, p, 3,
+    3), as in Course.
     """
 
     step: float
@@ -82,7 +87,8 @@ class CarriedParts:
         """(f, n, p, 3) angular momenta of the parts about the common center, in the world."""
         turns = continuous(quaternion(self.axes.reshape(-1, 3, 3))).reshape(*self.axes.shape[:2], 4)
         rate = self.rates(turns)
-        # Twice the vector of the conjugate times the rate is the angular velocity in the carrier's axes.
+        # Twice the vector of the conjugate times the rate is the angular velocity in the carrier's
+        # axes.
         spin = turns[..., :1] * rate[..., 1:] - rate[..., :1] * turns[..., 1:]
         spin = 2.0 * (spin - np.cross(turns[..., 1:], rate[..., 1:]))
         momenta = self.own_momenta + np.einsum("fnpij,fnj->fnpi", self.inertia, spin)
@@ -96,7 +102,8 @@ class CarriedParts:
     def deviations(self, kept: NDArray) -> NDArray[np.float64]:
         """Return (f, n) distances of the angular momentum from a constant one, relative to it.
 
-        If it is below a tenth of the parts' momenta, as of a cat that turns in its fall, they are relative to these.
+        If it is below a tenth of the parts' momenta, as of a cat that turns in its fall, they are
+        relative to these.
         """
         size = float(np.linalg.norm(kept))
         parts = float(np.linalg.norm(self.momenta, axis=-1).sum(axis=-1).max())

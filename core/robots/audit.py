@@ -111,8 +111,12 @@ class Audit:
 
     def repairs(self) -> list[tuple[StatedLink, StatedInertial]]:
         """Return the links with a corrected inertial, if the file itself holds the inertial."""
-        found = [(one.link, one.repaired) for one in self.links if one.link.span is not None]
-        return [(link, repaired) for link, repaired in found if repaired is not None]
+        found = {  # Copies of a body have one inertial in the file.
+            one.link.span: (one.link, one.repaired)
+            for one in self.links
+            if one.link.span is not None and one.repaired is not None
+        }
+        return [*found.values()]
 
 
 @dataclass(frozen=True, eq=False)

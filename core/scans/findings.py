@@ -39,6 +39,16 @@ SCAN_PLACEMENT_OVERRIDDEN = note(
 SCAN_UNSTATED = warning(
     "scan_unstated", "The file has no {part:word}: 1 was assumed. Use Set Spacing, or --{option}."
 )
+SCAN_IN_MILLIMETERS = warning(
+    "scan_in_millimeters",
+    "The file has no unit: 1 unit was taken as 1 mm, as other readers of {format} do. Use "
+    "--unit-scale, or state the unit.",
+)
+SCAN_LABELS = warning(
+    "scan_labels",
+    "The samples look like labels ({count} whole numbers), between which a threshold has no "
+    "meaning. Save each label as a mask of 0 and 1, and use --density-scale without --threshold.",
+)
 POSITIONS_COUNT = error(
     "positions_count",
     "The positions along {axis} in “{file}” must be one row of numbers, {samples} as the scan has "

@@ -25,6 +25,7 @@ from ..verdict.finding import FileError, Finding, finding
 from .findings import (
     POSITIONS_COUNT,
     POSITIONS_NOT_ASCENDING,
+    SCAN_IN_MILLIMETERS,
     SCAN_OUT_OF_MEMORY,
     SCAN_OWN_UNIT,
     SCAN_PLACEMENT_OVERRIDDEN,
@@ -52,7 +53,7 @@ EVEN: Positions = (None, None, None)
 
 
 def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
-    """Read the scan in a file: NRRD, NIfTI-1, .npy, .npz, or .raw called NAME_XxYxZ_TYPE.raw.
+    """Read the scan in a file: NRRD, NIfTI, .npy, .npz, or .raw called NAME_XxYxZ_TYPE.raw.
 
     Parameters
     ----------
@@ -144,7 +145,7 @@ def sample_matrix(
     check_type("scan", scan, Scan)
     findings = []
     matrix = float_array("scan.matrix", scan.matrix, 4, 4).copy()
-    meters_per_unit = (unit_scale or 1.0) if scan.unit is None else scan.unit
+    meters_per_unit = scan.unit or unit_scale or scan.usual_unit or 1.0
     if scan.unit is not None and unit_scale is not None:
         findings.append(finding(SCAN_OWN_UNIT))
     given = unit_scale or 1.0
@@ -161,7 +162,11 @@ def sample_matrix(
     if not scan.is_placed and spacing is None:
         findings.append(finding(SCAN_UNSTATED, part="spacing", option="spacing"))
     elif scan.unit is None and unit_scale is None and spacing is None:
-        findings.append(finding(SCAN_UNSTATED, part="unit", option="unit-scale"))
+        findings.append(
+            finding(SCAN_UNSTATED, part="unit", option="unit-scale")
+            if scan.usual_unit is None
+            else finding(SCAN_IN_MILLIMETERS, format="anatomical scans")
+        )
     return matrix, tuple(findings)
 
 

@@ -1,13 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""NIfTI-1 files, https://nifti.nimh.nih.gov/nifti-1: one file, raw or packed by gzip."""
+"""NIfTI files, https://nifti.nimh.nih.gov, of version 1 or 2: one file, raw or packed by gzip."""
 
 from __future__ import annotations
 
 import math
-import struct
 from pathlib import Path
-from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,16 +15,15 @@ from ..files.findings import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED
 from ..files.limits import Limits
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import FileError
-from .findings import SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
+from .findings import SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE, SCAN_SIZE
 from .scan import (
     Scan,
-    gzip_blocks,
     map_samples,
     shape_of,
     unpack_samples,
+    unpacked_blocks,
 )
 
-HEADER = 348  # bytes
 TYPES = {
     2: "u1",
     4: "i2",
@@ -40,84 +37,118 @@ TYPES = {
     1280: "u8",
 }
 UNITS = {1: 1.0, 2: 1e-3, 3: 1e-6}
-ByteOrder: TypeAlias = Literal["<", ">"]
-BYTE_ORDERS: tuple[ByteOrder, ...] = ("<", ">")
+# The fields that matter: their shapes, and for both versions their types and offsets.
+_FIELDS = {
+    "magic": ((), "S4", 344, "S4", 4),
+    "dim": ((8,), "i2", 40, "i8", 16),
+    "datatype": ((), "i2", 70, "i2", 12),
+    "bitpix": ((), "i2", 72, "i2", 14),
+    "pixdim": ((8,), "f4", 76, "f8", 104),
+    "vox_offset": ((), "f4", 108, "i8", 168),
+    "scl_slope": ((), "f4", 112, "f8", 176),
+    "scl_inter": ((), "f4", 116, "f8", 184),
+    "xyzt_units": ((), "u1", 123, "i4", 500),
+    "qform_code": ((), "i2", 252, "i4", 344),
+    "sform_code": ((), "i2", 254, "i4", 348),
+    "quatern": ((6,), "f4", 256, "f8", 352),
+    "srow": ((3, 4), "f4", 280, "f8", 400),
+}
+_SIZES = {348: 1, 540: 3}  # bytes of the header, and the place of its types in `_FIELDS`
 
 
 def read_nifti(path: Path, limits: Limits) -> Scan:
     """Read the scan as a memory map, or unpacked if it is gzipped."""
     packed = path.name.lower().endswith(".gz")
-    head = _head(path, packed)
-    if len(head) < HEADER:
-        raise damaged(path, DAMAGE_CUT_SHORT, part="header")
-    order: ByteOrder | None = next(
-        (mark for mark in BYTE_ORDERS if struct.unpack_from(mark + "i", head)[0] == 348), None
-    )
-    if order is None or head[344:348] not in (b"n+1\0", b"ni1\0"):
-        raise FileError(FILE_UNRECOGNIZED, format="NIfTI-1")
-    if head[344:348] == b"ni1\0":
+    header = _read_header(path, packed)
+    if header["magic"][:2] == b"ni":
         raise FileError(SCAN_IN_SEVERAL_FILES, suffix=".nii")
-    dim = struct.unpack_from(order + "8h", head, 40)
+    dim = header["dim"].tolist()
     if not 1 <= dim[0] <= 7:
         raise wrong_field("NIfTI", "dim", "1 to 7 dimensions", dim[0])
-    shape = shape_of(dim[1 : dim[0] + 1])
-    code, bits = struct.unpack_from(order + "2h", head, 70)
+    sizes = dim[1 : dim[0] + 1]
+    while len(sizes) > 3 and sizes[-1] == 1:  # the first three are those in space
+        del sizes[-1]
+    if len(sizes) > 3:
+        raise FileError(SCAN_SIZE, samples=sizes)
+    shape = shape_of(sizes)
+    code = int(header["datatype"])
     if code not in TYPES:
         raise FileError(SCAN_SAMPLE_TYPE, type="NIfTI {}".format(code))
-    dtype = np.dtype(TYPES[code]).newbyteorder(order)
-    if bits not in (0, 8 * dtype.itemsize):
-        raise wrong_field("NIfTI", "bitpix", "the size of its data type", bits)
-    offset, slope, intercept = struct.unpack_from(order + "3f", head, 108)
-    if not 348.0 <= offset < 1 << 40 or offset != int(offset):
+    dtype = np.dtype(TYPES[code]).newbyteorder(header.dtype["dim"].base.byteorder)
+    if header["bitpix"] not in (0, 8 * dtype.itemsize):
+        raise wrong_field("NIfTI", "bitpix", "the size of its data type", header["bitpix"])
+    offset = float(header["vox_offset"])
+    if not header.dtype.itemsize <= offset < 1 << 40 or offset != int(offset):
         raise wrong_field("NIfTI", "vox_offset", "a whole number behind the header", offset)
-    matrix, placed = _sample_matrix(head, order)
+    matrix, placed = _sample_matrix(header)
     if packed:
         samples = unpack_samples(path, 0, dtype, shape, int(offset), limits)
     else:
         samples = map_samples(path, dtype, shape, int(offset))
-    if slope == 0.0:  # by the standard: not scaled
+    slope, intercept = float(header["scl_slope"]), float(header["scl_inter"])
+    if slope == 0.0 or math.isnan(slope):  # by the standard, and by its libraries: not scaled
         slope, intercept = 1.0, 0.0
-    return Scan(samples, matrix, UNITS.get(head[123] & 7), placed, slope, intercept)
+    unit = UNITS.get(int(header["xyzt_units"]) & 7)
+    return Scan(samples, matrix, unit, placed, slope, intercept, usual_unit=1e-3)
 
 
-def _head(path: Path, packed: bool) -> bytes:
-    if not packed:
-        with open(path, "rb") as file:
-            return file.read(HEADER)
-    head = b""
-    for block in gzip_blocks(path, 0):
-        head += block[: HEADER - len(head)]
-        if len(head) == HEADER:
+def _read_header(path: Path, packed: bool) -> np.void:
+    """Return the fields of a header of either version and byte order. Raises FileError."""
+    with open(path, "rb") as file:
+        blocks = unpacked_blocks(path, 0, "gzip") if packed else iter([file.read(max(_SIZES))])
+        head = b""
+        while len(head) < max(_SIZES) and (block := next(blocks, b"")):
+            head += block
+    if len(head) < min(_SIZES):
+        raise damaged(path, DAMAGE_CUT_SHORT, part="header")
+    for order in "<>":
+        size = int.from_bytes(head[:4], "little" if order == "<" else "big")
+        if size in _SIZES:
             break
-    return head
+    else:
+        raise FileError(FILE_UNRECOGNIZED, format="NIfTI")
+    if len(head) < size:
+        raise damaged(path, DAMAGE_CUT_SHORT, part="header")
+    at = _SIZES[size]
+    layout = np.dtype(
+        {
+            "names": list(_FIELDS),
+            "formats": [(order + field[at], field[0]) for field in _FIELDS.values()],
+            "offsets": [field[at + 1] for field in _FIELDS.values()],
+            "itemsize": size,
+        }
+    )
+    header = np.frombuffer(head, layout, 1)[0]
+    if header["magic"] not in ((b"n+1", b"ni1") if at == 1 else (b"n+2", b"ni2")):
+        raise FileError(FILE_UNRECOGNIZED, format="NIfTI")
+    return header
 
 
-def _sample_matrix(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
+def _sample_matrix(header: np.void) -> tuple[NDArray[np.float64], bool]:
     """Return the matrix of the samples (affine, else quaternion, else spacing), and whether the
     header states it.
     """
     matrix = np.eye(4)
-    pixdim = struct.unpack_from(order + "8f", head, 76)
-    qform, sform = struct.unpack_from(order + "2h", head, 252)
-    b, c, d, *offset = struct.unpack_from(order + "6f", head, 256)
-    if sform > 0:
-        matrix[:3] = np.array(struct.unpack_from(order + "12f", head, 280)).reshape(3, 4)
+    pixdim = header["pixdim"].astype(np.float64)
+    has_quaternion = header["qform_code"] > 0
+    if header["sform_code"] > 0:
+        matrix[:3] = header["srow"]
         return matrix, True
     spacing = np.abs(pixdim[1:4])
     if not all(0.0 < distance < math.inf for distance in spacing):
-        if qform > 0 or any(pixdim[1:4]):
+        if has_quaternion or pixdim[1:4].any():
             raise wrong_field(
                 "NIfTI", "pixdim", "three spacings that are not zero", *spacing.tolist()
             )
         return matrix, False
-    if qform > 0:
-        if not all(map(math.isfinite, (b, c, d, *offset))) or b * b + c * c + d * d > 1.0 + 1e-5:
-            raise wrong_field("NIfTI", "quatern", "a rotation", b, c, d, *offset)
-        a = math.sqrt(max(0.0, 1.0 - (b * b + c * c + d * d)))
-        turn = rotation_matrix((a, b, c, d))
-        turn[:, 2] *= -1.0 if pixdim[0] < 0.0 else 1.0
-        matrix[:3, :3] = turn * spacing
-        matrix[:3, 3] = offset
+    if not has_quaternion:
+        matrix[:3, :3] = np.diag(spacing)
         return matrix, True
-    matrix[:3, :3] = np.diag(spacing)
+    b, c, d, *offset = header["quatern"].tolist()
+    if not all(map(math.isfinite, (b, c, d, *offset))) or b * b + c * c + d * d > 1.0 + 1e-5:
+        raise wrong_field("NIfTI", "quatern", "a rotation", b, c, d, *offset)
+    turn = rotation_matrix((math.sqrt(max(0.0, 1.0 - (b * b + c * c + d * d))), b, c, d))
+    turn[:, 2] *= -1.0 if pixdim[0] < 0.0 else 1.0
+    matrix[:3, :3] = turn * spacing
+    matrix[:3, 3] = offset
     return matrix, True

@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""NRRD files, http://teem.sourceforge.net/nrrd/format.html: samples raw or packed by gzip, attached
-or detached.
+"""NRRD files, http://teem.sourceforge.net/nrrd/format.html: samples raw, as text,
+or packed by gzip or bzip2, attached or detached.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +26,7 @@ from ..files.limits import Limits
 from ..files.number_text import parse_number, parse_whole
 from ..verdict.finding import FileError
 from .findings import NRRD_DATA_FILE_OUTSIDE, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
-from .scan import (
-    Scan,
-    map_samples,
-    shape_of,
-    unpack_samples,
-)
+from .scan import Scan, map_samples, parse_samples, shape_of, space_axes, unpack_samples
 
 HEADER_BLOCK = 1 << 16  # bytes of a header that are read at a time
 MAX_AXES = 16
@@ -100,6 +95,23 @@ TYPES = {
     }.items()
     for name in names.split(",")
 }
+ENCODINGS = {
+    "raw": "raw",
+    **dict.fromkeys(("txt", "text", "ascii"), "text"),
+    **dict.fromkeys(("gz", "gzip"), "gzip"),
+    **dict.fromkeys(("bz2", "bzip2"), "bzip2"),
+}
+# Signs of the coordinates of anatomical spaces, which become right, anterior, superior as in NIfTI.
+_TO_RAS = {
+    **dict.fromkeys(("right-anterior-superior", "ras", "rast"), (1.0, 1.0, 1.0)),
+    **dict.fromkeys(("left-anterior-superior", "las", "last"), (-1.0, 1.0, 1.0)),
+    **dict.fromkeys(("left-posterior-superior", "lps", "lpst"), (-1.0, -1.0, 1.0)),
+}
+_OTHER_SPACES = "scanner-xyz", "3d-right-handed", "3d-left-handed"
+_PER_AXIS = {
+    *("sizes", "spacings", "thicknesses", "axis mins", "axismins", "axis maxs", "axismaxs"),
+    *("centers", "centerings", "kinds", "units", "space directions"),
+}
 _HEADER_END = re.compile(rb"\r?\n\r?\n")
 _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
 
@@ -147,22 +159,29 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
         raise _field(fields, "sizes", "three numbers")
     if _numbers(fields, "dimension", parse_whole) != [len(sizes)]:
         raise _field(fields, "dimension", "the count of “sizes”")
+    fields |= dict(_spatial_fields(fields, space_axes(sizes), len(sizes)))
     shape = shape_of(sizes)
     kind = TYPES.get(fields.get("type", "").lower())
     if kind is None:
         raise FileError(SCAN_SAMPLE_TYPE, type=fields.get("type", "“”"))
     dtype = np.dtype(kind)
     endian = fields.get("endian", "").lower()
-    if dtype.itemsize > 1 and endian not in ("little", "big"):
+    encoding = ENCODINGS.get(fields.get("encoding", "").lower())
+    if encoding is None:
+        raise _field(fields, "encoding", "raw, gzip, bzip2 or text")
+    if encoding != "text" and dtype.itemsize > 1 and endian not in ("little", "big"):
         raise _field(fields, "endian", "little or big")
     dtype = dtype.newbyteorder(">" if endian == "big" else "<")
     kinds = fields.get("kinds", "").lower().split()
-    if kinds and (len(kinds) != len(sizes) or not SPACE_KINDS.issuperset(kinds[:3])):
+    if kinds and not (len(kinds) == 3 and SPACE_KINDS.issuperset(kinds)):
         raise _field(fields, "kinds", "three axes in space")
     matrix, placed, unit = _sample_matrix(fields, shape)
-    encoding = fields.get("encoding", "").lower()
-    if encoding not in ("raw", "gzip", "gz"):
-        raise _field(fields, "encoding", "raw or gzip")
+    space = fields.get("space", "").lower().removesuffix("-time")
+    is_anatomical = space in _TO_RAS
+    if is_anatomical and "space directions" in fields:
+        matrix[:3] *= np.array(_TO_RAS[space])[:, None]
+    elif space and not is_anatomical and space not in _OTHER_SPACES:
+        raise _field(fields, "space", "a space of NRRD, such as left-posterior-superior")
     line_skip = _skip(fields, "line skip", 0)
     # The samples are the last bytes of a file if the skip is -1; compressed ones are counted from
     # their start.
@@ -174,9 +193,21 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
         samples = map_samples(
             source, dtype, shape, start + max(byte_skip, 0), from_end=byte_skip == -1
         )
+    elif encoding == "text":
+        samples = parse_samples(source, start + byte_skip, dtype, shape, limits)
     else:
-        samples = unpack_samples(source, start, dtype, shape, byte_skip, limits)
-    return Scan(samples, matrix, unit, placed)
+        samples = unpack_samples(source, start, dtype, shape, byte_skip, limits, encoding)
+    return Scan(samples, matrix, unit, placed, usual_unit=1e-3 if is_anatomical else None)
+
+
+def _spatial_fields(
+    fields: dict[str, str], axes: Sequence[int], count: int
+) -> Iterator[tuple[str, str]]:
+    """Yield the fields with an entry for each of `count` axes, left with those of three axes."""
+    for name in _PER_AXIS & fields.keys() if count > 3 else ():
+        words = re.findall(r'"[^"]*"|\([^()]*\)|[^\s"()]+', fields[name])
+        if len(words) == count:
+            yield name, " ".join(words[axis] for axis in axes)
 
 
 def _samples_start(
@@ -250,11 +281,7 @@ def _sample_matrix(
     if "space directions" in fields:
         directions = _vectors(fields, "space directions")
         vectors = [row for row in directions if row is not None]
-        if (
-            len(vectors) != 3
-            or len(directions) == len(fields["sizes"].split())
-            and None in directions[:3]
-        ):
+        if len(vectors) != 3:
             raise _field(fields, "space directions", "three vectors")
         matrix[:3, :3] = np.array(vectors).T
         if "space origin" in fields:

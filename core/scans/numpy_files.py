@@ -10,7 +10,7 @@ import math
 import re
 import zipfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import cast
 
@@ -27,6 +27,7 @@ from .scan import (
     map_samples,
     real_samples,
     shape_of,
+    space_axes,
 )
 from .scan_files import SAMPLE_TYPES
 
@@ -59,6 +60,7 @@ def read_npz(path: Path, limits: Limits) -> Scan:
     """
     with _archive(path, limits) as (archive, shapes):
         volumes = [name for name, shape in shapes.items() if len(shape) == 3]
+        volumes = volumes or [name for name, shape in shapes.items() if _is_volume(shape)]
         if not volumes:
             raise FileError(SCAN_SIZE, samples=next(map(list, shapes.values()), []))
         name = "density" if "density" in volumes else volumes[0]
@@ -69,6 +71,13 @@ def read_npz(path: Path, limits: Limits) -> Scan:
         return Scan(
             real_samples(_unpack(archive, path, name, limits)), np.eye(4), findings=findings
         )
+
+
+def _is_volume(shape: Sequence[int]) -> bool:
+    """Return whether an array has three axes in space."""
+    with suppress(FileError):
+        return bool(space_axes(shape))
+    return False
 
 
 def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, NDArray]:

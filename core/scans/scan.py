@@ -9,6 +9,7 @@ are used. Every fault of a file is a FileError that names the fault.
 
 from __future__ import annotations
 
+import bz2
 import math
 import zlib
 from collections.abc import Iterator, Sequence
@@ -28,7 +29,9 @@ from ..files.limits import Limits
 from ..verdict.finding import FileError, Finding
 from .findings import SCAN_SAMPLE_TYPE, SCAN_SIZE
 
-MAX_GZIP_RATIO = 1032  # Most bytes that one byte of a gzip file can unpack to.
+# Most bytes that one byte of a packed file can unpack to; bzip2 packs 900 kB of zeros in 39 bytes.
+MAX_RATIOS = {"gzip": 1032, "bzip2": 23_077}
+STREAMS = {"gzip": "gzip stream", "bzip2": "bzip2 stream"}
 PACKED = 1 << 16  # Packed bytes read at a time; the rest after each small member is copied.
 BLOCK = 1 << 18  # unpacked bytes at a time
 
@@ -47,6 +50,8 @@ class Scan:
         None if the file does not state it.
     is_placed : bool
         True if the file states the positions of samples.
+    usual_unit : float or None
+        Meters per unit that readers of such a file assume if it states none.
     slope, intercept : float
     findings : tuple of Finding
         Decisions made on the way.
@@ -65,29 +70,33 @@ class Scan:
     slope: float = 1.0
     intercept: float = 0.0
     findings: tuple[Finding, ...] = ()
+    usual_unit: float | None = None
+
+
+def space_axes(sizes: Sequence[int]) -> list[int]:
+    """Return the indices of the three axes in space: of more, the last or the first axes of one
+    sample are none. FileError if the sizes are not possible.
+    """
+    axes = list(range(len(sizes)))
+    while len(axes) > 3 and 1 in (sizes[axes[-1]], sizes[axes[0]]):
+        del axes[-1 if sizes[axes[-1]] == 1 else 0]
+    kept = [int(sizes[axis]) for axis in axes]
+    if len(axes) != 3 or min(kept) < 1 or max(kept) > 1 << 40 or math.prod(kept) > 1 << 48:
+        raise FileError(SCAN_SIZE, samples=list(sizes))
+    return axes
 
 
 def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
-    """Return three positive sizes; further sizes must be 1. FileError if they are not possible."""
-    sizes = tuple(int(size) for size in sizes)
-    dimensions = max(
-        (number for number, size in enumerate(sizes, 1) if number <= 3 or size != 1), default=0
-    )
-    if dimensions != 3:
-        raise FileError(SCAN_SIZE, samples=list(sizes))
-    x, y, z = sizes[:3]
-    if min(x, y, z) < 1 or max(x, y, z) > 1 << 40 or x * y * z > 1 << 48:
-        raise FileError(SCAN_SIZE, samples=[x, y, z])
+    """Return the sizes of the three axes in space. FileError if they are not possible."""
+    x, y, z = (int(sizes[axis]) for axis in space_axes(sizes))
     return x, y, z
 
 
 def real_samples(array: NDArray) -> NDArray:
-    """Return the array if it can be a scan of densities, else raise FileError."""
+    """Return the array, without further axes, if it can be a scan of densities, or FileError."""
     if array.dtype.kind not in "biuf":
         raise FileError(SCAN_SAMPLE_TYPE, type=str(array.dtype))
-    if array.ndim != 3 or not array.size:
-        raise FileError(SCAN_SIZE, samples=list(array.shape))
-    return array
+    return array.reshape(shape_of(array.shape), order="A")
 
 
 def map_samples(
@@ -105,20 +114,26 @@ def map_samples(
 
 
 def unpack_samples(
-    path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int, limits: Limits
+    path: Path,
+    start: int,
+    dtype: np.dtype,
+    shape: tuple[int, int, int],
+    skip: int,
+    limits: Limits,
+    packing: str = "gzip",
 ) -> NDArray:
-    """Return samples, x fastest, gzipped from byte `start` on, without the first `skip` bytes;
-    check all checksums.
+    """Return samples, x fastest, packed from byte `start` on, without the first `skip` bytes; check
+    all checksums. packing: gzip or bzip2.
     """
     byte_count = dtype.itemsize * math.prod(shape)
     total = skip + byte_count
-    room = MAX_GZIP_RATIO * path.stat().st_size
+    room = MAX_RATIOS[packing] * path.stat().st_size
     if total > room:
         raise damaged(path, DAMAGE_SIZE, bytes=max(0, room - skip), total=byte_count)
     limits.check(path, "unpacked_bytes", total)
     unpacked = np.empty(total, np.uint8)
     done = 0
-    for block in gzip_blocks(path, start):
+    for block in unpacked_blocks(path, start, packing):
         part = np.frombuffer(block, np.uint8)[: total - done]
         unpacked[done : done + len(part)] = part
         done += len(block)
@@ -128,38 +143,60 @@ def unpack_samples(
     return unpacked[skip:].view(dtype).reshape(shape, order="F")
 
 
-def gzip_blocks(path: Path, start: int) -> Iterator[bytes]:
+def unpacked_blocks(path: Path, start: int, packing: str) -> Iterator[bytes]:
     """Yield the unpacked data from byte `start` of a file on, in blocks of at most BLOCK bytes.
 
-    zlib compares the checksum and the length of each member. Zero bytes behind a member are
-    padding; anything else there, which the gzip tool ignores with a warning, is damage: it may have
-    been a member of samples.
+    The libraries compare the checksum of each member. Zero bytes behind a member are padding;
+    anything else there, which the gzip tool ignores with a warning, is damage: it may have been a
+    member of samples.
     """
     with open(path, "rb") as file:
         file.seek(start)
         waiting = file.read(PACKED)
         first = True
         while waiting or first:
-            member = zlib.decompressobj(
-                zlib.MAX_WBITS | 16
-            )  # with the head and the checksums of gzip
+            # zlib: with the head and the checksums of gzip
+            member = (
+                bz2.BZ2Decompressor()
+                if packing == "bzip2"
+                else zlib.decompressobj(zlib.MAX_WBITS | 16)
+            )
             while not member.eof:
                 try:
                     block = member.decompress(waiting, BLOCK)
-                except zlib.error as error:
+                except (zlib.error, OSError) as error:
                     reason = str(error).rpartition(": ")[2]
                     raise damaged(
-                        path, DAMAGE_INCOMPLETE, kind="gzip stream", error=reason
+                        path, DAMAGE_INCOMPLETE, kind=STREAMS[packing], error=reason
                     ) from error
-                if not (block or waiting or member.eof):
+                is_hungry = getattr(member, "needs_input", True)
+                if is_hungry and not (block or waiting or member.eof):
                     raise damaged(path, DAMAGE_CUT_SHORT, part="compressed part")
                 yield block
-                waiting = (
-                    member.unused_data
-                    if member.eof
-                    else member.unconsumed_tail or file.read(PACKED)
-                )
+                waiting = member.unused_data or getattr(member, "unconsumed_tail", b"")
+                if is_hungry and not (waiting or member.eof):
+                    waiting = file.read(PACKED)
             first = False
             waiting = waiting.lstrip(b"\0")
             while not waiting and (more := file.read(PACKED)):
                 waiting = more.lstrip(b"\0")
+
+
+def parse_samples(
+    path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], limits: Limits
+) -> NDArray:
+    """Return samples, x fastest, that are a text from byte `start` on."""
+    limits.check(path, "text_bytes", path.stat().st_size - start)
+    with open(path, "rb") as file:
+        file.seek(start)
+        words = file.read().replace(b",", b" ").split()
+    count = math.prod(shape)
+    if len(words) != count:
+        reason = "{} of {} numbers".format(len(words), count)
+        raise damaged(path, DAMAGE_INCOMPLETE, kind="table of samples", error=reason)
+    try:
+        samples = np.array(words).astype(dtype)
+    except (ValueError, OverflowError) as error:
+        reason = "a sample is no number of type {}".format(dtype.name)
+        raise damaged(path, DAMAGE_INCOMPLETE, kind="table of samples", error=reason) from error
+    return samples.reshape(shape, order="F")

@@ -32,12 +32,15 @@ class Bodies:
 
     `gyration`: (n, 3) radii of gyration about the axes. `verdicts`: (n,) indices into
     `appearance.VERDICTS`.
+    `shows_axes`, `shows_drop`: (n,) masks of the bodies with these lines.
     """
 
     centers: NDArray[np.float64]
     axes: NDArray[np.float64]
     gyration: NDArray[np.float64]
     verdicts: NDArray[np.intp]
+    shows_axes: NDArray[np.bool_]
+    shows_drop: NDArray[np.bool_]
 
     @classmethod
     def of(cls, entries: Sequence[Entry], unit: float) -> Bodies:
@@ -51,6 +54,8 @@ class Bodies:
             np.array([numbers.axes for numbers, _ in bodies]).reshape(-1, 3, 3).transpose(0, 2, 1),
             np.array([numbers.gyration for numbers, _ in bodies]).reshape(-1, 3) / unit,
             np.array([look.VERDICTS.index(verdict) for _, verdict in bodies], np.intp),
+            np.array([getattr(one, "shows_axes", True) for one in entries], bool),
+            np.array([not getattr(one, "is_plumbed", False) for one in entries], bool),
         )
 
     def put(self, rows: list[int], bodies: Bodies) -> None:
@@ -67,7 +72,12 @@ def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
     ones and the sum are drawn.
     """
     scene = context.scene
-    bones = context.selected_pose_bones or ()
+    # A character whose weight is shown has one mark.
+    bones = [
+        bone
+        for bone in context.selected_pose_bones or ()
+        if not bone.id_data.body_moments_weight.show
+    ]
     shown = list(
         zip(
             [*objects, *bones],

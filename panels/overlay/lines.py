@@ -22,14 +22,21 @@ def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> NDArray[
     place = bodies.centers, bodies.axes, bodies.gyration
     drawings = [np.empty((len(bodies.centers), 0, 2, 3))]
     if settings.show_axes:
-        drawings.append(axis_lines(*place))
+        axes = axis_lines(*place)
+        drawings.append(np.where(_each(bodies.shows_axes), axes, axes.mean(axis=2, keepdims=True)))
     if settings.show_drop_line:
-        drawings.append(drop_lines(bodies.centers, bodies.gyration))
+        drops = drop_lines(bodies.centers, bodies.gyration)
+        drawings.append(np.where(_each(bodies.shows_drop), drops, bodies.centers[:, None, None]))
     if settings.equivalent == "BOX":
         drawings.append(box_lines(*place))
     elif settings.equivalent == "ELLIPSOID":
         drawings.append(ellipsoid_lines(*place))
     return np.concatenate(drawings, axis=1)
+
+
+def _each(mask: NDArray) -> NDArray[np.bool_]:
+    """Return an (n,) mask for (n, k, 2, 3) segments."""
+    return mask[:, None, None, None]
 
 
 def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:

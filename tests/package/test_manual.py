@@ -5,6 +5,7 @@ page.
 """
 
 import importlib
+import json
 import re
 from html.parser import HTMLParser
 from pathlib import Path
@@ -130,3 +131,12 @@ def test_online_manual_finds_the_page_of_a_control(control, page, folder, monkey
     finally:
         shown.unregister()
     assert all(prefix != folder.as_uri() + "/" for prefix, _ in bpy.utils.manual_map())
+
+
+def test_search_knows_the_texts_of_pages_for_users(folder):
+    code = (folder / "_static" / "texts.js").read_text(encoding="utf-8")
+    texts = json.loads(code.removeprefix("const PAGE_TEXTS = ").rstrip().removesuffix(";"))
+    assert "center of mass" in texts["viewport"] and not any(
+        page.startswith("api/") for page in texts
+    )
+    assert "FOR_DEVELOPERS" in (folder / "_static" / "language_data.js").read_text(encoding="utf-8")

@@ -92,7 +92,11 @@ def test_disc_is_never_larger_than_its_ball(view, size):
     gyration = np.full((count, 3), size * np.sqrt(0.4))
     for verdict in range(5):
         bodies = Bodies(
-            centers, np.tile(np.eye(3), (count, 1, 1)), gyration, np.full(count, verdict)
+            centers,
+            np.tile(np.eye(3), (count, 1, 1)),
+            gyration,
+            np.full(count, verdict),
+            *np.ones((2, count), bool),
         )
         points, _, _ = discs.disc_triangles(bodies, view, 1.0)
         order = np.argsort(-view.depths(centers), kind="stable")

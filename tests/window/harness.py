@@ -215,6 +215,12 @@ class Window:
             place = self._find_button(operator)
         return place
 
+    def middle(self, operator: str) -> tuple[float, float]:
+        """Return the middle of an operator's button in the sidebar, to two pixels."""
+        x, y = self.place(operator)
+        inside = [down for down in range(-20, 21, 2) if self._button_at(x, y + down) == operator]
+        return x, y + (inside[0] + inside[-1]) / 2
+
     def choose(self, menu: str, operator: str) -> None:
         """Open a menu at the pointer, as its key or header does, and click the entry of an
         operator.

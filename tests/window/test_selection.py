@@ -90,7 +90,7 @@ def test_a_click_on_a_line_selects_that_object(listed):
     for line in range(3):
         # the panel above the list changes with the active object, and moves it
         window.buttons.clear()
-        x, y = center(window, "object.body_moments_copy")
+        x, y = window.middle("object.body_moments_copy")
         window.click(x, y + FIRST_OF_CLOSED - line * LINE_STEP)
         window.redraw()
         found += window.get(SELECTED)
@@ -99,13 +99,6 @@ def test_a_click_on_a_line_selects_that_object(listed):
     window.point_at_view()
     window.key("ctrl+z")
     window.redraw()
-
-
-def center(window, operator):
-    """The middle of a button."""
-    x, y = window.place(operator)
-    inside = [down for down in range(-20, 21, 2) if window._button_at(x, y + down) == operator]
-    return x, y + (inside[0] + inside[-1]) / 2
 
 
 def click_filter(window, name, button):
@@ -140,10 +133,10 @@ def test_columns_sort_and_warnings_come_first_on_request(three):
         "bpy.ops.object.select_all(action='DESELECT')\nbpy.data.objects['A'].select_set(True)"
     )
     window.redraw()
-    button = center(window, button_name)
+    button = window.middle(button_name)
     click_filter(window, "opened", button)
     window.buttons.clear()
-    button = center(window, button_name)
+    button = window.middle(button_name)
     assert lines(window, button) == "ABC"
     for column, order in (("Mass", "CBA"), ("Verdict", "BAC"), ("Name", "ABC")):
         click_filter(window, column, button)

@@ -10,6 +10,7 @@ the least height.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 from bpy.types import Context, Object, PoseBone
@@ -20,7 +21,7 @@ from ....core.statics.support import ground_axes
 from ....core.verdict.finding import EditRefusedError
 from ...read.tracking import tracking_paused
 from ...scale import meters_per_unit
-from ...write.reports import Refused
+from ...write.reports import Refused, distance
 from ..findings import NO_SUCH_NAME
 from . import weight as character
 from .weight import Character, Weight, bone_matrices
@@ -34,30 +35,39 @@ SLIP = 0.05
 # moves of the center that are smaller, by a bone's move or turn, are no use
 LEAST_SHIFT = 0.05
 LEAST_TURN = 0.02
-FARTHEST = 1.0  # moves and, in radians, turns of a bone
+FARTHEST = 0.5  # moves and, in radians, turns of a bone in a step
 TORN = 0.05  # share of the mass above a bone that its location may leave behind
-MAX_TRIALS = 60
+MAX_STEPS = 20
+HALVINGS = 6  # of a step that does not bring the center nearer
+FLAT = 1e-3  # of the largest rate: channels below it are left alone
+TURNS = (0.6, -0.6, 1.2, -1.2, 1.8, -1.8)  # rad: further first turns, if the center stays away
 
 UNMOVABLE = (
     "No bone that may move leaves the contacts in place. Unlock the hips, remove drivers, give the "
     "legs inverse "
     "kinematics, or choose another bone."
 )
-TOO_FAR = (
-    "“{bone}” cannot bring the center nearer than {gap:length} to its target. Choose another bone."
-)
+TOO_FAR = "“{bone}” cannot bring the center nearer than {gap} to its target. Choose another bone."
 STRETCHED = (
-    "Balancing with “{bone}” would move the contacts by {slip:length}. Lower the hips, or choose "
+    "Balancing with “{bone}” would move the contacts by {slip}. Lower the hips, or choose "
     "another bone."
 )
 IN_AIR = (
-    "Nothing touches the ground: the lowest point is {height:length} above it. Lower the pose, or "
+    "Nothing touches the ground: the lowest point is {height} above it. Lower the pose, or "
     "set Ground."
 )
 NO_CONTACT = (
     "No mesh of “{armature}” can touch the ground. Show its meshes, or turn off Contact of bones "
     "without any."
 )
+
+
+class _Look(NamedTuple):
+    """The (3,) center, the bone's (3,) head, and the farthest move of a contact's bone."""
+
+    center: NDArray[np.float64]
+    head: NDArray[np.float64]
+    slip: float
 
 
 class _Handle:
@@ -128,10 +138,8 @@ class _Search:
         """Return the (2,) displacement along the ground from a center to the target."""
         return (self.target - center) @ self.axes[:, :2]
 
-    def look(self, handle: _Handle, change: NDArray) -> tuple[NDArray, NDArray, float]:
-        """Evaluate a change: return the (3,) center, the bone's head, and the farthest move of a
-        contact's bone.
-        """
+    def look(self, handle: _Handle, change: NDArray) -> _Look:
+        """Evaluate a change of the channels."""
         handle.put(change)
         self.context.view_layer.update()
         depsgraph = self.context.evaluated_depsgraph_get()
@@ -140,78 +148,101 @@ class _Search:
         matrices = matrices[self.bones]
         moves = (matrices[:, :3, :3] @ self.local)[:, :, 0] + matrices[:, :3, 3] - self.points
         slip = float(np.linalg.norm(moves, axis=1).max(initial=0.0))
-        return self.known.pose(self.armature, depsgraph).center, head, slip
+        return _Look(self.known.pose(self.armature, depsgraph).center, head, slip)
 
     def balance(self, handle: _Handle) -> bool:
         """Move the bone and return True, or if that is impossible, leave it and return False."""
-        center, head, _ = self.look(handle, np.zeros(3))
         size = self.known.size
         up = self.axes[:, 2]
-        nudge = max(NUDGE * size, 10.0 * self.noise)
-        reached = REACHED * size + self.noise
-        scale = size if handle.turns else max(map(abs, self.armature.matrix_world.to_scale()))
-        # of usable channels, and how they move the center and the bone
-        units = []
+        start = self.look(handle, np.zeros(3))
+        self.nudge = max(NUDGE * size, 10.0 * self.noise)
+        self.scale = size if handle.turns else max(map(abs, self.armature.matrix_world.to_scale()))
+        # of usable channels, and how they move the center
+        units: list[NDArray] = []
         shifts = []
-        moves = []
         for axis, sign in ((axis, sign) for axis in handle.free for sign in (1.0, -1.0)):
             unit = sign * np.eye(3)[axis]
-            shown, moved, slip = self.look(handle, nudge / scale * unit)
-            move = nudge * unit if handle.turns else moved - head
-            reach = float(np.linalg.norm(shown - center if handle.turns else move))
-            lifts = not handle.turns and move @ up > 1e-2 * nudge  # stretches the legs
+            shown = self.look(handle, self.nudge / self.scale * unit)
+            move = shown.center - start.center if handle.turns else shown.head - start.head
+            reach = float(np.linalg.norm(move))
+            lifts = not handle.turns and move @ up > 1e-2 * self.nudge  # stretches the legs
             if (
-                reach > 1e-2 * nudge
-                and slip <= SLIP * reach + self.noise
+                reach > 1e-2 * self.nudge
+                and shown.slip <= SLIP * reach + self.noise
                 and not lifts
                 and not any(unit @ u for u in units)
             ):
                 units.append(unit)
-                shifts.append((shown - center) / nudge)
-                moves.append(move / nudge)
+                shifts.append((shown.center - start.center) / self.nudge)
+        # A turn may first lift the center and only then move it along the ground.
+        space = np.eye(3) if handle.turns else self.axes[:, :2]
         least = LEAST_TURN if handle.turns else LEAST_SHIFT
-        tolerance = STAYED * size + self.noise
-        if len(units) > 1 and np.linalg.svd(np.array(shifts) @ self.axes[:, :2])[1][-1] >= least:
-            inverse = np.linalg.inv(
-                np.linalg.qr(np.transpose(moves))[1]
-            )  # from moves of the bone to changes
-            rows = [
-                *self.axes[:, :2].T @ np.transpose(shifts),
-                *([] if handle.turns else [up @ np.transpose(moves)]),
-            ]
-            solve = inverse @ np.linalg.pinv(rows @ inverse)
-            change = np.zeros(len(units))
-            gap = np.inf
-            slip = np.inf
-            for _ in range(MAX_TRIALS):
-                center, moved, slip = self.look(handle, change @ units / scale)
-                missing = [*self.gap(center), *([] if handle.turns else [up @ (head - moved)])]
-                gap = float(np.linalg.norm(missing))
-                if gap <= reached and slip <= tolerance:
-                    return True
-                if gap <= reached:  # the least lower hip that keeps the contacts
-                    head = head - (1.05 * slip + tolerance / 2.0) * up
-                change = solve @ (np.array(rows) @ change + missing)
-                change *= min(1.0, FARTHEST * size / max(np.linalg.norm(change), size))
-            if self.failure.text == UNMOVABLE:
-                values = {
-                    "bone": handle.bone.name,
-                    "gap": gap * self.unit,
-                    "slip": slip * self.unit,
-                }
-                self.failure = Refused(TOO_FAR if slip <= tolerance else STRETCHED, **values)
+        if len(units) > 1 and np.linalg.svd(np.array(shifts) @ space)[1][1] >= least:
+            changes = [np.zeros(len(units))]
+            if handle.turns:
+                changes += [size * turn * unit for turn in TURNS for unit in np.eye(len(units))]
+            if any(self._solve(handle, np.array(units), change, start.head) for change in changes):
+                return True
         setattr(handle.bone, handle.channel, handle.start)
+        return False
+
+    def _solve(self, handle: _Handle, units: NDArray, change: NDArray, head: NDArray) -> bool:
+        """Find the least move from a first change of the units on; return whether the center is
+        over the target, the bone no higher than it was, and the contacts in place.
+        """
+        size = self.known.size
+        up = self.axes[:, 2]
+        reached = REACHED * size + self.noise
+        tolerance = STAYED * size + self.noise
+
+        def missing(seen: _Look) -> NDArray:
+            lift = [] if handle.turns else [up @ (head - seen.head)]
+            return np.array([*((self.target - seen.center) @ self.axes[:, :2]), *lift])
+
+        seen = self.look(handle, change @ units / self.scale)
+        for _ in range(MAX_STEPS):
+            gap = float(np.linalg.norm(missing(seen)))
+            if gap <= reached and seen.slip <= tolerance:
+                return True
+            if gap <= reached:  # the least lower hip that keeps the contacts
+                head = head - (1.05 * seen.slip + tolerance / 2.0) * up
+            probes = [
+                self.look(handle, (change + self.nudge * row) @ units / self.scale)
+                for row in np.eye(len(units))
+            ]
+            rows = np.transpose([missing(seen) - missing(one) for one in probes]) / self.nudge
+            inverse = np.eye(len(units))  # from moves of the bone to changes
+            if not handle.turns:
+                moves = np.transpose([one.head - seen.head for one in probes]) / self.nudge
+                inverse = np.linalg.inv(np.linalg.qr(moves)[1])
+            solve = inverse @ np.linalg.pinv(rows @ inverse, rcond=FLAT)
+            step = solve @ (rows @ change + missing(seen)) - change
+            step *= min(1.0, FARTHEST * size / max(float(np.linalg.norm(step)), 1e-9 * size))
+            gap = float(np.linalg.norm(missing(seen)))
+            for share in 0.5 ** np.arange(HALVINGS):
+                trial = self.look(handle, (change + share * step) @ units / self.scale)
+                if np.linalg.norm(missing(trial)) < gap or gap <= reached:
+                    break
+            else:
+                break
+            change = change + share * step
+            seen = trial
+        if self.failure.text == UNMOVABLE:
+            lengths = {"gap": gap, "slip": seen.slip}
+            values = {name: distance(self.unit * value) for name, value in lengths.items()}
+            text = TOO_FAR if seen.slip <= tolerance else STRETCHED
+            self.failure = Refused(text, bone=handle.bone.name, **values)
         return False
 
 
 def balance_pose(
     context: Context, armature: Object, name: str, margin: float | None
-) -> dict[str, str | float]:
+) -> dict[str, str]:
     """Move a bone of a posed character so that it is balanced, or leave it and raise Refused or
     MeasureError.
 
     name: of the bone, "" for the active bone or another suitable one. margin: in Blender's units,
-    None for the middle. Return the bone, the remaining gap and the margin, m; nothing if the
+    None for the middle. Return the bone, the remaining gap and the margin; nothing if the
     character is balanced already.
     """
     unit = meters_per_unit(context.scene)
@@ -225,7 +256,7 @@ def balance_pose(
     if weight.contacts.height is None:
         raise Refused(NO_CONTACT, armature=armature.name)
     if weight.support is None:
-        raise Refused(IN_AIR, height=weight.contacts.height * unit)
+        raise Refused(IN_AIR, height=distance(unit * weight.contacts.height))
     search = _Search(context, armature, known, weight, margin)
     if np.linalg.norm(search.gap(weight.parts.center)) <= REACHED * known.size:
         return {}
@@ -241,7 +272,9 @@ def balance_pose(
     after = character.weight(armature, context.evaluated_depsgraph_get())
     assert after is not None and after.support is not None
     gap = float(np.linalg.norm(search.gap(after.parts.center)))
-    return {"bone": moved.bone.name, "gap": gap * unit, "margin": after.support.margin * unit}
+    lengths = {"gap": gap, "margin": after.support.margin}
+    values = {name: distance(unit * value) for name, value in lengths.items()}
+    return {"bone": moved.bone.name, **values}
 
 
 def _handles(context: Context, armature: Object, known: Character, name: str) -> Iterator[_Handle]:

@@ -43,9 +43,9 @@ DESCRIPTIONS = {  # of custom properties with F-curves
 class Path:
     """Path of a center of mass over f frames.
 
-    frames: (f,) times of the keys. centers: (f, 3), in Blender's units and the world. inside: (f,), True for a center
-    over the support polygon; None without a polygon. contact, unexplained: (f,), whether anything
-    touches the ground, and whether momentum changes without that; None for groups.
+    frames: (f,) times of the keys. centers: (f, 3), in Blender's units and the world. inside: (f,),
+    True for a center over the support polygon; None without a polygon. contact, unexplained: (f,),
+    whether anything touches the ground, and whether momentum changes without that; None for groups.
     """
 
     frames: NDArray[np.float64]

@@ -80,6 +80,17 @@ def watch_all() -> None:
             watch(obj, bpy.data.objects)
 
 
+def redraw_weights(updates: handlers.Updates) -> None:
+    """Redraw the sidebars that show the weight of a character, which playback leaves as they are."""
+    for window in bpy.context.window_manager.windows if updates.frame_changed else ():
+        obj = window.view_layer.objects.active
+        if obj is not None and obj.type == "ARMATURE" and obj.body_moments_weight.show:
+            for area in window.screen.areas:
+                for region in area.regions if area.type == "VIEW_3D" else ():
+                    if region.type == "UI":
+                        region.tag_redraw()
+
+
 def note_updates(updates: handlers.Updates) -> None:
     """Note an edit on an armature if one of its watched meshes has a new shape and the armature has
     no update.

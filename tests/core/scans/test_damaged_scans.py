@@ -241,7 +241,7 @@ def test_an_archive_called_an_array_is_refused(tmp_path):
 def test_unpacked_file_cut_short_misses_its_end(tmp_path):
     for data, code in ((b"head", "damage_cut_short"), (b"head" + bytes(3), "damage_incomplete")):
         with pytest.raises(FileError) as refused:
-            list(samples.gzip_blocks(written(tmp_path / "a.gz", data), 4))
+            list(samples.unpacked_blocks(written(tmp_path / "a.gz", data), 4, "gzip"))
         assert refused.value.finding.values["cause"]["code"] == code
 
 

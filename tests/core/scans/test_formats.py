@@ -143,7 +143,7 @@ def test_nifti_of_every_type(tmp_path, kind, order, end):
 
 
 def test_nifti_placement_is_read(tmp_path):
-    sform = [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]]
+    sform = [[-0.5, -0.25, 0, 9], [0, 2, -0.125, -8], [0, 0, 3, 7]]
     scan = read_scan(
         written(tmp_path / "s.nii", nifti(values(), sform=sform, quaternion=(0, 0, 0, 1, 2, 3)))
     )
@@ -193,7 +193,7 @@ def test_nrrd_placement_is_read(tmp_path):
     scan = read_scan(
         written(tmp_path / "a.nrrd", nrrd(values(), *lines, "space origin: (-9,8,7)", MILLIMETERS))
     )
-    assert np.array_equal(scan.matrix[:3], [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]])
+    assert np.array_equal(scan.matrix[:3], [[-0.5, -0.25, 0, 9], [0, 2, -0.125, -8], [0, 0, 3, 7]])
     assert scan.is_placed and scan.unit == 1e-3
     for spacings in ("0.5 -2 3", "0.5 -2 3 nan"):
         head = nrrd(values(), "spacings: " + spacings, "axismins: 1 2 3")
@@ -485,10 +485,10 @@ NEGATIVE_SKIP = nrrd(values(), "byte skip: -1", encoding="gzip")
 NOT_GZIP = damage("damage_incomplete", kind="gzip stream", error="incorrect header check")
 DAMAGED_NIFTI = [
     (b"", damage("damage_cut_short", part="header")),
-    (b"x" * 400, ("file_unrecognized", {"format": "NIfTI-1"})),
+    (b"x" * 400, ("file_unrecognized", {"format": "NIfTI"})),
     (nifti(values())[:-1], damage("damage_size", bytes=239, total=240)),
-    (nifti_with(344, "4s", b"n+2\0"), ("file_unrecognized", {"format": "NIfTI-1"})),
-    (nifti_with(0, "i", 349), ("file_unrecognized", {"format": "NIfTI-1"})),
+    (nifti_with(344, "4s", b"n+2\0"), ("file_unrecognized", {"format": "NIfTI"})),
+    (nifti_with(0, "i", 349), ("file_unrecognized", {"format": "NIfTI"})),
     (nifti_with(344, "4s", b"ni1\0"), ("scan_in_several_files", {"suffix": ".nii"})),
     (nifti_with(40, "h", 8), nifti_field("dim", "1 to 7 dimensions", "8")),
     (nifti_with(40, "h", 1), ("scan_size", {"samples": [3]})),
@@ -527,7 +527,7 @@ DAMAGED_NRRD = [
     (nrrd_with("type: float\n", ""), ("scan_sample_type", {"type": "“”"})),
     (nrrd_with("sizes: 3 4 5\n", ""), field("sizes", "three numbers", "")),
     (nrrd_with("dimension: 3\n", ""), field("dimension", "the count of “sizes”", "")),
-    (nrrd_with("encoding: raw\n", ""), field("encoding", "raw or gzip", "")),
+    (nrrd_with("encoding: raw\n", ""), field("encoding", "raw, gzip, bzip2 or text", "")),
     (nrrd_with("type: float", "type: block"), ("scan_sample_type", {"type": "block"})),
     (nrrd_with("sizes: 3 4 5", "sizes: 3 4"), field("dimension", "the count of “sizes”", "3")),
     (nrrd_with("sizes: 3 4 5", "sizes: 3 4 x"), field("sizes", "a list of numbers", "3 4 x")),
@@ -539,7 +539,10 @@ DAMAGED_NRRD = [
         ("scan_size", {"samples": [3, 4, 5000000000000]}),
     ),
     (nrrd_with("dimension: 3", "dimension: 4"), field("dimension", "the count of “sizes”", "4")),
-    (nrrd_with("encoding: raw", "encoding: bzip2"), field("encoding", "raw or gzip", "bzip2")),
+    (
+        nrrd_with("encoding: raw", "encoding: hex"),
+        field("encoding", "raw, gzip, bzip2 or text", "hex"),
+    ),
     (nrrd_with("encoding: raw", "encoding: gzip"), NOT_GZIP),
     (NEGATIVE_SKIP, field("byte skip", "one number, not negative", "-1")),
     (nrrd_with("endian: little\n", ""), field("endian", "little or big", "")),

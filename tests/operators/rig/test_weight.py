@@ -39,7 +39,7 @@ def channels(rig):
 def test_center_comes_over_middle_and_contacts_stay(scene, seed):
     rig, _body = posed(seed)
     before = weight(rig)
-    assert BALANCE() == {"FINISHED"}
+    assert BALANCE(target="MIDDLE") == {"FINISHED"}
     after = weight(rig)
     assert np.abs(after.contacts.points - before.contacts.points).max() < 1e-4 * HEIGHT
     assert np.abs((after.parts.center - after.support.target(None))[:2]).max() < 1e-4 * HEIGHT
@@ -55,7 +55,7 @@ def test_nearest_point_inside_has_the_margin(scene):
     inside = tuple(rig.pose.bones["hips"].location)
     assert weight(rig).support.margin == pytest.approx(0.06, abs=1e-4 * HEIGHT)
     rig.pose.bones["hips"].location = 0, 0, 0
-    assert BALANCE() == {"FINISHED"}
+    assert BALANCE(target="MIDDLE") == {"FINISHED"}
     assert np.linalg.norm(inside) < np.linalg.norm(rig.pose.bones["hips"].location)
 
 
@@ -65,6 +65,31 @@ def test_straight_legs_are_lowered_before_they_are_stretched(scene):
     assert BALANCE() == {"FINISHED"}
     assert np.abs(weight(rig).contacts.points - before.contacts.points).max() < 1e-4 * HEIGHT
     assert rig.pose.bones["hips"].location.y < 0.0
+
+
+@pytest.mark.parametrize("held", [False, True], ids=["free", "held"])
+@pytest.mark.parametrize("target", ["INSIDE", "MIDDLE"])
+def test_spine_balances_from_far_as_from_near(scene, held, target):
+    """From every lean of 30° to 120° in five directions; beyond 80° a turn first lifts the body."""
+    rig, _body = posed(held=held)
+    for bone in rig.pose.bones:
+        bone.location = bone.rotation_euler = (0, 0, 0)
+    spine = rig.pose.bones["spine"]
+    for direction in np.radians((0, 45, 90, 180, 270)):
+        for lean in np.radians((30, 50, 65, 80, 100, 120)):
+            start = lean * np.cos(direction), 0.0, lean * np.sin(direction)
+            rig.pose.bones["hips"].location = 0, 0, 0
+            spine.rotation_euler = start
+            before = weight(rig)
+            result = BALANCE(bone="spine", target=target)
+            after = weight(rig)
+            assert after.support.margin > 0.0499 if target == "INSIDE" else result == {"FINISHED"}
+            if target == "MIDDLE":
+                off = (after.parts.center - after.support.target(None))[:2]
+                assert np.abs(off).max() < 1e-4 * HEIGHT
+            assert np.abs(after.contacts.points - before.contacts.points).max() < 1e-4 * HEIGHT
+            turn = np.subtract(spine.rotation_euler, start)
+            assert np.linalg.norm(turn) < lean + 0.9
 
 
 def test_legs_without_inverse_kinematics_turn_the_spine(scene):
@@ -210,7 +235,7 @@ def test_override_is_measured_and_balanced(scene, tmp_path):
     rig.pose.bones["spine"].rotation_euler = 0.7, 0, 0
     assert SHOW() == {"FINISHED"}
     assert "body_mass" not in rig
-    assert BALANCE() == {"FINISHED"}
+    assert BALANCE(target="MIDDLE") == {"FINISHED"}
     assert (
         np.abs((weight(rig).parts.center - weight(rig).support.target(None))[:2]).max()
         < 1e-4 * HEIGHT
