@@ -191,6 +191,23 @@ def matrix_along_axes(obj: Object, body: SnapTarget) -> NDArray | None:
     return target
 
 
+def matrix_for_bullet(obj: Object, body: SnapTarget) -> NDArray | None:
+    """Return the matrix of the body's center with the object's rotation, or None if the object has
+    it already; a scale stays unless it mirrors or shears.
+
+    Bullet knows neither mirrored nor sheared bodies.
+    """
+    linear = world(obj)[:3, :3]
+    products = linear.T @ linear
+    off = np.abs(products - np.diag(np.diag(products))).max()
+    if np.linalg.det(linear) > 0.0 and off <= UNIT_SCALE * products.max():
+        return matrix_at_center(obj, body)
+    target = np.eye(4)
+    target[:3, :3] = obj.matrix_world.to_quaternion().to_matrix()
+    target[:3, 3] = body.center
+    return target
+
+
 def align_to_world(
     context: Context, obj: Object, order: str, at_origin: bool, strict: bool
 ) -> bool:
