@@ -35,7 +35,12 @@ from ..scene.rigid_world import (
     remove_joint,
     require_rigid_world,
 )
-from ..scene.snap_targets import SnapTarget, matrix_along_axes, matrix_for_bullet, target_of
+from ..scene.snap_targets import (
+    SnapTarget,
+    matrix_along_axes,
+    matrix_for_bullet,
+    target_of,
+)
 from ..scene.transforms import world
 from ..settings.given import COLLIDER
 from ..write import reports
@@ -97,11 +102,8 @@ def make_rigid_bodies(
             try:
                 measured[body.obj] = _measured(context, body, ask)
             except Exception as error:
-                if (
-                    type == "PASSIVE"
-                    and getattr(error, "finding", None)
-                    and (error.finding.code in {OPEN_OBJECT, NO_VOLUME})
-                ):
+                found = error.finding.code if isinstance(error, MeasureError) else None
+                if type == "PASSIVE" and found in {OPEN_OBJECT, NO_VOLUME}:
                     floors.append(body.obj)  # no engine asks for the mass of a passive body
                     step(done)
                     continue

@@ -30,7 +30,7 @@ from ..moments.moments import Moments
 from ..numerics.arrays import distinct_arrays
 from .canonical_frame import EquivalentFrames
 from .symmetries import Symmetry
-from .unique_frame import equivalent_frames, undetermined_axes
+from .unique_frames import equivalent_frames, undetermined_axes
 from .zernike import degrees
 
 # relative to the size: residuals nearer than this are equal, and the smallest turn is taken

@@ -24,7 +24,7 @@ from ..moments.moments import Moments
 from ..numerics.arguments import check_type
 from ..numerics.arrays import distinct_arrays
 from .axial_harmonics import MAX_TILT, AxialHarmonics, axis_last, turn_by_harmonics
-from .unique_frame import equivalent_frames
+from .unique_frames import equivalent_frames
 
 EQUAL_OPERATION_ATOL = 1e-4  # matrices of one operation, known to noise, are equal to this
 

@@ -51,7 +51,7 @@ from ....core.shape.point_groups import PlacedTriangles
 from ....core.shape.registration import MAX_AXIS_ORDER, Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature, signatures
 from ....core.shape.symmetries import UNDECIDED, Symmetry, symmetry
-from ....core.shape.unique_frame import equivalent_frames, nearest_frame, unique_frame
+from ....core.shape.unique_frames import equivalent_frames, nearest_frame, unique_frame
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE

@@ -13,7 +13,7 @@ import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.shape.axial_harmonics import axial_harmonics, axis_last, turn_by_harmonics
 from body_moments.core.shape.symmetries import symmetry
-from body_moments.core.shape.unique_frame import equivalent_frames, nearest_frame
+from body_moments.core.shape.unique_frames import equivalent_frames, nearest_frame
 
 from tests.close import close
 from tests.core import bodies, shapes

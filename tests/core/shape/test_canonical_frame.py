@@ -18,7 +18,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.images import invert_through_point
 from body_moments.core.moments.moments import Moments, monomial_index, monomials
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.shape.unique_frame import equivalent_frames, nearest_frame, unique_frame
+from body_moments.core.shape.unique_frames import equivalent_frames, nearest_frame, unique_frame
 from body_moments.core.solid.measure import measure_solid
 
 from tests.core import bodies, shapes
