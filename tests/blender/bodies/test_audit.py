@@ -393,12 +393,14 @@ def test_included_mujoco_files_are_read_and_not_repaired(tmp_path):
     assert codes == {
         "deep": "audit_not_uniform",
         "own": "inertial_not_positive",
-        "arm": "inertial_spread_outside",
+        "arm0": "inertial_spread_outside",
+        "arm1": "inertial_spread_outside",
     }
     assert {link.link.name: link.link.span is None for link in found.links} == {
         "deep": True,
         "own": False,
-        "arm": True,
+        "arm0": True,
+        "arm1": True,
     }
     repairs = [(link.link, link.repaired) for link in found.links if link.repaired is not None]
     assert repaired_copy(found.description, repairs) == path.read_bytes()

@@ -424,12 +424,14 @@ def test_a_prism_turned_within_its_object_gets_its_own_axes(vertices, fold):
     assert run(AXES) == {"CANCELLED"}
 
 
-@pytest.mark.parametrize("name", [AXES, "body_moments_rigid_bodies"])
-def test_a_cube_turned_within_its_object_gets_its_own_axes(name):
+@pytest.mark.parametrize(
+    "name, options", [(AXES, {}), ("body_moments_rigid_bodies", {"frame": "AXES"})]
+)
+def test_a_cube_turned_within_its_object_gets_its_own_axes(name, options):
     bpy.ops.mesh.primitive_cube_add(location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
     obj = bpy.context.object
     turned_within(obj)
-    assert run(name) == {"FINISHED"}
+    assert run(name, **options) == {"FINISHED"}
     points = np.array([vertex.co for vertex in obj.data.vertices])
     assert np.abs(np.abs(points) - 1.0).max() < 1e-5
     assert run(AXES) == {"CANCELLED"}
