@@ -107,9 +107,8 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         def lay(obj: Object) -> bool:
             return session.lay_on_ground(context, obj, self.pose, self.ground, notes)
 
-        moved, failures = selection.apply_to_all(
-            objects, lay
-        )  # one after the other, for a child moves with its parent
+        # one after the other, for a child moves with its parent
+        moved, failures = selection.apply_to_all(objects, lay)
         session.remeasure(context, moved)
         texts = ("Laid {count} object on the ground", "Laid {count} objects on the ground")
         done = reports.phrase(*texts, count=len(moved))

@@ -32,19 +32,22 @@ from .density import material_row
 from .overlay.draw import header_switch
 from .places import in_both_places
 
+# by the frame
 CENTER_HEADINGS = {
     "WORLD": "Center of Mass (World)",
     "OBJECT": "Center of Mass (Object)",
-}  # by the frame
+}
+# for rigs
 RESTING_HEADINGS = {
     "WORLD": "Center of Mass at Rest (World)",
     "OBJECT": "Center of Mass at Rest (Object)",
-}  # for rigs
+}
 
+# prefix for the measured data, before a method
 SOURCES = {
     Source.NURBS: "NURBS: {:s}",
     Source.GRID: "Grid: {:s}",
-}  # prefix for the measured data, before a method
+}
 
 LIVE = {
     Lag.NONE: "Live: {milliseconds:.0f} ms, not stored",

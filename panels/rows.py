@@ -41,11 +41,12 @@ MIN_LINE_WIDTH = 50  # no line is made narrower
 MIN_PART = 4
 MIN_LAST_PART = 3
 NARROW = 220  # regions below this width have buttons without icons, and headings above
+# ERROR is Blender's warning sign
 ICONS = {
     Severity.NOTE: "INFO",
     Severity.WARNING: "ERROR",
     Severity.ERROR: "CANCEL",
-}  # ERROR is Blender's warning sign
+}
 
 VERDICTS = {  # icon and word; the form says it, not the color alone
     Verdict.EXACT: ("CHECKMARK", "Exact"),

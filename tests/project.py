@@ -574,9 +574,8 @@ def test(options: argparse.Namespace) -> int:
     if options.subject:
         return test_subject(options.subject, extra)
     groups = options.only or list(GROUPS)
-    versions = [
-        version for version, wanted in BLENDERS.items() if find_python(wanted)
-    ]  # this may install uv
+    # this may install uv
+    versions = [version for version, wanted in BLENDERS.items() if find_python(wanted)]
     if not versions:
         raise Failed(NO_PYTHON)
     absent = BLENDERS.keys() - versions
@@ -718,11 +717,12 @@ def parse(words: list[str]) -> argparse.Namespace:
 
 def main() -> int:
     options = parse(sys.argv[1:])
+    # a shell's job in the background has the first ignored
     for name in (
         "SIGINT",
         "SIGTERM",
         "SIGHUP",
-    ):  # a shell's job in the background has the first ignored
+    ):
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.default_int_handler)
     try:

@@ -41,9 +41,8 @@ from body_moments.core.papers.sheynin_tuzikov_2001 import sigma
 from body_moments.core.polyhedron import integration
 from body_moments.core.solid.measure import measure_solid
 
-polyhedron_moments = partial(
-    integration.polyhedron_moments, allow_open=True
-)  # A measurement calls it so.
+# A measurement calls it so.
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)
 
 
 def torus(n: int, m: int, noise: float, lopsided: bool = False) -> tuple[np.ndarray, np.ndarray]:
@@ -254,13 +253,14 @@ def verdicts(side: int, rounds: int) -> None:
     table(title, interleaved(rows, rounds), ["integral, 1 thread"], len(triangles))
 
 
+# Each order may cost so many times the kernel for low orders.
 MULTIPLES = {
     4: 6,
     6: 15,
     10: 60,
     16: 260,
     20: 480,
-}  # Each order may cost so many times the kernel for low orders.
+}
 EXPLICIT = {4: 18, 6: 40}  # times as fast as the explicit formula that each order must be
 
 

@@ -35,9 +35,8 @@ def run_sphinx(source: Path, folder: Path) -> None:
 
 def build(folder: Path) -> None:
     """Write the manual into a folder that is new or empty."""
-    for page in (DOCS / "api").glob(
-        "*.rst"
-    ):  # another build may be at work there: only of packages that are gone
+    # another build may be at work there: only of packages that are gone
+    for page in (DOCS / "api").glob("*.rst"):
         module = ROOT.joinpath(*page.stem.split(".")[1:])
         if not (module.is_dir() or module.with_suffix(".py").is_file()):
             page.unlink(missing_ok=True)

@@ -23,9 +23,8 @@ WIDTH, HEIGHT, SCALE = 168, 168, 62.0
 SPIN = 5.0  # rad/s
 COLORS = np.array([[200, 85, 60], [70, 130, 190], [95, 155, 85]])
 LIGHT = np.array([0.35, -0.75, 0.56])
-VIEW = np.array(
-    [[0.8, 0.6, 0.0], [-0.3, 0.4, 0.866], [0.52, -0.693, 0.5]]
-)  # right, up, towards the eye
+# right, up, towards the eye
+VIEW = np.array([[0.8, 0.6, 0.0], [-0.3, 0.4, 0.866], [0.52, -0.693, 0.5]])
 OUTER, WALL = np.array([1.3, 0.9, 1.0]), 0.08
 
 

@@ -73,9 +73,8 @@ def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
     """Return the sign of the determinant and the lengths of the axes; None if sheared, flat or not
     finite.
     """
-    axes = list(
-        zip(*[row[:3] for row in obj.matrix_world[:3]])
-    )  # pure Python: a panel asks for many objects
+    # pure Python: a panel asks for many objects
+    axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))
     lengths = [math.hypot(*axis) for axis in axes]
     if not all([0.0 < length < MAX_LENGTH for length in lengths]):
         return None

@@ -56,11 +56,12 @@ UNSEEN = (
     ".es.",
     ".pn.",
 )
+# of attributes' values, by their type in RNA
 DTYPES = {
     "FLOAT": np.float32,
     "INT": np.int32,
     "BOOLEAN": bool,
-}  # of attributes' values, by their type in RNA
+}
 PLACES = (
     bpy.types.Collection,
     bpy.types.Scene,
@@ -72,6 +73,7 @@ CHANNELS = ("location", "rotation", "scale", "delta")  # beginnings of animated 
 # Nodes that show a mesh's own axes: outputs, by the node's type, or values of a setting.
 OWN_AXES_OUTPUTS = {"TEX_COORD": {"Object", "Generated", "Normal"}, "OBJECT_INFO": {"Location"}}
 OWN_AXES_VALUES = {"OBJECT", "BLENDER_OBJECT", "RADIAL"}
+# if nothing is linked
 GENERATED = {
     "NOISE",
     "VORONOI",
@@ -81,7 +83,7 @@ GENERATED = {
     "BRICK",
     "GRADIENT",
     "GABOR",
-}  # if nothing is linked
+}
 
 
 class MeshData:

@@ -387,9 +387,8 @@ def add_layer(obj: Object, name: str, times: NDArray, channels: Mapping[Channel,
     """
     scene = bpy.context.scene
     scale = time_scale(scene)
-    beyond = int(
-        scale != 1.0
-    )  # stretched times are single precision, so their last one may be later
+    # stretched times are single precision, so their last one may be later
+    beyond = int(scale != 1.0)
     animation = obj.animation_data_create()
     action = animation.action
     if action is not None:

@@ -73,9 +73,8 @@ class SceneLinks:
                     np.array_equal(frame.rotation, link.pose.rotation)
                     and len(self.members[link.name]) == 1
                 )
-                to_link = (
-                    Pose() if is_own else link.pose.inverse() @ frame
-                )  # equal frames without rounding
+                # equal frames without rounding
+                to_link = Pose() if is_own else link.pose.inverse() @ frame
                 placed += [replace(shape, pose=to_link @ shape.pose) for shape in shapes]
             return placed
 

@@ -39,9 +39,8 @@ def remeasure(
     unknown = [obj for obj in stored if obj not in known]
     for together in measure_many(unknown, context.evaluated_depsgraph_get()):
         for obj, outcome in together:
-            if isinstance(
-                outcome, Exception
-            ):  # stored results stay, and the panel shows that they are out of date
+            # stored results stay, and the panel shows that they are out of date
+            if isinstance(outcome, Exception):
                 internal_error.finding_of(outcome)
             else:
                 measured.append((obj, outcome))
@@ -92,9 +91,8 @@ def reframe_objects(
         with tracking_paused(), reports.progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)
             failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
-            if (
-                not move_only
-            ):  # a new scale may change the triangles of faces that are not flat: another body
+            # a new scale may change the triangles of faces that are not flat: another body
+            if not move_only:
                 again, _ = plans_of([plan.obj for plan in changed], known, by_shape=False)
                 reframe.reframe(context, again)
         remeasure(context, [plan.obj for plan in changed], known)

@@ -62,9 +62,8 @@ class MeshBody(Body):
         for each part.
         """
         volumes, areas = [], []
-        alone = (
-            0 if order <= 3 else None
-        )  # up to third order the area is found on the way, and makes bounds smaller
+        # up to third order the area is found on the way, and makes bounds smaller
+        alone = 0 if order <= 3 else None
 
         def measured(surface: Surface) -> Moments:
             return polyhedron_moments(
@@ -73,11 +72,12 @@ class MeshBody(Body):
 
         for solid, matrices in self.solids:
             surface = solid.given_surface
+            # otherwise the repaired surface has fewer or more faces
             same = (
                 solid.method in (Procedure.EXACT, Procedure.REORIENTED)
                 and not solid.health.duplicate_faces
                 and solid.repaired_surface.triangle_count == surface.triangle_count
-            )  # otherwise the repaired surface has fewer or more faces
+            )
             volume, faces = polyhedron_moments(
                 solid.repaired_surface,
                 order,

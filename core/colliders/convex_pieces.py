@@ -158,9 +158,8 @@ def _coarse(piece: Piece) -> Piece:
     extent = np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
     far = np.argsort(-((points - points.mean(axis=0)) ** 2).sum(axis=1), kind="stable")
     while True:
-        number = np.maximum(
-            np.ceil(cells * extent / extent.max()), 2.0
-        )  # a thin body keeps both of its sides
+        # a thin body keeps both of its sides
+        number = np.maximum(np.ceil(cells * extent / extent.max()), 2.0)
         cell = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp) @ (
             cells * cells,
             cells,
@@ -261,9 +260,8 @@ def _gains(
         number = np.full(height.shape, -1)
         number[vertex, of] = np.arange(len(vertex))
         ends = number[edges]  # (e, 2, k)
-        link = np.nonzero(
-            (ends >= 0).all(axis=1) & ((a != 0.0) | (b != 0.0))
-        )  # an edge in the plane joins nothing
+        # an edge in the plane joins nothing
+        link = np.nonzero((ends >= 0).all(axis=1) & ((a != 0.0) | (b != 0.0)))
         new_number = len(vertex) + np.arange(len(new))
         inner = ends[edge, :, plane].max(axis=1)
         label, parts = connected_components(

@@ -225,6 +225,5 @@ def pose_matrix(center: ArrayLike, axes: ArrayLike) -> NDArray[np.float64]:
     [-1.0, -2.0, -3.0]
     """
     axes = rotation_array("axes", axes)
-    return (
-        affine_matrices(axes.T, -axes.T @ float_array("center", center, 3)) + 0.0
-    )  # no negative zeros
+    # no negative zeros
+    return affine_matrices(axes.T, -axes.T @ float_array("center", center, 3)) + 0.0

@@ -134,18 +134,16 @@ def third_moment_frames(
     is_body = (spread[:, 2] >= -rounding) & ~is_lost
     spread = np.maximum(spread, 0.0)
 
-    size = np.sqrt(
-        np.maximum(spread, 1e-30 * spread[:, :1])
-    )  # a lamina has no extent along an axis, and no skewness
+    # a lamina has no extent along an axis, and no skewness
+    size = np.sqrt(np.maximum(spread, 1e-30 * spread[:, :1]))
     # Shift of the points by float32: the share of the volume that this moves, times the thinnest
     # extent.
     step = moments.input_error[:, 0] / total * size[:, 2]
     gaps = spread[:, :2] - spread[:, 1:]
     doubtful = (2.0 * step)[:, None] * size[:, :2] + rounding[:, None]
     equal = gaps <= noise_factor * EQUAL_MOMENTS_RTOL * spread[:, :2] + doubtful
-    tilts = np.where(
-        equal, 0.0, doubtful / np.where(equal, 1.0, gaps)
-    )  # between axes 1 and 2, and 2 and 3
+    # between axes 1 and 2, and 2 and 3
+    tilts = np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))
     symmetry = 2 * equal[:, 0] + equal[:, 1]
 
     noise = noise_factor * NOISE_LEVEL + (4.0 * step)[:, None, None] / np.minimum(
@@ -210,9 +208,8 @@ def _are_decided(
     size = size[body, AXES, first]
     error = error[body, AXES, first]
     noise = noise[body, AXES, first]
-    last = size.argmin(axis=1)[
-        :, None
-    ]  # the least of three scores: both others have to be clear of it
+    # the least of three scores: both others have to be clear of it
+    last = size.argmin(axis=1)[:, None]
     least = size[body, last]
     unsure = (noise + error).max(axis=1, keepdims=True)
     apart = (size - least > EQUAL_SCORES_RTOL * least + 2.0 * (error + unsure)).sum(axis=1) == 2
@@ -334,9 +331,8 @@ def nearest_frames(
     is_along = local[body, candidate, row, AXES] > 0.0
     rank = np.where(near, is_along @ AXIS_RANK, -1)
     near = rank == rank.max(axis=1, keepdims=True)
-    for entry in local.reshape(*local.shape[:2], 9).transpose(
-        2, 0, 1
-    ):  # several frames may still be left
+    # several frames may still be left
+    for entry in local.reshape(*local.shape[:2], 9).transpose(2, 0, 1):
         entry = np.where(near, entry, -np.inf)
         near = entry > entry.max(axis=1, keepdims=True) - equal
     return candidates[body[:, 0, 0], near.argmax(axis=1)] + 0.0  # no negative zeros

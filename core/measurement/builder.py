@@ -44,9 +44,8 @@ BOUNDED = (
     ("smallest principal moment", "value"),
     ("center of mass", "size"),
 )
-Extent = tuple[
-    float, float, float
-]  # a volume or area, and the bounds of rounding and of float32 coordinates
+# a volume or area, and the bounds of rounding and of float32 coordinates
+Extent = tuple[float, float, float]
 
 
 def build_measurement(

@@ -17,9 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-DIRECTION = np.array(
-    [0.7071, 0.5477, 0.4472]
-)  # hardly any mesh has points that coincide along this direction
+# hardly any mesh has points that coincide along this direction
+DIRECTION = np.array([0.7071, 0.5477, 0.4472])
 MAX_CANDIDATES = 500  # similarities that are compared in full
 PROBES = 6  # vertices that are compared first
 RESEMBLANCE = 20.0  # the scores of equal vertices differ by at most so many tolerances

@@ -103,9 +103,8 @@ class Surface:
         """Smallest and largest coordinates of the points, (3,) each, unused points included; NaN if
         any is NaN.
         """
-        rows = np.ascontiguousarray(
-            self.points.T
-        )  # along rows of three numpy is twenty times as slow
+        # along rows of three numpy is twenty times as slow
+        rows = np.ascontiguousarray(self.points.T)
         return np.minimum.reduce(rows, axis=1).astype(np.float64), np.maximum.reduce(
             rows, axis=1
         ).astype(np.float64)

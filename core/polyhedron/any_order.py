@@ -260,9 +260,8 @@ class StreamIntegrator:
         factors = area_factors(self.order) / ((degree + 3.0) if of == Measure.VOLUME else 1.0)
         sizes = total.sizes[3 * row : 3 * row + 3]
         raw = (total.high[row] + total.low[row]) * factors
-        mean = 2.0 * (
-            (degree + 3.0) if of == Measure.VOLUME else 1.0
-        )  # ∫ |x^α| is at most weight reach^α / this
+        # ∫ |x^α| is at most weight reach^α / this
+        mean = 2.0 * ((degree + 3.0) if of == Measure.VOLUME else 1.0)
         rounding = U * (8.0 * degree + 228.0)
         error = (
             (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean
@@ -362,9 +361,8 @@ def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.
         grown[below:] = 0.0
         for z, vector in enumerate(vectors[1:]):
             np.multiply(known, vector, out=terms[:below])
-            for rows in range(
-                1, degree + 1
-            ):  # In each run of equal q + r, rows times y or z are the next run's.
+            # In each run of equal q + r, rows times y or z are the next run's.
+            for rows in range(1, degree + 1):
                 source = rows * (rows - 1) // 2
                 target = rows * (rows + 1) // 2 + z
                 grown[target : target + rows] += terms[source : source + rows]

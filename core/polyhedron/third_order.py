@@ -60,12 +60,10 @@ MONOMIAL_FACTORS = np.sort(
     [[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS]
 )
 DIVISORS = np.array([6.0, 24.0, 120.0, 288.0])[DEGREE]  # divide the sums below
-PRODUCT_ROUNDINGS = (
-    8.0 * DEGREE
-)  # errors of the products of weights and nodes, in units of rounding
-THIRD_ORDER_SHARE = np.repeat(
-    [1.0, 2.0], 10
-)  # the third moments about the middles come to as much again at most
+# errors of the products of weights and nodes, in units of rounding
+PRODUCT_ROUNDINGS = 8.0 * DEGREE
+# the third moments about the middles come to as much again at most
+THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)
 CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
 AXIS_PAIRS = (1, 2), (2, 0), (0, 1)
@@ -491,9 +489,8 @@ def error_bounds(
         # A closed surface sweeps this volume if float32 moves its points.
         swept = double / 2.0 + step * edges + 2.0 * step * step * counts
         tilted = step * (edges + 2.0 * step * counts)
-        share = half_ulp / np.where(
-            moved_reach > 0.0, moved_reach, 1.0
-        )  # 1 for an axis without extent
+        # 1 for an axis without extent
+        share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)
         inputs[0] = step * swept * displaced
         inputs[1] = displaced * (tilted + np.add.reduce(share[:, None] * EXPONENTS, axis=2) * swept)
     return rounding, inputs

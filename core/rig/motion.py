@@ -19,12 +19,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.rotations import polar_rotation, quaternion, rotation_matrix
 
-Flight = tuple[
-    int, int
-]  # indices of the last frame on the ground, or of frame 0, and of the next frame on the ground
-Span = tuple[
-    int, int, float, float
-]  # indices of the first and last frame; linear and angular momentum from nothing
+# indices of the last frame on the ground, or of frame 0, and of the next frame on the ground
+Flight = tuple[int, int]
+# indices of the first and last frame; linear and angular momentum from nothing
+Span = tuple[int, int, float, float]
 
 # of the polynomial through the frames around a velocity
 NODES = 9

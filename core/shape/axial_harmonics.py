@@ -91,16 +91,14 @@ def axial_harmonics(
     total = 0.0
     for points, triangles in pieces:
         for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
-            corners = points[triangles[start : start + TRIANGLES_PER_BLOCK]].transpose(
-                1, 2, 0
-            )  # (3, 3, k)
+            # (3, 3, k)
+            corners = points[triangles[start : start + TRIANGLES_PER_BLOCK]].transpose(1, 2, 0)
             normal = np.array(cross(corners[1] - corners[0], corners[2] - corners[0]))
             weight = np.sqrt(dot(normal, normal)) if area else dot(corners[0], normal)
             total += float(weight.sum())
             sums += _means(corners / scale[:, None], order) @ weight
-    if (
-        not area
-    ):  # a cone over a triangle, of a function of degree n, is its mean over the triangle by 2n + 6
+    # a cone over a triangle, of a function of degree n, is its mean over the triangle by 2n + 6
+    if not area:
         degree = np.arange(order + 1) + np.array([[0], [1]])
         sums *= 3.0 / (degree + 3.0)
     return AxialHarmonics(np.asarray(frame, np.float64), sums / total)

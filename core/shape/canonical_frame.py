@@ -177,9 +177,8 @@ def _clear_harmonic(
                 c = _harmonic(tensor, degree, m, k) / (
                     size[first] ** (degree - k) * size[axis] ** k
                 )
-                weight = 2.0 ** (
-                    degree - k
-                )  # a harmonic is a sum of moments with this total weight
+                # a harmonic is a sum of moments with this total weight
+                weight = 2.0 ** (degree - k)
                 powers = [0, 0, 0]
                 powers[first] = degree - k
                 powers[axis] = k

@@ -49,9 +49,8 @@ MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
 FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
 
 Distance = Callable[[NDArray], NDArray]
-Holds = Callable[
-    [NDArray], bool
-]  # True if a (3, 3) map, in the plane's axes, takes the shape to itself
+# True if a (3, 3) map, in the plane's axes, takes the shape to itself
+Holds = Callable[[NDArray], bool]
 
 
 @dataclass(frozen=True, eq=False)

@@ -137,9 +137,8 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     size = np.sqrt(np.add.reduce((high - low) ** 2, axis=1))
     farthest = reach.max(axis=1)
     is_integrated = stack.uses_all_points()
-    is_integrated &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (
-        farthest < MAX_UNSCALED_REACH
-    )  # float32: none too large
+    # float32: none too large
+    is_integrated &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH)
     usable = is_integrated & (links.component_counts <= MAX_COMPONENTS) & ~planarity.has_degenerate
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
     tolerance = np.maximum(WELDING_RTOL * size, 4.0 * error)
@@ -169,9 +168,8 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         if not is_proven[is_measured & ~capped].all():
             is_proven |= ~capped & _are_stars(triangles, volume.about)
         is_star &= is_proven
-    rows = np.flatnonzero(
-        is_measured & ~is_star
-    )  # A star is a body, and does not go through itself.
+    # A star is a body, and does not go through itself.
+    rows = np.flatnonzero(is_measured & ~is_star)
     if len(rows):
         is_measured[rows] = are_physical(volume.at(rows), low[rows], high[rows], size[rows])
     several = np.flatnonzero(is_measured & (links.component_counts > 1))
@@ -221,9 +219,8 @@ def _stand_apart(
     """
     chosen = stack.owned(rows)[1]
     part = _renumbered(part[chosen])
-    body = np.repeat(
-        np.arange(len(rows)), counts[rows]
-    )  # The body of each part; parts are numbered body by body.
+    # The body of each part; parts are numbered body by body.
+    body = np.repeat(np.arange(len(rows)), counts[rows])
     parts = sort_components(stack.points, stack.triangles[chosen], part, len(body))
     of_all = rows[body]
     low = parts.low
@@ -252,9 +249,8 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
     cones = np.add.reduce(corners[:, 0] * (after[:, 1] * before[:, 2] - before[:, 1] * after[:, 2]))
     la, lb, lc = np.sqrt(np.add.reduce(corners * corners))
     ab, bc, ca = np.add.reduce(corners * corners.take(NEXT_AXIS, 1))
-    with np.errstate(
-        over="ignore", invalid="ignore"
-    ):  # beyond the range of float32 a body counts as no star
+    # beyond the range of float32 a body counts as no star
+    with np.errstate(over="ignore", invalid="ignore"):
         halves = np.arctan2(cones, la * lb * lc + ab * lc + bc * la + ca * lb)
     total, signed, angle = np.add.reduceat(
         np.array([np.abs(cones), cones, halves]), stack.first_triangle, axis=1

@@ -162,9 +162,8 @@ class StlFile:
             check_stl_text(map_file(self._path))
             self._is_checked = True
         text = SOLID.sub(b"", text) if has_solids else text
-        corners = _plain_corners(
-            _NORMAL.sub(b"normal 0 0 0 out", text)
-        )  # a normal that is no number
+        # a normal that is no number
+        corners = _plain_corners(_NORMAL.sub(b"normal 0 0 0 out", text))
         if corners is None:
             raise FileError(STL_CUT_SHORT, end=BY_WORD)
         return corners

@@ -150,9 +150,8 @@ class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
             stored.reference.store(obj, context.scene)
             properties.retrigger_drivers(obj)
 
-        with stored.assembly.kept_up_to_date(
-            context
-        ):  # the results are bound to their places, and stay the same
+        # the results are bound to their places, and stay the same
+        with stored.assembly.kept_up_to_date(context):
             changed, failures = selection.apply_to_all(objects, store)
         texts = (
             "Stored the inertia of {count} object about the reference",

@@ -151,9 +151,8 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
                 context, obj, self.order, self.pivot == "ORIGIN", self.strict
             )
 
-        moved, failures = selection.apply_to_all(
-            objects, align
-        )  # in turn: a child moves with its parent
+        # in turn: a child moves with its parent
+        moved, failures = selection.apply_to_all(objects, align)
         session.remeasure(context, moved)
         done = reports.phrase(
             "Aligned {count} object to the world axes",

@@ -180,12 +180,13 @@ def test_an_array_under_a_controller_of_slurm(job, slurm):
         lambda: journal.exists() and journal.read_bytes().count(b"\n") == 2, 120.0
     )
     slurm_controller.asked(slurm, "scontrol", "requeue", number + "_3")
+    # not after Slurm's two minutes
     now = (
         "scontrol",
         "update",
         "JobId=" + number + "_3",
         "StartTime=now",
-    )  # not after Slurm's two minutes
+    )
     commands.wait_until(lambda: state(number + "_3") == "PENDING", 60.0)
     slow.unlink()  # Only after the first run has ended, or that run could record the missing file.
     slurm_controller.asked(slurm, *now)

@@ -204,9 +204,8 @@ def test_a_signal_ends_a_run_at_once_and_it_can_be_resumed(tmp_path, number):
     sent = time.monotonic()
     running.send_signal(number)
     _, said = running.communicate(timeout=20)
-    assert (
-        time.monotonic() - sent < 10.0
-    )  # within a second on a machine at rest, where the file would take minutes
+    # within a second on a machine at rest, where the file would take minutes
+    assert time.monotonic() - sent < 10.0
     assert running.returncode == 3 and b"interrupted after 4 of 5" in said and not out.exists()
     assert not any(map(commands.is_running, born))
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.jsonl.journal", "scans"]

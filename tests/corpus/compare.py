@@ -29,9 +29,8 @@ from pathlib import Path
 from types import ModuleType
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-if (
-    __name__ == "__main__"
-):  # The folder of the checkout would hide other packages if it were on the path.
+# The folder of the checkout would hide other packages if it were on the path.
+if __name__ == "__main__":
     tests = ModuleType("tests")
     tests.__path__ = [str(ROOT / "tests")]
     sys.modules["tests"] = tests

@@ -121,6 +121,5 @@ def test_the_zip_installs_works_and_leaves_cleanly(archive, tmp_path):
         timeout=1200,
     )
     assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
-    assert (
-        "all steps passed" in done.stdout + done.stderr
-    )  # the command keeps the standard output for results
+    # the command keeps the standard output for results
+    assert "all steps passed" in done.stdout + done.stderr

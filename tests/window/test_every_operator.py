@@ -466,11 +466,12 @@ TURNED = f"{PART}.rotation_euler = (0.3, 0.2, 0.1)"
 EMPTIES = "[obj.parent is not None for obj in bpy.data.objects if obj.type == 'EMPTY']"
 PLACE = f"[round(value, 3) for value in {PART}.location]"
 MASS = f"[{PART}.rigid_body.mass, *{PLACE}]"
+# pixels from the pointer where F9 was pressed, and between settings
 CHECKBOX, TITLE, ROW = (
     144,
     56,
     23,
-)  # pixels from the pointer where F9 was pressed, and between settings
+)
 # operator: which setting is clicked, what is there before, what is looked at, after the action,
 # after the click
 REDONE = {

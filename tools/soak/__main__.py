@@ -32,9 +32,8 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=int(time.time()))
     parser.add_argument("--reports", type=Path, default=ROOT / ".envs" / "soak")
     options = parser.parse_args()
-    signal.signal(
-        signal.SIGINT, signal.default_int_handler
-    )  # a shell's job in the background has it ignored
+    # a shell's job in the background has it ignored
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     unknown = {word.partition(":")[0] for word in options.names} - set(NAMES)
     if unknown:
         parser.error("unknown: " + ", ".join(sorted(unknown)))
@@ -63,9 +62,8 @@ def main() -> int:
 
 if __name__ == "__main__":
     sys.path.insert(0, str(ROOT))
-    importlib.import_module(
-        "tests.conftest"
-    )  # the add-on under its name, and user files of Blender out of the way
+    # the add-on under its name, and user files of Blender out of the way
+    importlib.import_module("tests.conftest")
     importlib.import_module("bpy")  # bmesh is there from then on
     sys.modules["body_moments"].register()
     sys.exit(main())

@@ -15,10 +15,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+# the one that Blender starts with, and one of those that it ships
 FONTS = (
     "",
     "DejaVuSansMono.woff2",
-)  # the one that Blender starts with, and one of those that it ships
+)
 CHARACTERS = string.ascii_letters + string.digits
 NOISES = (0.0, 1e-4, 1e-3)  # standard deviations of the corners, by the letter's largest extent
 SAME_CLASS = 1e-6  # letters whose signatures are nearer, whatever their size, are one shape

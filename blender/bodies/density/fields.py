@@ -227,9 +227,8 @@ def voxel_filled_body(
         raise ReadError(OPEN_SURFACE_OF_GRID, subject=name)
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, subject=name, **names)
-    corner = affine_matrices(
-        np.eye(3), reading.low - 0.5
-    )  # from corners of voxels, not from their centers
+    # from corners of voxels, not from their centers
+    corner = affine_matrices(np.eye(3), reading.low - 0.5)
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ corner
     if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
         raise ReadError(GRID_EMPTY, subject=name, **names)

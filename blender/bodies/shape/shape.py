@@ -63,11 +63,12 @@ from ..stacks.stack import MeasuredStack, Stacked
 from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
+# factors on the level of noise: a unique frame is the same for all of them
 NOISE_FACTORS = (
     0.5,
     1.0,
     2.0,
-)  # factors on the level of noise: a unique frame is the same for all of them
+)
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32

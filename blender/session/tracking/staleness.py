@@ -344,9 +344,8 @@ def _remember_shape(
 
 def note_all_edits() -> None:
     """Note the effects of all updates on all objects."""
-    for obj in (
-        bpy.data.objects if memory.state.updates else ()
-    ):  # while Blender enables the add-on, it gives no data
+    # while Blender enables the add-on, it gives no data
+    for obj in bpy.data.objects if memory.state.updates else ():
         note_edits(obj)
 
 

@@ -96,9 +96,8 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
 
 def _name(text: str) -> str:
     text = xml_name(text)
-    return (
-        text + "_" if text == "world" else text
-    )  # The root that contains all bodies has this name.
+    # The root that contains all bodies has this name.
+    return text + "_" if text == "world" else text
 
 
 def _add_meshes(root: Element, robot: Robot) -> dict[tuple, str]:

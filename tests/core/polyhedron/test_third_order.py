@@ -22,9 +22,8 @@ from tests.core import exact
 from tests.core.bodies import rotation
 from tests.core.strategies import holds, random_meshes, seeds
 
-polyhedron_moments = partial(
-    integration.polyhedron_moments, allow_open=True
-)  # open faces count as given
+# open faces count as given
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)
 
 MONOMIALS = exact.MONOMIALS
 L_OUTLINE = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
@@ -214,9 +213,8 @@ def test_the_bound_is_not_vacuous_for_a_clean_body():
         0
     ]
     assert moments.rounding_error[0] < 1e-12 * moments.total
-    assert (
-        moments.rounding_error[1:4].max() < 1e-12 * moments.total
-    )  # the body is about one unit in size
+    # the body is about one unit in size
+    assert moments.rounding_error[1:4].max() < 1e-12 * moments.total
     assert moments.rounding_error[4:10].max() < 1e-12 * np.trace(moments.second())
 
 

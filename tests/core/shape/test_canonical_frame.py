@@ -76,9 +76,8 @@ def test_symmetric_body_is_flagged_and_maps_onto_itself(name):
         points = placed(image, matrix)
         assert frame.symmetry == first.symmetry
         gap = np.linalg.norm(points[:, None] - wanted[None], axis=2).min(axis=1)
-        assert gap.max() < 1e-9 * size(
-            part
-        )  # a corner on each corner, though not always on its own
+        # a corner on each corner, though not always on its own
+        assert gap.max() < 1e-9 * size(part)
 
 
 @pytest.mark.parametrize("name", shapes.SYMMETRIC)

@@ -414,13 +414,11 @@ def test_a_prism_turned_within_its_object_gets_its_own_axes(vertices, fold):
     assert run(AXES) == {"FINISHED"}
     assert np.abs(seen(obj) - before).max() < 1e-5
     points = np.array([vertex.co for vertex in obj.data.vertices])
-    angles = np.degrees(np.arctan2(points[:, 2], points[:, 1])) % (
-        360 / fold
-    )  # the long axis is x now
+    # the long axis is x now
+    angles = np.degrees(np.arctan2(points[:, 2], points[:, 1])) % (360 / fold)
     step = 180 / fold
-    assert (
-        np.abs((angles + step / 2) % step - step / 2).max() < 0.01
-    )  # corners or the middles of sides on the axes
+    # corners or the middles of sides on the axes
+    assert np.abs((angles + step / 2) % step - step / 2).max() < 0.01
     assert run(AXES) == {"CANCELLED"}
 
 
