@@ -56,7 +56,7 @@ UNSEEN = (
     ".es.",
     ".pn.",
 )
-# of attributes' values, by their type in RNA
+# names of attributes' values, by their type in RNA
 DTYPES = {
     "FLOAT": np.float32,
     "INT": np.int32,

@@ -39,7 +39,7 @@ FIELDS = KEY.names or ()
 HANDLES = ("handle_left", "handle_right")
 SAME_TIME = 1e-3  # frames; Blender itself takes closer keys for one
 SAME_VALUE = 1e-4
-MOVED = 1e-3  # of a curve's range: a smaller move of a handle does not matter
+MOVED = 1e-3  # relative to a curve's range: a smaller move of a handle does not matter
 JUMP = 1.0 / 80.0  # the least time between keys: Blender merges those within 0.01
 Channel = tuple[str, int]  # data path and index
 

@@ -278,7 +278,9 @@ def link_surface(
         except MeasureError:  # such as a grid of densities
             continue
         pieces.append(surface.transform(unit * to_link.rotation, to_link.position))
-    return join_surfaces(pieces) if len(pieces) > 1 else pieces[0] if pieces else None
+    if len(pieces) > 1:
+        return join_surfaces(pieces)
+    return pieces[0] if pieces else None
 
 
 def sheared_objects(objects: Iterable[Object]) -> list[str]:

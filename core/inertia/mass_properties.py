@@ -26,7 +26,7 @@ from .principal_frames import PrincipalFrame, principal_frame, principal_frames
 from .third_moment_frames import ThirdMomentFrames
 
 IDENTITY_3 = np.eye(3)
-MAX_INPUT_SHARE = 0.1  # of a volume: a larger bound for float32 coordinates leaves none
+MAX_INPUT_SHARE = 0.1  # relative to a volume: a larger bound for float32 coordinates leaves none
 
 
 @dataclass(frozen=True, eq=False)

@@ -234,7 +234,7 @@ def _prove(
     error = np.linalg.norm(points @ linear.T + offset - met, axis=1).max()
     if error > limit:
         return None
-    # Of maps that are equally good up to rounding, take the one that changes least.
+    # Take, among maps that are equally good up to rounding, the one that changes least.
     rounding = 4.0 * np.finfo(np.float32).eps * max(np.abs(points).max(), np.abs(met).max())
     for simple in [] if mirrored else [np.zeros(3), met.mean(axis=0) - first.middle]:
         if np.linalg.norm(points + simple - met, axis=1).max() <= min(

@@ -14,7 +14,7 @@ from .motion import continuous
 from .spin import LAST, NODES, node_weights
 
 LOCKED = 1e-5  # cosine of the middle angle, below which the outer two angles cannot be told apart
-OFF = 0.003  # of the angular velocity: a larger deviation between keys divides a frame
+OFF = 0.003  # relative to the angular velocity: a larger deviation between keys divides a frame
 LEAST_ANGLE = 1e-3  # rad a frame, below which the velocity is not compared
 
 

@@ -31,7 +31,9 @@ DEGREE = 8
 CLOSE = 0.02
 CLOSE_DEGREE = 5
 AVERAGED = 3  # velocities between frames that give the velocity at a frame
-UNEXPLAINED = 0.2  # of the weight: more force than that without a contact comes from nothing
+UNEXPLAINED = (
+    0.2  # relative to the weight: more force than that without a contact comes from nothing
+)
 SMOOTHED = 0.1  # seconds over which noise of captured motion averages out
 
 

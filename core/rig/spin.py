@@ -32,7 +32,7 @@ RATE = 2.0 * (np.arange(len(NODES)) * PLACES[:, None] ** (np.arange(len(NODES)) 
 MEAN = (np.arange(1, len(NODES) + 1) % 2 / np.arange(1.0, len(NODES) + 1)) @ _FIT
 CONVERGED = 1e-6  # rad: change of any rotation when the steps are halved
 MAX_HALVINGS = 7
-SPINLESS = 0.1  # of the parts' momenta: a smaller total is compared with theirs
+SPINLESS = 0.1  # relative to the parts' momenta: a smaller total is compared with theirs
 
 
 @dataclass(frozen=True, eq=False)

@@ -72,8 +72,8 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
             (
                 "ORIGIN",
                 "Origin",
-                "Origin at the center of mass; the axes stay, and a scale that mirrors or shears is "
-                "applied, with colliders any scale",
+                "Origin at the center of mass; the axes stay, and a scale that mirrors or shears "
+                "is applied, with colliders any scale",
             ),
             (
                 "AXES",

@@ -63,7 +63,7 @@ from ..request import Request
 MAX_CHECKED_INSTANCES = (
     50  # different places of a surface in which the sign of the density is checked
 )
-MAX_OUTSIDE_SHARE = 1e-9  # of the volume: a smaller share outside the grid is rounding
+MAX_OUTSIDE_SHARE = 1e-9  # relative to the volume: a smaller share outside the grid is rounding
 
 
 @dataclass(frozen=True, eq=False)

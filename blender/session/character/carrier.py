@@ -22,7 +22,7 @@ from ...scene.transforms import TransformChannels
 from ...write.reports import Refused
 from .weight import Character
 
-# of the character's size: a trial move, and the tolerance of the parts that follow
+# relative to the character's size: a trial move, and the tolerance of the parts that follow
 TRIAL = 1e-2
 FOLLOWS = 1e-4
 LEAST_NORM = 0.5  # of quaternions and axes that keep the length of the earlier ones

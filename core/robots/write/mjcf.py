@@ -148,7 +148,9 @@ def _add_joints(
     for count, free in enumerate(joint.free[:1] if joint.is_ball else joint.free, start=1):
         is_single = joint.is_ball or len(joint.free) == 1
         name = names[joint.name] if is_single else "{}_{}".format(names[joint.name], count)
-        kind = "ball" if joint.is_ball else "hinge" if free.kind == "rotate" else "slide"
+        kind = "hinge" if free.kind == "rotate" else "slide"
+        if joint.is_ball:
+            kind = "ball"
         element = SubElement(body, "joint", name=name, type=kind)
         if joint.pose.position.any():
             element.set("pos", numbers(joint.pose.position))
