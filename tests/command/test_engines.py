@@ -40,7 +40,7 @@ def job(tmp_path):
     for number in range(COUNT - 1):
         np.save(folder / "scan {}.npy".format(number), np.full((3, 4, 5), number + 1, "u2"))
     shutil.copy(
-        ROOT / "tests" / "soak" / "crash_corpus" / "damaged_block.blend", folder / "killer.blend"
+        ROOT / "tools" / "soak" / "crash_corpus" / "damaged_block.blend", folder / "killer.blend"
     )
     assert (
         script("manifest", folder, "--parts", PARTS, "--output", tmp_path / "a list").returncode

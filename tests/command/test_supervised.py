@@ -50,7 +50,7 @@ def scans(tmp_path_factory):
 @pytest.fixture(scope="module")
 def killer(tmp_path_factory):
     """A file that kills Blender."""
-    corpus = Path(__file__).resolve().parent.parent / "soak" / "crash_corpus"
+    corpus = Path(__file__).resolve().parents[2] / "tools" / "soak" / "crash_corpus"
     return Path(
         shutil.copy(
             corpus / "damaged_block.blend", tmp_path_factory.mktemp("killer") / "killer.blend"
