@@ -58,7 +58,8 @@ SOLID = re.compile(rb"(?<!\S)(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+"
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
 _FACET_NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
 _FACETS = re.compile(
-    rb"(?:\s*+(?:%b(?!\S)|facet\s++normal%b\s++outer\s++loop(?:\s++vertex%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+"
+    rb"(?:\s*+(?:%b(?!\S)|facet\s++normal%b\s++outer\s++loop"
+    rb"(?:\s++vertex%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+"
     % (SOLID.pattern, _FACET_NORMAL, _CORNER),
     re.IGNORECASE,
 )

@@ -28,7 +28,8 @@ STEP_ARROW = (
     168,
 )
 KEYS = (
-    "len(bpy.data.objects['Balance'].animation_data.action.layers[0].strips[0].channelbags[0].fcurves[0]"
+    "len(bpy.data.objects['Balance'].animation_data.action.layers[0].strips[0]"
+    ".channelbags[0].fcurves[0]"
     ".keyframe_points)"
 )
 EMPTIES = "[obj.name for obj in bpy.context.scene.objects if 'body_balance_group' in obj]"
