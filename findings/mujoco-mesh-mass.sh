@@ -3,14 +3,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # MuJoCo 4.0.0 weighs a mesh by its legacy rule unless told otherwise: a closed U of 7 m³ and
 # density 1 weighs 8.6175 kg; with inertia="exact" it weighs 7 kg. Seen: {'legacy': 8.6175,
-# 'exact': 7.0}. So our MJCF states every inertial, and the audit computes masses of shapes by the
-# kind that the file names.
+# 'exact': 7.0}. So our MJCF states the inertial of every body.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-python3 -m venv "$folder/env"
-"$folder/env/bin/pip" install -q mujoco==4.0.0
 cd "$folder"
+python3 -m venv env
+env/bin/pip install -q mujoco==4.0.0
 env/bin/python - <<'PYTHON'
 import mujoco
 

@@ -3,13 +3,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # MuJoCo 4.0.0 fuses links of URDF that are fixed to the root into the world, with their masses: a
 # robot of 5 kg and 1 kg on a fixed joint has one body and weighs 0 kg. Seen: 1 body, 0.0 kg. So
-# the audit names the root, and our totals count it.
+# our base is a child of `world` only if it is fixed on purpose.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-python3 -m venv "$folder/env"
-"$folder/env/bin/pip" install -q mujoco==4.0.0
 cd "$folder"
+python3 -m venv env
+env/bin/pip install -q mujoco==4.0.0
 env/bin/python - <<'PYTHON'
 import mujoco
 

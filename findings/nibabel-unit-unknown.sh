@@ -7,9 +7,9 @@
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-python3 -m venv "$folder/env"
-"$folder/env/bin/pip" install -q nibabel==5.4.2 numpy==2.4.6
 cd "$folder"
+python3 -m venv env
+env/bin/pip install -q nibabel==5.4.2 numpy==2.4.6
 env/bin/python - <<'PYTHON'
 import nibabel
 import numpy as np

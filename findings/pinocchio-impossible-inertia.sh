@@ -7,9 +7,9 @@
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-python3 -m venv "$folder/env"
-"$folder/env/bin/pip" install -q pin==4.1.0
 cd "$folder"
+python3 -m venv env
+env/bin/pip install -q pin==4.1.0
 env/bin/python - <<'PYTHON'
 import pinocchio
 

@@ -7,9 +7,9 @@
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-python3 -m venv "$folder/env"
-"$folder/env/bin/pip" install -q simpleitk==2.5.7 numpy==2.4.6
 cd "$folder"
+python3 -m venv env
+env/bin/pip install -q simpleitk==2.5.7 numpy==2.4.6
 env/bin/python - <<'PYTHON'
 import numpy as np
 import SimpleITK as sitk

@@ -2,14 +2,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # urchin 0.0.30 gives a link without an inertial 1 kg and a unit inertia. Seen: 1.0 kg, [1. 1. 1.]
-# for a mere frame. So frames without mass are named in the docs of our URDF, and the audit names
-# links without an inertial.
+# for a mere frame. So the audit names links without an inertial.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-python3 -m venv "$folder/env"
-"$folder/env/bin/pip" install -q urchin==0.0.30
 cd "$folder"
+python3 -m venv env
+env/bin/pip install -q urchin==0.0.30
 env/bin/python - <<'PYTHON'
 import importlib.metadata
 

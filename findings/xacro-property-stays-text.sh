@@ -7,10 +7,12 @@
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-python3 -m venv "$folder/env"
-"$folder/env/bin/pip" install -q xacro==2.1.1
 cd "$folder"
+python3 -m venv env
+env/bin/pip install -q xacro==2.1.1
 env/bin/python - <<'PYTHON'
+import importlib.metadata
+
 import xacro
 
 document = xacro.parse(
@@ -19,6 +21,6 @@ document = xacro.parse(
 )
 xacro.process_doc(document)
 values = [node.getAttribute("v") for node in document.documentElement.childNodes]
-print("xacro", values)
+print("xacro", importlib.metadata.version("xacro"), values)
 assert values == ["1/2", "0.5"]
 PYTHON

@@ -13,7 +13,7 @@
 
 and what is run by hand, from the folder tools:
 
-    python3 tests/project.py benchmark    times and ratios against trimesh, libigl, CoACD and vtk
+    python3 tests/project.py benchmark    times and ratios against trimesh and libigl
     python3 tests/project.py batch        the cost of measuring 400 files in one process or several
     python3 tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
     python3 tests/project.py film         the film of the thrown crates in the manual
@@ -75,7 +75,7 @@ TOOLBOX = {
     "benchmark": (
         "benchmark.py",
         ("benchmark",),
-        "times and ratios against trimesh, libigl, CoACD and vtk; --quick, --stream M",
+        "times and ratios against trimesh and libigl; --quick, --stream M",
     ),
     "batch": (
         "benchmark_batch.py",

@@ -53,7 +53,7 @@ class CarriedParts:
     linear: NDArray[np.float64]
 
     @classmethod
-    def of(cls, course: Course, axes: NDArray) -> CarriedParts:
+    def of_course(cls, course: Course, axes: NDArray) -> CarriedParts:
         """Return the parts of a course at the nodes of f frames, n - 1 a frame and a last one."""
         rows = LAST * np.arange((len(axes) - 1) // LAST)[:, None] + np.arange(len(NODES))
         back = axes.swapaxes(-1, -2)[:, None]

@@ -225,7 +225,7 @@ class CharacterMotion(BalanceGroup):
         arrays = (array[rows] for array in (course.centers, course.spreads, course.linear))
         section = motion.Course(self.step, course.masses, *arrays)
         assert self.carrier is not None
-        return spin.CarriedParts.of(section, self.carrier.axes[rows])
+        return spin.CarriedParts.of_course(section, self.carrier.axes[rows])
 
     def _moves(self, turns: bool) -> NDArray[np.float64]:
         """Return (s, 4, 4) moves onto the arc between the ends, or turns of constant spin, blended

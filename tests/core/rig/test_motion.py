@@ -178,7 +178,7 @@ def sampled_top(frames, spread=SPREAD):
     spreads = np.tile(spread, (count, 1, 1, 1))
     linear = np.tile(np.eye(3), (count, 1, 1, 1))
     still = Course(STEP, np.array([2.0]), np.zeros((count, 1, 3)), spreads, linear)
-    return CarriedParts.of(still, np.tile(np.eye(3), (count, 1, 1)))
+    return CarriedParts.of_course(still, np.tile(np.eye(3), (count, 1, 1)))
 
 
 def test_constant_spin_of_a_rigid_top_is_that_of_euler():

@@ -46,7 +46,7 @@ def test_nrrd_space_gives_the_axes_their_directions(tmp_path, space, signs):
     unit = 1e-3 if is_anatomical else 1.0
     expected = np.diag([*np.array(signs) * (2, 3, 4), 1.0])
     expected[:3, 3] = np.array(signs) * (10, 20, 30)
-    assert np.allclose(matrix[:3], expected[:3] * unit, rtol=1e-15)
+    np.testing.assert_allclose(matrix[:3], expected[:3] * unit, rtol=1e-15, atol=0.0)
     code = "scan_in_millimeters" if is_anatomical else "scan_unstated"
     assert [one.code for one in findings] == [code]
 
