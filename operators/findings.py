@@ -28,6 +28,11 @@ FLAT_AND_BODY = error(
     "flat_and_body",
     "A flat shape and a body cannot match. Select objects of one kind, or set Kind to Shell.",
 )
+COLLIDERS_BEYOND_TOLERANCE = warning(
+    "colliders_beyond_tolerance",
+    "{object}: the tolerance is not kept: the colliders stand out by {outward:length}, the object "
+    "by {inward:length}. Allow more pieces or vertices, or more distance.",
+)
 POSE_NOT_A_COPY = warning(
     "pose_not_a_copy",
     "{object}: surfaces at most {maximum:length} apart, {mean:length} on average; not a copy, or "

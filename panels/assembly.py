@@ -43,7 +43,7 @@ MEMBER_ICONS = {
     "POINT": "EMPTY_SINGLE_ARROW",
 }
 LINES = 8  # height of the tree, before it scrolls
-EQUAL_RTOL = 1e-5  # of the masses of equal parts: turned copies differ by rounding
+EQUAL_RTOL = 1e-5  # relative to the masses of equal parts: turned copies differ by rounding
 
 
 class BODY_MOMENTS_UL_assembly(UIList):
@@ -139,7 +139,8 @@ def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -
     actions = layout.column(align=True)
     actions.enabled = stored is not None
     _actions(actions, target, isinstance(root, Collection))
-    rows.stale_state(layout, None if stored is None else stale_reason(root, context.scene))
+    reason = None if stored is None else stale_reason(root, context.scene)
+    rows.state(layout, rows.outdated(reason) if reason else "", "FILE_REFRESH" if reason else "")
     if stored is None:
         return
     findings = properties.findings(root)

@@ -6,12 +6,15 @@ physics.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import degrees, dist
+from typing import Any
 
-from bpy.types import Context, Object
+from bpy.types import Context, Object, OperatorProperties
 
 from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
+from ..blender.session.stored.collider_tolerance import is_beyond_tolerance
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_colliders
 from ..blender.settings.given import COLLIDER, COLLIDERS
@@ -31,12 +34,17 @@ KEYS = {
     "distance_bound",
 }
 SLIGHT = 0.01  # parts by which an engine may be off without a warning
-REMEDIES = {  # by the kind of correction that did not suffice
-    "none": "An engine would simulate another body. Choose Masses or Vertices for Correct.",
-    "masses": "An engine would simulate another body. Choose Convex Pieces, and more of them.",
-    "vertices": "An engine would simulate another body. Increase Outward and Inward, or choose "
-    "Convex Pieces.",
+ANOTHER_BODY = "An engine would simulate another body."
+# by the kind of correction that did not suffice: the remedy, and that for pieces
+REMEDIES = {
+    "none": ("Choose Masses or Vertices for Correct.",) * 2,
+    "masses": ("Choose Convex Pieces, and more of them.", "Allow more pieces."),
+    "vertices": (
+        "Increase Outward and Inward, or choose Convex Pieces.",
+        "Increase Outward and Inward, or allow more pieces.",
+    ),
 }
+BEYOND = "The tolerance is not kept. Allow more pieces or vertices, or more distance."
 
 
 class CollidersPanel:
@@ -52,6 +60,8 @@ class CollidersPanel:
         layout = self.layout
         body = _body(context.object)
         layout.use_property_decorate = False
+        if body != context.object or len(context.selected_objects) > 1:
+            layout.label(text=body.name, icon="OBJECT_DATA", translate=False)
         group = body.get(COLLIDERS)
         stored = group if hasattr(group, "keys") and KEYS.issubset(group.keys()) else None
         row = layout.row(align=True)
@@ -61,10 +71,17 @@ class CollidersPanel:
             rows.remark(layout, "Engines take mass, center and inertia from colliders.")
             return
         row.operator("object.body_moments_remove_colliders", text="", icon="X")
-        make.shape, make.engine, make.correct = (
-            str(stored[name]).upper() for name in ("shape", "engine", "correct")
-        )
+        _repeat(make, stored, str(stored["correct"]).upper())
         rows.stale_row(layout, stale_reason(body, context.scene, of_colliders))
+        row = layout.row(align=True)
+        for kind, label in (("NONE", "Off"), ("MASSES", "Masses"), ("VERTICES", "Vertices")):
+            is_chosen = stored["correct"] == kind.lower()
+            again = rows.button(
+                row, "object.body_moments_make_colliders", "NONE", text=label, depress=is_chosen
+            )
+            _repeat(again, stored, kind)
+        if stored["count"] > 1 and context.space_data.type == "VIEW_3D":
+            layout.prop(context.space_data.shading, "wireframe_color_type", text="Wire Color")
         column = layout.column(align=True)
         rows.filled(
             column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"]
@@ -77,9 +94,13 @@ class CollidersPanel:
             shift / (size or 1.0),
         )
         if max(changes) > SLIGHT:
-            rows.remark(column, REMEDIES.get(stored["correct"], REMEDIES["none"]), icon="ERROR")
+            remedies = REMEDIES.get(stored["correct"], REMEDIES["none"])
+            rows.remark(column, ANOTHER_BODY, icon="ERROR")
+            rows.remark(column, remedies[stored["shape"] == "pieces"])
         else:
             rows.remark(column, "An engine simulates the body within 1%.", icon="CHECKMARK")
+        if is_beyond_tolerance(stored):
+            rows.remark(column, BEYOND, icon="ERROR")
         rows.title(layout, "Of the Object's")
         labels = ("Volume", "Mass", "Moment 1", "Moment 2", "Moment 3")
         moments = stored.get("moment_ratios", (None,) * 3)
@@ -99,6 +120,17 @@ class CollidersPanel:
         rows.values(column, labels, "length", lengths, size)  # Rounding is shown as 0.
         turn = degrees(stored["axes_turn"])
         rows.table(column, [("Axes", "{:.3f}°".format(turn), repr(turn), "")])
+
+
+def _repeat(make: OperatorProperties, stored: Mapping[str, Any], correct: str) -> None:
+    """Set an operator to make the stored colliders again, with a kind of correction."""
+    make.shape = str(stored["shape"]).upper()
+    make.engine = str(stored["engine"]).upper()
+    make.correct = correct
+    if "tolerance" in stored and "limits" in stored:
+        make.tolerance = "LENGTH"
+        make.outward, make.inward = stored["tolerance"]
+        make.pieces, make.vertices = stored["limits"]
 
 
 def _body(obj: Object) -> Object:

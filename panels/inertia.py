@@ -6,7 +6,7 @@ any reference.
 
 from __future__ import annotations
 
-from bpy.types import Context, Object
+from bpy.types import Context
 
 from ..blender.read.visibility import measurable
 from ..blender.session import stored
@@ -133,12 +133,12 @@ class ReferencePanel:
         rows.button(row, "object.body_moments_copy", "COPYDOWN").what = "REFERENCE"
 
 
-def shows_inertia(obj: Object) -> bool:
-    """Return whether an object may have an inertia: it stays so whether it is measured or not."""
-    return measurable(obj) or obj.type in ("EMPTY", "ARMATURE")
-
-
 CLASSES = (
-    *in_both_places(InertiaPanel, "inertia", shown_for=shows_inertia, of_all=True),
+    *in_both_places(
+        InertiaPanel,
+        "inertia",
+        shown_for=lambda obj: measurable(obj) or obj.type in ("EMPTY", "ARMATURE"),
+        of_all=True,
+    ),
     *in_both_places(ReferencePanel, "reference", parent="inertia"),
 )

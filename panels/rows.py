@@ -41,11 +41,12 @@ MIN_LINE_WIDTH = 50  # no line is made narrower
 MIN_PART = 4
 MIN_LAST_PART = 3
 NARROW = 220  # regions below this width have buttons without icons, and headings above
+# ERROR is Blender's warning sign
 ICONS = {
     Severity.NOTE: "INFO",
     Severity.WARNING: "ERROR",
     Severity.ERROR: "CANCEL",
-}  # ERROR is Blender's warning sign
+}
 
 VERDICTS = {  # icon and word; the form says it, not the color alone
     Verdict.EXACT: ("CHECKMARK", "Exact"),
@@ -357,17 +358,13 @@ def remark(
 
 
 def state(layout: UILayout, text: str, icon: str = "") -> None:
-    """Draw one row about the state of numbers. It is there without a text too, so that nothing below
-    it moves.
+    """Draw one row about the state of numbers.
+
+    It is there without a text too, so that nothing below it moves.
     """
     row = layout.row()
     row.alert = icon == "FILE_REFRESH"
     row.label(text=text, icon=icon or "BLANK1", translate=False)
-
-
-def stale_state(layout: UILayout, reason: str | None) -> None:
-    """Draw the row with the reason why numbers are out of date, blank if they are not."""
-    state(layout, outdated(reason) if reason else "", "FILE_REFRESH" if reason else "")
 
 
 def stale_row(layout: UILayout, reason: str | None) -> None:

@@ -7,7 +7,7 @@ body.
 from __future__ import annotations
 
 from bpy.props import BoolProperty, EnumProperty
-from bpy.types import Context, UILayout, UIList
+from bpy.types import Context, UIList
 
 from ..blender.session.displayed import SortBy, Verdict, drawn, listed_masses, listing
 from . import rows
@@ -76,23 +76,20 @@ class SelectionPanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         rows.button(layout, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings")
-        _listed(layout, context)
-
-
-def _listed(layout: UILayout, context: Context) -> None:
-    """Draw the measured objects, and the buttons that make a table of the selected ones."""
-    layout.template_list(
-        BODY_MOMENTS_UL_measured.__name__,
-        "",
-        context.view_layer,
-        "objects",
-        context.scene,
-        "body_moments_listed",
-        rows=LINES,
-    )
-    column = layout.column(align=True)
-    rows.button(column, "object.body_moments_copy", "COPYDOWN", text="Copy Table").what = "TABLE"
-    rows.button(column, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
+        layout.template_list(
+            BODY_MOMENTS_UL_measured.__name__,
+            "",
+            context.view_layer,
+            "objects",
+            context.scene,
+            "body_moments_listed",
+            rows=LINES,
+        )
+        column = layout.column(align=True)
+        rows.button(
+            column, "object.body_moments_copy", "COPYDOWN", text="Copy Table"
+        ).what = "TABLE"
+        rows.button(column, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
 
 
 CLASSES = (BODY_MOMENTS_UL_measured, *in_both_places(SelectionPanel, "selection"))

@@ -3,9 +3,10 @@
 """Colliders as objects: children of their body, in a collection of their own, displayed as wire and
 not rendered.
 
-A hull has its vertices in the body's own coordinates and no transform of its own, so that it is
-exact wherever the body lies, and follows its scale. A primitive has its pose in the body's frame;
-its parent inverse undoes the body's scale.
+A hull has its origin at its own center, because Godot Physics and others take the origin for the
+center, and its vertices along the body's own axes: so it is exact wherever the body lies, and
+follows its scale. A primitive has its pose in the body's frame; its parent inverse undoes the
+body's scale.
 """
 
 from __future__ import annotations
@@ -24,10 +25,14 @@ from numpy.typing import NDArray
 from ...core.bodies.reading import float64_matrix
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import polar_rotation, quaternion
+from ...core.polyhedron.integration import volume_and_center
 from ...core.robots.model import Pose, Shape
+from ...core.verdict.finding import EditRefusedError
 from ..read.mesh import mesh_surface
 from ..settings.given import COLLIDER
 from .changes import made_collection
+from .empties import PLACE_RTOL
+from .findings import TRANSFORM_CONSTRAINED
 
 # odd, so that no ring lies on the equator
 SEGMENTS = 32
@@ -66,29 +71,36 @@ def as_stored(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Shape:
     """
     if shape.surface is None:
         return shape
-    local = _local_points(shape, stretch, unit)
-    return replace(
-        shape,
-        surface=Surface.from_triangles(local @ stretch.T * unit, shape.surface.all_triangles()[0]),
-    )
+    center, points = _origin_and_points(shape, stretch, unit)
+    triangles = shape.surface.all_triangles()[0]
+    stored = (points + center) @ stretch.T * unit
+    return replace(shape, surface=Surface.from_triangles(stored, triangles))
 
 
-def _local_points(shape: Shape, stretch: NDArray[np.float64], unit: float) -> NDArray[np.float64]:
+def _origin_and_points(
+    shape: Shape, stretch: NDArray[np.float64], unit: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return a hull's (3,) center and its (n, 3) points from there, as its object stores them."""
     assert shape.surface is not None
     points = shape.surface.points @ shape.pose.rotation.T + shape.pose.position
-    return (np.linalg.solve(stretch, points.T).T / unit).astype(np.float32).astype(np.float64)
+    points = np.linalg.solve(stretch, points.T).T / unit
+    center = volume_and_center(Surface.from_triangles(points, shape.surface.all_triangles()[0]))[1]
+    if not np.isfinite(center).all():  # it is flat
+        center = points.mean(axis=0)
+    center = center.astype(np.float32).astype(np.float64)
+    return center, (points - center).astype(np.float32).astype(np.float64)
 
 
 def collider_mesh(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Mesh:
-    """Return the mesh of a hull in its body's own coordinates, or of a primitive in its own frame,
-    in Blender units.
+    """Return the mesh of a hull about its center, or of a primitive in its own frame, in Blender's
+    units.
     """
     mesh = bpy.data.meshes.new("Collider")
     if shape.surface is None:
         _draw_primitive(mesh, shape, unit)
     else:
         corners = shape.surface.all_triangles()[0][:, :: -1 if np.linalg.det(stretch) < 0.0 else 1]
-        mesh.from_pydata(_local_points(shape, stretch, unit), [], corners)
+        mesh.from_pydata(_origin_and_points(shape, stretch, unit)[1], [], corners)
     return mesh
 
 
@@ -123,11 +135,13 @@ def place_colliders(
         collider.hide_render = True
         collider.parent = obj
         collider.matrix_parent_inverse = undo_scale if shape.surface is None else Matrix()
-        pose = shape.pose if shape.surface is None else Pose()
         collider.matrix_basis = Matrix()
         collider.rotation_mode = "QUATERNION"
-        collider.location = pose.position / unit
-        collider.rotation_quaternion = quaternion(pose.rotation)
+        if shape.surface is None:
+            collider.location = shape.pose.position / unit
+            collider.rotation_quaternion = quaternion(shape.pose.rotation)
+        else:
+            collider.location = _origin_and_points(shape, stretch, unit)[0]
         collider[COLLIDER] = {
             "kind": shape.kind,
             "size": [float(size) for size in shape.size],
@@ -139,7 +153,62 @@ def place_colliders(
         names = {"name": obj.name, "number": number, "prefix": PREFIXES.get(shape.kind, "UCX")}
         collider.name = collider.data.name = NAMES[engine].format(**names)
     bpy.data.batch_remove([mesh for mesh in replaced if not mesh.users])
+    if obj.type == "CURVE":
+        _undo_path(context, obj, kept)
     return kept
+
+
+def _undo_path(context: Context, curve: Object, colliders: Sequence[Object]) -> None:
+    """Take back the place along a curve's path, on which the curve lays its children.
+
+    Raises EditRefusedError if the colliders are still elsewhere.
+    """
+    context.view_layer.update()
+    place = float64_matrix(curve.matrix_world)
+    wanted = []
+    for collider in colliders:
+        inverse = float64_matrix(collider.matrix_parent_inverse)
+        own = inverse @ float64_matrix(collider.matrix_basis)
+        laid = float64_matrix(collider.matrix_world) @ np.linalg.inv(own)
+        collider.matrix_parent_inverse = Matrix(np.linalg.solve(laid, place @ inverse).tolist())
+        wanted.append(place @ own)
+    context.view_layer.update()
+    off = np.array([float64_matrix(collider.matrix_world) for collider in colliders]) - wanted
+    if not np.abs(off).max(initial=0.0) <= PLACE_RTOL * np.abs(wanted).max(initial=1.0):
+        raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location", sources=[curve.name])
+
+
+def _in_body(collider: Object) -> NDArray[np.float64]:
+    """Return the (4, 4) transform of a collider in its body's own coordinates."""
+    if collider.parent.type == "CURVE":  # the parent inverse also undoes the place along the path
+        to_body = np.linalg.inv(float64_matrix(collider.parent.matrix_world))
+        return to_body @ float64_matrix(collider.matrix_world)
+    return float64_matrix(collider.matrix_parent_inverse) @ float64_matrix(collider.matrix_basis)
+
+
+def apply_for_bullet(collider: Object) -> None:
+    """Give a collider a transform and mesh that Blender's rigid bodies take as they are.
+
+    Bullet knows place and rotation of a child in its body, but no scale of the child, and applies
+    the body's scale to its mesh.
+    """
+    own = Matrix(_in_body(collider).tolist())
+    linear = own.to_3x3()
+    turn = own.to_quaternion().to_matrix()
+    is_scaled = (
+        max(abs(size - 1.0) for size in collider.parent.matrix_world.to_scale()) > PLACE_RTOL
+    )
+    off = max(abs((linear - turn)[i][j]) for i in range(3) for j in range(3))
+    if off <= PLACE_RTOL and not is_scaled:
+        return
+    if collider.data.users > 1:
+        collider.data = collider.data.copy()
+    collider.data.transform(linear.to_4x4(), shape_keys=False)
+    if linear.determinant() < 0.0:
+        collider.data.flip_normals()
+    collider.matrix_parent_inverse = Matrix()
+    collider.matrix_basis = Matrix.Translation(own.translation)
+    collider[COLLIDER] = {"kind": HULL, "size": [], "mass": collider[COLLIDER]["mass"]}
 
 
 def remove_colliders(colliders: Sequence[Object]) -> None:
@@ -162,8 +231,7 @@ def read_colliders(
     shapes = []
     for collider in colliders:
         stored = collider[COLLIDER]
-        relative = float64_matrix(collider.matrix_parent_inverse)
-        relative = relative @ float64_matrix(collider.matrix_basis)
+        relative = _in_body(collider)
         place = unit * stretch_of(collider.parent, rotation) @ relative[:3]
         to_frame = place[:, :3]
         place = place[:, 3]

@@ -11,6 +11,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     SimilarSearch="similar",
     balance_pose="character.balance",
     bill_csv="stored.assembly",
+    is_beyond_tolerance="stored.collider_tolerance",
     check_stability="stored.stability",
     lay_on_ground="stored.stability",
     make_rigid_bodies="rigid_bodies",

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,28 +13,31 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object
 from numpy.typing import NDArray
 
+from ...core.bodies.reading import float64_matrix
 from ...core.colliders.effects import correct_masses, correct_vertices, effect, uniform_masses
 from ...core.colliders.fits import Wanted, distances, make_colliders
+from ...core.inertia.mass_properties import MassProperties
 from ...core.measurement.documents import plain
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import digest
 from ...core.mesh.hulls import convex_hull
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.moments.affine_maps import are_singular
+from ...core.numerics.rotations import polar_rotation
 from ...core.robots.model import Pose, Shape
 from ...core.verdict.finding import ReadError
 from ..bodies.measure_object import Measured, measure_body
 from ..read.findings import OBJECT_WITHOUT_GEOMETRY, SCALE_ZERO_AXIS
-from ..read.fingerprint import colliders_digest
+from ..read.fingerprint import colliders_digest, scale_products
 from ..scale import meters_per_unit
 from ..scene import colliders as scene
 from ..scene.changes import require_storable_data
 from ..settings.given import COLLIDER, COLLIDERS
-from ..settings.options import MeasureOptions
+from ..write import properties
 from .tracking import staleness, stamps
 
 SAME = 1e-5  # relative: float32 matrices of turned copies differ by less
-WITHOUT_AXES = MeasureOptions(axes=False)
+LIMITED = ("automatic", "hull", "pieces")  # shapes with tolerances
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +69,7 @@ def plan_colliders(
     plans of this run by their keys, to which this one is added.
     """
     require_storable_data(obj)
-    measured = measure_body(obj, depsgraph, WITHOUT_AXES)
+    measured = measure_body(obj, depsgraph)
     measurement = measured.measurement
     unit = meters_per_unit(depsgraph.scene)
     surface = _surface(obj, measured)
@@ -91,9 +95,17 @@ def plan_colliders(
     elif correct == "VERTICES" or wanted.shape.startswith("equal_"):
         masses = [mass * body.mass / sum(masses) for mass in masses]
     shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
-    record = {"shape": wanted.shape, "correct": correct.lower(), "count": len(shapes)}
+    record: dict[str, Any] = {
+        "shape": wanted.shape,
+        "correct": correct.lower(),
+        "count": len(shapes),
+    }
+    if wanted.shape in LIMITED:
+        record["tolerance"] = [wanted.outward, wanted.inward]
+        record["limits"] = [wanted.pieces, wanted.vertices]
     record |= zip(("outward", "inward", "distance_bound"), distances(surface, shapes, hull))
     record |= effect(body, shapes, measurement.volume).as_record()
+    record["body"] = _describe_body(body)
     known[key] = Plan(obj, tuple(shapes), stretch, plain(record), measurement.fingerprint, key)
     return known[key]
 
@@ -159,6 +171,7 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
         marks = {
             "fingerprint": plan.fingerprint,
             "digest": colliders_digest(plan.obj),
+            "scale": scale_products(plan.obj),
             "engine": engine,
         }
         known = {
@@ -172,6 +185,33 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
     ]
     staleness.mark_stamps(context, fresh)
     return made
+
+
+@contextmanager
+def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Iterator[None]:
+    """Keep the stored effects of colliders valid while nothing but frames of their bodies changes,
+    and results are stored anew.
+    """
+    kept = {
+        obj: float64_matrix(obj.matrix_world)
+        for obj in objects
+        if COLLIDERS in obj
+        and staleness.stale_reason(obj, context.scene, stamps.of_colliders) is None
+    }
+    yield
+    context.view_layer.update()
+    fresh = []
+    for obj, before in kept.items():
+        group = obj[COLLIDERS]
+        turn = polar_rotation(float64_matrix(obj.matrix_world)[None, :3, :3])[0][0].T
+        turn = turn @ polar_rotation(before[None, :3, :3])[0][0]
+        group["center_shift"] = (turn @ group["center_shift"]).tolist()
+        group["fingerprint"] = properties.fingerprint(obj) or group["fingerprint"]
+        group["digest"] = colliders_digest(obj)
+        group["scale"] = scale_products(obj)
+        staleness.note_edits(obj)
+        fresh.append((obj, stamps.of_colliders(obj)))
+    staleness.mark_stamps(context, fresh)
 
 
 def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
@@ -205,10 +245,28 @@ def collider_record(
         for key, value in obj[COLLIDERS].items()
     }
     reason = staleness.stale_reason(obj, context.scene, stamps.of_colliders)
-    if reason is None and stamps.Stamp.parse(measurement.fingerprint).geometry != stamp.geometry:
+    # Without the add-on nobody notes edits, and a turned body has another digest of its geometry.
+    is_same = stamps.Stamp.parse(measurement.fingerprint).geometry == stamp.geometry
+    is_same = is_same or _is_same_body(stored.get("body", ()), measurement.in_object_frame())
+    if reason is None and not is_same:
         reason = stamps.Stale.GEOMETRY
-    shown = stored.keys() - {"fingerprint", "digest"}
+    shown = stored.keys() - {"fingerprint", "digest", "scale", "body", "limits"}
     return {
         **{key: stored[key] for key in stored if key in shown},
         "out_of_date": reason and str(reason),
     }
+
+
+def _describe_body(body: MassProperties) -> list[float]:
+    """Return mass, center and inertia, in kg and m, so that a turned body is recognized."""
+    return [body.mass, *body.center.tolist(), *body.inertia.ravel().tolist()]
+
+
+def _is_same_body(stored: Sequence[float], body: MassProperties) -> bool:
+    """Return whether a described body is this one, but for the rounding of turned matrices."""
+    if len(stored) != 13 or not body.mass > 0.0:
+        return False
+    before = np.array(stored, np.float64)
+    size = (float(body.inertia.trace()) / body.mass) ** 0.5
+    limits = body.mass * np.repeat([1.0, size / body.mass, size**2], [1, 3, 9])
+    return bool((np.abs(before - _describe_body(body)) <= SAME * limits).all())

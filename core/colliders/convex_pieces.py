@@ -22,21 +22,22 @@ from ..mesh.point_triangle import triangle_distances
 from ..mesh.surface import Surface, triangle_areas
 from ..numerics.graph import connected_components
 from ..numerics.quadrature import spread_directions
+from ..verdict.finding import MeasureError
 from .plane_cuts import ON_PLANE_RTOL, Piece, connected_parts, cut, piece_from_surface
 
-HULL_RTOL = 1e-6  # of the resulting hulls
-SEARCH_RTOL = 1e-4  # of hulls that are only compared
-COARSE_POINTS = 96  # of the copy that planes are compared on
+HULL_RTOL = 1e-6  # tolerance of the resulting hulls
+SEARCH_RTOL = 1e-4  # tolerance of hulls that are only compared
+COARSE_POINTS = 96  # points of the copy that planes are compared on
 MAX_PLANES = 24  # through concave edges
 # directions that choose planes, and planes that are compared exactly
 DIRECTIONS = 120
 LIKELY_PLANES = 6
 SAMPLES_PER_BLOCK = 32  # after the first few, which most often decide
-SHARES = np.array([1, 2, 3]) / 4.0  # of the extent, where planes divide a piece evenly
+SHARES = np.array([1, 2, 3]) / 4.0  # shares of the extent, where planes divide a piece evenly
 LEAST_GAIN = 1e-3  # relative to the body's volume: a smaller reduction is none
 LEAST_EXCESS = 0.01  # of the hull over the volume of a piece that is worth two cuts
 HOPE = 0.02  # The gain of a cut that gains nothing yet, relative to the excess.
-MERGE_CORNERS = 96  # of hulls that are compared before they are merged
+MERGE_CORNERS = 96  # corners of hulls that are compared before they are merged
 SPARE = 2  # pieces made for each wanted piece, before they are merged
 
 
@@ -65,7 +66,19 @@ def cut_into_pieces(
         [piece.points for piece in (*done, *(piece for piece, *_ in open_pieces))], pieces, volume
     )
     yield 0.95
-    return [convex_hull(points, HULL_RTOL, corners) for points in groups]
+    return [_solid_hull(points, HULL_RTOL, corners) for points in groups]
+
+
+def _solid_hull(points: NDArray, tolerance: float, corners: int) -> ConvexHull:
+    """Return the hull of points; one that the tolerance makes flat, such as a long rod's, without.
+
+    tolerance, corners: as for `convex_hull`.
+    """
+    try:
+        hull = convex_hull(points, tolerance, corners)
+    except MeasureError:
+        return convex_hull(points, max_corners=corners)
+    return convex_hull(points, max_corners=corners) if hull.is_flat else hull
 
 
 def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, NDArray[np.float64]]:
@@ -112,7 +125,7 @@ def _is_near_hull(piece: Piece, limit: float) -> bool:
     """Return whether places on the hull's faces and edges, of the largest faces first, are all this
     near to a piece.
     """
-    hull = convex_hull(piece.points, SEARCH_RTOL, 64)
+    hull = _solid_hull(piece.points, SEARCH_RTOL, 64)
     largest = np.argsort(-triangle_areas(hull.points, hull.triangles), kind="stable")
     corners = hull.points[hull.triangles[largest]]
     fans = piece.points[np.stack([piece.first()[piece.face], piece.start, piece.end], axis=1)]
@@ -145,9 +158,8 @@ def _coarse(piece: Piece) -> Piece:
     extent = np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
     far = np.argsort(-((points - points.mean(axis=0)) ** 2).sum(axis=1), kind="stable")
     while True:
-        number = np.maximum(
-            np.ceil(cells * extent / extent.max()), 2.0
-        )  # a thin body keeps both of its sides
+        # a thin body keeps both of its sides
+        number = np.maximum(np.ceil(cells * extent / extent.max()), 2.0)
         cell = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp) @ (
             cells * cells,
             cells,
@@ -248,9 +260,8 @@ def _gains(
         number = np.full(height.shape, -1)
         number[vertex, of] = np.arange(len(vertex))
         ends = number[edges]  # (e, 2, k)
-        link = np.nonzero(
-            (ends >= 0).all(axis=1) & ((a != 0.0) | (b != 0.0))
-        )  # an edge in the plane joins nothing
+        # an edge in the plane joins nothing
+        link = np.nonzero((ends >= 0).all(axis=1) & ((a != 0.0) | (b != 0.0)))
         new_number = len(vertex) + np.arange(len(new))
         inner = ends[edge, :, plane].max(axis=1)
         label, parts = connected_components(
@@ -348,7 +359,7 @@ def _merge(sets: list[NDArray[np.float64]], most: int, volume: float) -> list[ND
 
     Merges that add nothing go on. The hulls that are compared have few corners.
     """
-    hulls = [convex_hull(points, SEARCH_RTOL, MERGE_CORNERS).points for points in sets]
+    hulls = [_solid_hull(points, SEARCH_RTOL, MERGE_CORNERS).points for points in sets]
     volumes = _volumes(hulls)
     cost = np.full((len(sets), len(sets)), np.inf)
     rows, columns = np.triu_indices(len(sets), 1)
@@ -361,7 +372,7 @@ def _merge(sets: list[NDArray[np.float64]], most: int, volume: float) -> list[ND
         if len(sets) <= most and cost[i, j] > LEAST_GAIN * volume:
             break
         keep = [k for k in range(len(sets)) if k not in (i, j)]
-        merged = convex_hull(
+        merged = _solid_hull(
             np.concatenate([hulls[i], hulls[j]]), SEARCH_RTOL, MERGE_CORNERS
         ).points
         sets = [*(sets[k] for k in keep), np.concatenate([sets[i], sets[j]])]
@@ -380,4 +391,5 @@ def _volumes(sets: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     if not sets:
         return np.zeros(0)
     starts = np.cumsum([0, *(len(points) for points in sets[:-1])])
-    return hull_volumes(np.concatenate(sets), starts, SEARCH_RTOL)
+    volumes = hull_volumes(np.concatenate(sets), starts, SEARCH_RTOL)
+    return volumes if volumes.all() else hull_volumes(np.concatenate(sets), starts, 1e-8)

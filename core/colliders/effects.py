@@ -30,7 +30,6 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.findings import NO_CERTAIN_VOLUME
 from ..inertia.mass_properties import MassProperties
 from ..mesh.hulls import ConvexHull, convex_hull
 from ..mesh.surface import Surface, triangle_areas
@@ -42,6 +41,7 @@ from ..robots.model import Effect, Inertial, Pose, Shape, compare, ratio
 from ..robots.primitives import moments_of
 from ..statics.gradient import volume_gradient
 from ..verdict.finding import MeasureError
+from .findings import COLLIDERS_FLAT
 
 SUMS = monomial_count(2)  # mass, first and second moments
 DEGREE = monomials(2).sum(axis=1)
@@ -53,16 +53,16 @@ IN_NORM = np.where(monomials(2).max(axis=1) * 2 == DEGREE, np.sqrt(2.0), 1.0) * 
 HELD_WEIGHT = 30.0
 NEARNESS = 1e-5
 REPETITIONS = 40
-# of the body's mass and size
+# relative to the body's mass and size
 ROUNDING = 1e-15
 REACHED = 1e-11
-MOVES_REACHED = 1e-8  # of the body's volume and size, as precise as single precision
+MOVES_REACHED = 1e-8  # relative to the body's volume and size, as precise as single precision
 NEAR = 1e-6  # beyond which the volume is given up
 MAX_STEPS, MAX_MULTIPLIER_STEPS = 60, 60
-# of the trust region, in the body's radii of gyration
+# radii of the trust region, in the body's radii of gyration
 FIRST_RADIUS = 0.1
 LEAST_RADIUS = 1e-6
-MIN_AREA = 1e-3  # of the largest share: corners with less move as if they had so much
+MIN_AREA = 1e-3  # relative to the largest share: corners with less move as if they had so much
 # of the effect of all moves: how far sums that cannot be reached may be from the nearest ones
 SLACK = 1e-9
 TINY = float(np.finfo(np.float64).tiny)
@@ -76,7 +76,7 @@ def effect(body: MassProperties, shapes: Sequence[Shape], volume: float) -> Effe
     shares, rows = _ten_sums(body, shapes)
     sums = rows @ [shape.mass for shape in shapes]
     if not sums[0] > 0.0:
-        raise MeasureError(NO_CERTAIN_VOLUME)
+        raise MeasureError(COLLIDERS_FLAT)
     shift = sums[1:4] / sums[0]
     second = sums[SECOND_MOMENT_INDEX] - sums[0] * np.outer(shift, shift)
     own = Inertial(
@@ -98,7 +98,7 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
     """
     volumes, rows = _ten_sums(body, shapes)
     if not sum(volumes) > 0.0 or not body.mass > 0.0:
-        raise MeasureError(NO_CERTAIN_VOLUME)
+        raise MeasureError(COLLIDERS_FLAT)
     weights = np.sqrt(volumes / sum(volumes))
     second = body.inertia.trace() / 2.0 * np.eye(3) - body.inertia
     target = np.zeros(SUMS)
@@ -213,7 +213,14 @@ def correct_vertices(
     parts = [
         shapes[place].pose.apply(mesh.points * shapes[place].size) for place, mesh in meshes.items()
     ]
-    volume = polyhedron_moments(surface)[0].total
+    try:
+        volume = polyhedron_moments(surface)[0].total
+    except MeasureError:  # an open sheet encloses nothing
+        volume = 0.0
+    if not volume > 0.0:
+        volume = sum(float(moments_of(shape).total) for shape in shapes)
+    if not volume > 0.0:
+        raise MeasureError(COLLIDERS_FLAT)
     hulls = _Hulls(body, volume, parts, fixed)
     points, off = _solve(hulls, min(outward, inward) / hulls.size)
     if off > NEAR:

@@ -111,8 +111,12 @@ class Audit:
 
     def repairs(self) -> list[tuple[StatedLink, StatedInertial]]:
         """Return the links with a corrected inertial, if the file itself holds the inertial."""
-        found = [(one.link, one.repaired) for one in self.links if one.link.span is not None]
-        return [(link, repaired) for link, repaired in found if repaired is not None]
+        found = {  # Copies of a body have one inertial in the file.
+            one.link.span: (one.link, one.repaired)
+            for one in self.links
+            if one.link.span is not None and one.repaired is not None
+        }
+        return [*found.values()]
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,9 +176,8 @@ class Auditor:
         if not link.shapes and not link.inertial.mass and not link.inertial.tensor.any():
             return LinkAudit(link, (*entries, Entry(finding(INERTIAL_OF_FRAME), place)))
         pieces, unread = self._pieces(link.shapes)
-        incomplete = bool(
-            unread or entries
-        )  # entries of the reader: about shapes, as there is an inertial
+        # entries of the reader: about shapes, as there is an inertial
+        incomplete = bool(unread or entries)
         entries += unread
         found = _judge(link, link.inertial, pieces, incomplete)
         if any(piece.upright is not None for several in pieces.values() for _, piece in several):
@@ -286,9 +289,8 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
     reference = references[0]
     geometry = reference.uniform(stated.mass)
     if left:
-        entries = [
-            one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM
-        ]  # It adds nothing to errors.
+        # It adds nothing to errors.
+        entries = [one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM]
         # Geometry that cannot hold the mass shows nothing about its place.
         light_or_heavy = diagnose_density(geometry, reference)
         guess = None if light_or_heavy else finding(AUDIT_UNIFORM_INSTEAD)

@@ -21,6 +21,7 @@ PACKAGES = (
     "command",
     "core.bodies",
     "core.cad",
+    "core.colliders",
     "core.density",
     "core.files",
     "core.flat",

@@ -20,9 +20,9 @@ from ... import core
 from ...blender import scene, session
 from ...blender.settings.given import COLLIDER, COLLIDERS
 from ...blender.write import reports
-from ...core.verdict.finding import EditRefusedError, Finding
+from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
-from ..findings import PRIMITIVE_HAS_PARENT
+from ..findings import COLLIDERS_BEYOND_TOLERANCE, PRIMITIVE_HAS_PARENT
 from ..modal import ModalSteps
 
 if TYPE_CHECKING:
@@ -53,12 +53,13 @@ HULLS = {"AUTOMATIC", "HULL", "PIECES"}  # shapes with tolerances and limits
 ENGINES = (
     ("NONE", "None", "Names that no engine interprets"),
     ("UNREAL", "Unreal", "Prefixes by shape: UBX_, USP_, UCP_ and UCX_"),
-    ("GODOT", "Godot, Convex", "Suffix -convcolonly: a convex shape, for bodies that move"),
     (
-        "GODOT_MESH",
-        "Godot, Triangles",
-        "Suffix -colonly: the triangles, for bodies that do not move",
+        "GODOT",
+        "Godot, Convex",
+        "Suffix -convcolonly: a StaticBody3D with a convex shape, which may be moved to a body "
+        "that moves",
     ),
+    ("GODOT_MESH", "Godot, Triangles", "Suffix -colonly: a StaticBody3D with the triangles"),
     ("UNITY", "Unity", "One child for each collider, to which its Collider component is added"),
 )
 MAX_SHOWN_NAMES = 4
@@ -101,7 +102,19 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
         if len(self._plans) == 1:
             text = "volume {share:percent} of the object's"
             done += "; " + reports.phrase(text, share=self._plans[0].record["volume_ratio"])
-        return selection.summarize(self, len(self._plans), len(self._objects), done, self._failures)
+        beyond = [
+            finding(
+                COLLIDERS_BEYOND_TOLERANCE,
+                object=plan.obj.name,
+                outward=plan.record["outward"],
+                inward=plan.record["inward"],
+            )
+            for plan in self._plans
+            if session.is_beyond_tolerance(plan.record)
+        ]
+        return selection.summarize(
+            self, len(self._plans), len(self._objects), done, self._failures, beyond
+        )
 
 
 class OBJECT_OT_body_moments_make_colliders(_Making, Operator):

@@ -7,7 +7,7 @@ have them.
 import mujoco
 import numpy as np
 import pytest
-from body_moments.core.robots.audit import Auditor
+from body_moments.core.robots.audit import Auditor, repaired_copy
 from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.verdict.finding import FileError
 
@@ -286,3 +286,45 @@ def test_wrong_inline_mesh_is_a_finding_at_its_asset(tmp_path, numbers):
     assert [(entry.finding.code, entry.place.line) for entry in one.entries] == [
         ("description_number", 2)
     ]
+
+
+def test_replicated_bodies_and_geoms_are_those_of_mujoco(tmp_path):
+    """Copies stand where MuJoCo puts them, with its names, also in bodies and in other copies."""
+    spokes = '<replicate count="4" euler="0 20 90" offset=".1 0 .05">{}</replicate>'
+    spoke = '<geom type="box" size=".01 .02 .03" pos=".5 0 0" euler="10 0 0"/>'
+    wheel = '<body name="w"><inertial mass="1" pos="0 0 0" diaginertia="1 1 1"/>{}</body>'
+    pair = '<replicate count="11" sep="-" offset="0 1 0">{}</replicate>'
+    body = pair.format(spokes.format(wheel.format(spokes.format(pair.format(spoke)))))
+    path = tmp_path / "r.xml"
+    path.write_text(MODEL.format("", body))
+    model = mujoco.MjModel.from_xml_path(str(path))
+    links = read_description(path, Roots.for_file(path)).links
+    assert [link.name for link in links] == [model.body(i + 1).name for i in range(model.nbody - 1)]
+    shapes = [one.shape for link in links for one in link.shapes]
+    assert len(shapes) == model.ngeom == 11 * 4 * 11 * 4
+    places = np.array([shape.pose.position for shape in shapes])
+    assert np.abs(places - model.geom_pos).max() < 1e-12
+    turns = np.array([shape.pose.rotation for shape in shapes])
+    truth = np.zeros((model.ngeom, 9))
+    for quaternion, row in zip(model.geom_quat, truth):
+        mujoco.mju_quat2Mat(row, quaternion)
+    assert np.abs(turns.reshape(-1, 9) - truth).max() < 1e-12
+
+
+def test_inertial_of_replicated_bodies_is_repaired_once(tmp_path):
+    """All copies of a body have one inertial in the file, and one repair."""
+    body = (
+        '<replicate count="3" offset="1 0 0"><body name="b"><geom type="box" size=".1 .2 .3"/>'
+        '<inertial mass="48" pos="0 0 0" diaginertia="2080 1600 800"/></body></replicate>'
+    )
+    path = tmp_path / "r.xml"
+    path.write_text(MODEL.format("", body))
+    roots = Roots.for_file(path)
+    audit = Auditor(roots).audit(read_description(path, roots))
+    assert len(audit.links) == 3
+    (link, repaired), *others = audit.repairs()
+    assert not others and np.allclose(np.diag(repaired.inertia), [2.08, 1.6, 0.8])
+    copy = repaired_copy(audit.description, audit.repairs())
+    path.write_bytes(copy)
+    again = Auditor(roots).audit(read_description(path, roots))
+    assert not any(one.findings for one in again.links)

@@ -108,7 +108,8 @@ class _Frame(NamedTuple):
     """The frame that elements of a body stand in: its pose in the body, what scales it, and the
     class of its defaults.
 
-    scale: (3,) along the frame's axes. mass: the factor of masses. prefix: of the names of bodies.
+    scale: (3,) along the frame's axes. mass: the factor of masses. prefix, suffix: of the names of
+    bodies.
     """
 
     model: _Model
@@ -117,6 +118,7 @@ class _Frame(NamedTuple):
     mass: float = 1.0
     defaults: str = "main"
     prefix: str = ""
+    suffix: str = ""
 
     @property
     def is_plain(self) -> bool:
@@ -163,6 +165,26 @@ class _Frame(NamedTuple):
             waiting += [(child, current) for child in part.children]
         raise ValueError(*names.values())
 
+    def repeat(self, node: Node) -> list[_Frame]:
+        """Return the frames of the copies that an element `replicate` makes of its content."""
+        count = int(number(node.get("count")))
+        check_size(1, count)
+        offset = numbers(node.get("offset"), 3, (0.0, 0.0, 0.0))
+        angles = numbers(node.get("euler"), 3, (0.0, 0.0, 0.0))
+        names = "{}{:0{}d}".format
+        position = np.zeros(3)
+        frames = []
+        for index in range(count):
+            text = " ".join(map(repr, (angles * index).tolist()))
+            turn = _rotation({"euler": text}, self.model)[0]
+            scale = self.scale_along(turn, node.get("euler"))
+            # The names of inner copies come before those of outer ones.
+            suffix = names(node.get("sep"), index, len(str(count - 1))) + self.suffix
+            pose = self.place(position, turn)
+            frames.append(self._replace(pose=pose, scale=scale, suffix=suffix))
+            position = position + turn @ offset
+        return frames
+
     def place(self, position: NDArray, turn: NDArray) -> Pose:
         """Return the pose in the body of a pose in this frame."""
         return self.pose @ Pose(self.scale * position, turn)
@@ -204,15 +226,19 @@ def _parts(
     """
     for node in nodes:
         check_size(1, next(frame.model.count))
-        inside = None
+        insides: Sequence[tuple[Sequence[Node], _Frame]] = ()
         if node.tag == "attach":
             inside = attempt(refused, node, frame.attach)
-        elif node.tag in ("frame", "replicate"):
-            inner = frame if node.tag == "replicate" else attempt(refused, node, frame.enter)
-            inside = inner and (node.children, inner)
+            insides = [inside] if inside else ()
+        elif node.tag == "frame":
+            inner = attempt(refused, node, frame.enter)
+            insides = [(node.children, inner)] if inner else ()
+        elif node.tag == "replicate":
+            copies = attempt(refused, node, frame.repeat) or ()
+            insides = [(node.children, copy) for copy in copies]
         else:
             yield node, frame
-        if inside is not None:
+        for inside in insides:
             yield from _parts(*inside, refused)
 
 
@@ -232,7 +258,8 @@ def _link(
         if geom.tag == "geom"
     )
     shapes = tuple(shape for shape in read if shape is not None)
-    name = outer.prefix + body.get("name") if body.get("name") else "body {}".format(count + 1)
+    name = outer.prefix + body.get("name") + outer.suffix
+    name = name if body.get("name") else "body {}".format(count + 1)
     # Without an inertial MuJoCo takes it from geoms. Numbers in a frame are not those of the body;
     # no repair fits them.
     link = stated_link(
@@ -373,9 +400,8 @@ def _primitive(kind: str, attributes: dict[str, str], pose: Pose) -> Shape | Non
         return Shape(
             kind, sizes.get(kind, (size[0], length)), Pose((ends[:3] + ends[3:]) / 2.0, turn)
         )
-    halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(
-        kind, 3
-    )  # index of the first half of a length
+    # index of the first half of a length
+    halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(kind, 3)
     values = tuple(
         2.0 * value if place >= halves else value for place, value in enumerate(size[: SIZES[kind]])
     )

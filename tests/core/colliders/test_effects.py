@@ -161,6 +161,6 @@ def test_weightless_colliders_are_refused_by_name():
     body = body_of([box((1.0, 1.0, 1.0))], [1000.0])
     with pytest.raises(MeasureError) as refused:
         effect(body, with_masses([box((1.0, 1.0, 1.0))], [0.0]), 1.0)
-    assert refused.value.finding.code == "no_certain_volume"
+    assert refused.value.finding.code == "colliders_flat"
     with pytest.raises(MeasureError):
         correct_masses(body, [box((1.0, 1.0, 0.0))])

@@ -38,6 +38,7 @@ AXES = bodies.rotation(5)
 INERTIA = MASS * AXES @ np.diag([0.017, 0.029, 0.036]) @ AXES.T
 TRUTH = StatedInertial(MASS, CENTER, INERTIA)
 REFERENCE = Reference(MASS / DENSITY, CENTER, INERTIA / MASS, (ORIGIN,))
+# mm, cm, inches, and the other way round
 LENGTH_UNITS = (
     1e-3,
     1e-2,
@@ -45,7 +46,8 @@ LENGTH_UNITS = (
     1e3,
     1e2,
     1.0 / 0.0254,
-)  # mm, cm, inches, and the other way round
+)
+# g·m², kg·mm², g·mm², kg·cm², g·cm²
 INERTIA_UNITS = (
     1e-3,
     1e-6,
@@ -57,7 +59,7 @@ INERTIA_UNITS = (
     1e9,
     1e4,
     1e7,
-)  # g·m², kg·mm², g·mm², kg·cm², g·cm²
+)
 
 
 def square(arm):

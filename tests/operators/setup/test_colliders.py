@@ -7,9 +7,17 @@ name the object.
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.read.mesh import mesh_surface
+from body_moments.blender.scene.colliders import read_colliders
+from body_moments.blender.session.colliders import collider_record
+from body_moments.blender.session.stored import outcome
 from body_moments.blender.session.tracking.staleness import stale_reason
 from body_moments.blender.session.tracking.stamps import Stale, of_colliders
 from body_moments.blender.settings.given import COLLIDER, COLLIDERS
+from body_moments.core.numerics.rotations import rotation_matrix
+from body_moments.core.polyhedron.integration import volume_and_center
+from mathutils import Vector
 
 from tests.blender.objects import add, measured, mesh_body, only, seen
 
@@ -248,3 +256,99 @@ def test_sphere_keeps_its_shape_without_vertices_to_move():
     size = list(colliders(body)[0][COLLIDER]["size"])
     make(shape="SPHERE", correct="VERTICES")
     assert list(colliders(body)[0][COLLIDER]["size"]) == size
+
+
+def add_rod_along_path(points=((1, 2, 3), (4, 2, 5))):
+    curve = bpy.data.curves.new("Curve", "CURVE")
+    curve.dimensions = "3D"
+    curve.use_path, curve.bevel_depth, curve.use_fill_caps = True, 0.3, True
+    spline = curve.splines.new("POLY")
+    spline.points.add(len(points) - 1)
+    for point, place in zip(spline.points, points):
+        point.co = (*place, 1.0)
+    return add(curve, "Curve", (3, 1, 0), (0.3, 0.5, 0.7))
+
+
+@pytest.mark.parametrize("shape", ["HULL", "BOX", "EQUAL_BOX"])
+def test_colliders_of_a_curve_with_a_path_stand_where_it_is(shape):
+    body = add_rod_along_path()
+    assert make(shape=shape) == {"FINISHED"}
+    (collider,) = colliders(body)
+    around = np.array([body.matrix_world @ Vector(corner) for corner in body.bound_box])
+    middle = (around.min(axis=0) + around.max(axis=0)) / 2.0
+    points = seen(collider)
+    assert np.abs((points.min(axis=0) + points.max(axis=0)) / 2.0 - middle).max() < 1e-4
+    rotation = rotation_matrix(body.matrix_world.to_quaternion())
+    (read,) = read_colliders([collider], rotation, 1.0)
+    points = (points - np.array(body.location)) @ rotation
+    center = read.pose.position if read.surface is None else read.surface.points.mean(axis=0)
+    assert np.abs(points.mean(axis=0) - center).max() < 1e-5
+
+
+def test_origin_of_a_hull_is_its_center_of_mass():
+    body = add(mesh_body(), "Body", (100, 2, 3), (0.3, 0.4, 0.5), (1.0, 2.0, -0.5))
+    make(shape="PIECES", engine="GODOT")
+    made = colliders(body)
+    assert len(made) > 1
+    for collider in made:
+        volume, center = volume_and_center(mesh_surface(collider.data, edges=False))
+        assert abs(volume) > 0.0 and np.abs(center).max() < 1e-6
+
+
+@pytest.mark.parametrize("correct", ["NONE", "MASSES", "VERTICES"])
+def test_flat_colliders_are_refused_with_a_remedy(correct):
+    mesh = bpy.data.meshes.new("Sheet")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [], [(0, 1, 2, 3)])
+    body = add(mesh, "Sheet")
+    body.body_moments.kind, body.body_moments.thickness = "SHELL", 0.01
+    assert make(shape="HULL", correct=correct) == {"CANCELLED"}
+    (group,) = outcome.last().groups
+    assert group.finding.code == "colliders_flat" and not colliders(body)
+    assert make(shape="SPHERE") == {"FINISHED"}
+
+
+@pytest.mark.parametrize("shape", ["PIECES", "AUTOMATIC"])
+def test_rod_of_extreme_length_gets_colliders(shape):
+    bpy.ops.mesh.primitive_cube_add(scale=(5e4, 0.5, 0.5))
+    bpy.ops.object.transform_apply()
+    body = bpy.context.object
+    assert make(shape=shape) == {"FINISHED"}
+    assert body[COLLIDERS]["volume_ratio"] == pytest.approx(1.0, rel=1e-4)
+
+
+def test_tolerance_that_is_not_kept_is_a_warning(capfd):
+    bpy.ops.mesh.primitive_uv_sphere_add()
+    make(shape="HULL", vertices=8, inward=0.001, outward=0.5)
+    assert "the tolerance is not kept" in capfd.readouterr().out
+    make(shape="HULL", vertices=8, inward=0.9, outward=0.9)
+    assert "tolerance" not in capfd.readouterr().out
+
+
+def test_record_of_turned_body_keeps_its_colliders():
+    body = add(mesh_body(), "Body")
+    make(shape="HULL")
+    body.rotation_euler = (1.0, 2.0, 3.0)
+    bpy.context.view_layer.update()
+
+    def reason():
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        found = collider_record(body, measure_object(body, depsgraph), bpy.context)
+        return found["out_of_date"]
+
+    assert reason() is None and "body" not in body
+    body[COLLIDERS]["body"] = [*body[COLLIDERS]["body"][:-1], 9.0]
+    assert reason() == Stale.GEOMETRY
+
+
+def test_turning_a_sheared_body_keeps_its_colliders_valid():
+    parent = add(None, "Parent", scale=(1, 2, 0.7))
+    body = add(mesh_body(), "Body", rotation=(0.4, 0.6, 0.8))
+    body.parent = parent
+    only(body)
+    make(shape="HULL")
+    parent.rotation_euler = 1, 2, 3
+    bpy.context.view_layer.update()
+    assert stale_reason(body, bpy.context.scene, of_colliders) is None
+    parent.scale = 1, 1, 1
+    bpy.context.view_layer.update()
+    assert stale_reason(body, bpy.context.scene, of_colliders) == Stale.TRANSFORM

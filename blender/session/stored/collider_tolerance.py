@@ -1,0 +1,19 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tolerance of stored colliders, which hulls and a limited number of pieces may not keep."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+ROUNDING = 1e-6  # relative: distances of hulls that are stored in single precision
+
+
+def is_beyond_tolerance(record: Mapping[str, Any]) -> bool:
+    """Return whether colliders, or their body, stand out farther than they were allowed to.
+
+    record: that of the colliders. Limits of zero, of pieces by their number alone, always hold.
+    """
+    limits = zip(("outward", "inward"), record.get("tolerance", ()))
+    return any(limit and record[name] > limit * (1.0 + ROUNDING) for name, limit in limits)
