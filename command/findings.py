@@ -27,6 +27,14 @@ NOTHING_RENDERED = error(
     "Nothing was measured: {count} objects were left out. Use --all, or turn on their rendering.",
 )
 FILE_HIDES = note("file_hides", "The file does not show it: {cause:word}. Use --all to measure it.")
+FRAME_MEASURED = note(
+    "frame_measured", "The file is animated: measured at its first frame, {frame:g}."
+)
+FBX_INHERIT_TYPE = warning(
+    "fbx_inherit_type",
+    "Nodes of the FBX file do not inherit the scale of their parents, which Blender's importer "
+    "ignores: sizes and places may be wrong. Apply the scales, or export as glTF or USD.",
+)
 USD_CAGE = warning(
     "usd_cage",
     "By the file, the mesh is the cage of a subdivision surface ({scheme}), and the cage was "

@@ -32,6 +32,7 @@ from ...core.moments.affine_maps import affine_matrices
 from ...core.verdict.finding import ReadError
 from .findings import INSTANCES_OF_HIDDEN_OBJECT, NON_FINITE_INSTANCES
 from .mesh import face_slots, from_edit_mesh, mesh_surface, read_array, vertex_values
+from .places import world_matrices
 from .splines import spline_reading
 from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, evaluated_geometry
 
@@ -85,7 +86,7 @@ class InstanceCollector:
 
     def collect(self) -> None:
         """Read the root object and its instances."""
-        place = float64_matrix(self.root.matrix_world)[None]
+        place = world_matrices(self.root)
         try:
             self._add_object(self.root, place)
         except _NeedsInstanceList:
@@ -211,7 +212,8 @@ class InstanceCollector:
         )
         for member in visible_objects(collection):
             evaluated = member.evaluated_get(self.depsgraph)
-            self._add_object(evaluated, matrices @ float64_matrix(evaluated.matrix_world))
+            placed = matrices[:, None] @ world_matrices(evaluated)[None]
+            self._add_object(evaluated, placed.reshape(-1, 4, 4))
 
     def _add_listed_instances(self, instance_matrix: NDArray) -> None:
         """Add the root and its instances from `depsgraph.object_instances`."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import Part, Reading, attribute_to_source, float64_matrix
+from ...core.bodies.reading import Part, Reading, attribute_to_source
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import rotation_matrix
 from ...core.nurbs.findings import NON_POSITIVE_WEIGHTS
@@ -21,6 +21,7 @@ from .curves import read_curves
 from .decisions import reading_findings, why_empty
 from .findings import NON_FINITE_TRANSFORM, ONLY_CURVES_ARE_WIRES
 from .instances import InstanceCollector
+from .places import has_places, world_matrices
 from .splines import is_deformed, nonpositive_weights, spline_reading
 from .visibility import evaluated_geometry, require_kind, why_not_evaluated
 
@@ -93,7 +94,7 @@ def locate(obj, depsgraph) -> Reading:
     evaluated = obj.evaluated_get(depsgraph)
     if not evaluated.is_evaluated:
         raise ReadError(why_not_evaluated(obj, depsgraph), subject=obj.name)
-    matrix = float64_matrix(evaluated.matrix_world)
+    matrix = world_matrices(evaluated)[0]
     if not np.isfinite(matrix).all():
         raise ReadError(NON_FINITE_TRANSFORM, subject=obj.name)
     location, rotation, _scale = evaluated.matrix_world.decompose()
@@ -102,7 +103,7 @@ def locate(obj, depsgraph) -> Reading:
         type=obj.type,
         matrix=matrix,
         rotation=rotation_matrix(rotation),
-        location=np.array(location[:], np.float64),
+        location=matrix[:3, 3].copy() if has_places(obj) else np.array(location[:], np.float64),
     )
 
 

@@ -16,16 +16,18 @@ import sys
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 
 import bpy
 
 from ...core.files.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
-from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
+from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED, FRAME_MEASURED
 from ..supervisor.listing import BLEND, USD
 from .finite import check_numbers
 from .import_usd import import_usd
-from .importers import import_3mf, import_gltf, import_iges, import_mesh, import_obj
+from .importers import import_3mf, import_fbx, import_gltf, import_iges, import_mesh, import_obj
+from .placing import first_frame, set_frame
 from .references import Opened
 from .suffixes import check_file, file_suffix
 
@@ -38,7 +40,7 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
     ".stl": import_mesh,
     ".ply": import_mesh,
     ".obj": import_obj,
-    ".fbx": lambda path: bpy.ops.wm.fbx_import(filepath=path),
+    ".fbx": import_fbx,
     ".3mf": import_3mf,
     ".igs": import_iges,
     ".iges": import_iges,
@@ -74,6 +76,12 @@ def _opened(path: str) -> Opened:
     except RuntimeError as error:
         raise FileError(FILE_UNREADABLE, error=reason(error)) from error
     opened = found if isinstance(found, Opened) else Opened()
+    # Blender's importers leave the scene as it was before they set keys.
+    start = None if kind in USD else first_frame()
+    if start is not None:
+        set_frame(start)
+        animated = finding(FRAME_MEASURED, frame=start)
+        opened = replace(opened, notes=(*opened.notes, animated))
     if not bpy.context.scene.objects:
         raise FileError(
             opened.errors[0] if opened.errors else finding(FILE_WITHOUT_OBJECTS, content="objects")

@@ -9,22 +9,23 @@ visibility, purpose and subdivision. Its hook tells the object of each prim.
 from __future__ import annotations
 
 import importlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
 from bpy.types import Object
-from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ...blender.read.places import set_places
 from ...blender.scene.findings import SURFACES_ROUNDED
 from ...blender.scene.imports import surface_data
 from ...core.cad.obj import UPRIGHT
 from ...core.cad.surfaces import revolved_solid
 from ...core.files.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding
-from ..findings import FILE_HIDES, USD_CAGE, USD_UNREAD
+from ..findings import FILE_HIDES, FRAME_MEASURED, USD_CAGE, USD_UNREAD
+from .placing import place_objects, set_frame
 from .references import Opened, reported_references
 
 _SHEAR = 1e-6  # cosine of the angle between two axes; larger than the rounding of float32
@@ -34,15 +35,18 @@ class _Prim(NamedTuple):
     """Facts about the prim of an object that Blender's importer drops.
 
     hidden: the reason why a renderer does not show it. scheme: the subdivision of a mesh that is a
-    cage. solid: the arguments of `revolved_solid`. place: (4, 4) its matrix in the scene if that is
-    sheared. is_member: of an instance.
+    cage. solid: the arguments of `revolved_solid`. place: (4, 4) its matrix in the scene. is_member:
+    of an instance. points: (n, 3) of a skinned mesh. members: of an instancer, the objects that it
+    shows, each with its (k, 4, 4) places relative to it.
     """
 
     hidden: str | None
     scheme: str | None
     solid: tuple[float, float, float, str, bool] | None
-    place: NDArray[np.float64] | None
+    place: NDArray[np.float64]
     is_member: bool
+    points: NDArray[np.float64] | None
+    members: Mapping[str, NDArray[np.float64]] | None
 
 
 _SHAPELESS = "Points", "BasisCurves", "HermiteCurves", "NurbsCurves"  # have no volume
@@ -54,22 +58,33 @@ _PURPOSES = {
 
 
 def import_usd(path: str) -> Opened:
-    """Import a USD file: solids as exact surfaces, hidden prims as objects that are not rendered.
-
-    Raise FileError.
+    """Import a USD file: each object at the place that the file states at its first frame, solids
+    as exact surfaces, hidden prims as objects that are not rendered. Raise FileError.
     """
-    prims, missing = _import(path)
+    prims, missing, start = _import(path)
     members = [prim for prim in prims.values() if prim.is_member]
-    is_sheared = any(prim.place is not None for prim in prims.values())
-    if members and (is_sheared or any(prim.hidden or prim.scheme for prim in members)):
+    has_instancer = any(prim.members is not None for prim in prims.values())
+    if members and (has_instancer or any(_is_special(prim) for prim in members)):
         # All instances show the same objects; objects of their own can be hidden, sheared and
         # reported.
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-        prims, _ = _import(path, support_scene_instancing=False)
-    return _correct(prims, missing)
+        prims, missing, start = _import(path, support_scene_instancing=False)
+    return _correct(prims, missing, start)
 
 
-def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding, ...]]:
+def _is_special(prim: _Prim) -> bool:
+    """Return whether an object of an instance cannot be shown as Blender's importer does."""
+    axes = prim.place[:3, :3]
+    lengths = np.linalg.norm(axes, axis=0)
+    is_sheared = (
+        np.abs(axes.T @ axes - np.diag(lengths**2)) > _SHEAR * np.outer(lengths, lengths)
+    ).any()
+    return bool(prim.hidden or prim.scheme or is_sheared or prim.points is not None)
+
+
+def _import(
+    path: str, **options: bool
+) -> tuple[dict[str, _Prim], tuple[Finding, ...], float | None]:
     """Run Blender's importer, and return the prims of objects by name, and a finding about missing
     references.
     """
@@ -77,7 +92,7 @@ def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding
     # matrices.
     options |= {"import_visible_only": False, "import_guide": True, "import_proxy": True}
     options["apply_unit_conversion_scale"] = False
-    results: list[tuple[float, dict[str, _Prim], list[str]] | Exception] = []
+    results: list[Any] = []  # one tuple, or an exception
 
     class BODY_MOMENTS_USD_prims(bpy.types.USDHook):
         bl_idname = "body_moments_prims"
@@ -88,7 +103,8 @@ def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding
             try:
                 stage = _Stage(context.get_stage())
                 blocks = context.get_prim_map()
-                results.append((stage.unit, stage.prims(blocks), stage.unread(blocks)))
+                facts = stage.prims(blocks)
+                results.append((stage.unit, facts, stage.unread(blocks), stage.start))
             except Exception as error:  # Blender would only print it.
                 results.append(error)
             return True
@@ -103,13 +119,15 @@ def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding
         raise FileError(FILE_UNREADABLE, error="this Blender lacks the Python modules of USD")
     if isinstance(results[0], Exception):
         raise results[0]
-    unit, prims, unread = results[0]
+    unit, prims, unread, start = results[0]
+    if start is not None:
+        set_frame(start)
     if unread:
         missing = (*missing, finding(USD_UNREAD, names=unread))
     bpy.context.scene.unit_settings.scale_length = unit
     if not abs(bpy.context.scene.unit_settings.scale_length - unit) <= 1e-6 * unit:
         raise FileError(FILE_UNREADABLE, error="its metersPerUnit is {}".format(unit))
-    return prims, missing
+    return prims, missing, start
 
 
 class _Stage:
@@ -120,14 +138,31 @@ class _Stage:
 
     def __init__(self, stage: Any) -> None:
         # Blender has these modules, and exposes them on request.
-        usd, self._geom = (importlib.import_module("pxr." + name) for name in ("Usd", "UsdGeom"))
+        self._usd, self._geom, self._skel = (
+            importlib.import_module("pxr." + name) for name in ("Usd", "UsdGeom", "UsdSkel")
+        )
         self._stage = stage
-        self._time = usd.TimeCode(bpy.context.scene.frame_current)
+        self.start = self._first_time()
+        self._time = self._usd.TimeCode(
+            bpy.context.scene.frame_current if self.start is None else self.start
+        )
         self._places = self._geom.XformCache(self._time)
         self.unit = self._geom.GetStageMetersPerUnit(stage)
         self._to_scene = (
             UPRIGHT if self._geom.GetStageUpAxis(stage) == self._geom.Tokens.y else np.eye(4)
         )
+
+    def _first_time(self) -> float | None:
+        """Return the stated first frame, else the first that has values, None without animation."""
+        firsts = [
+            attribute.GetTimeSamples()[0]
+            for prim in self._stage.TraverseAll()
+            for attribute in prim.GetAuthoredAttributes()
+            if attribute.GetNumTimeSamples()
+        ]
+        if firsts and self._stage.HasAuthoredTimeCodeRange():
+            return self._stage.GetStartTimeCode()
+        return min(firsts, default=None)
 
     def prims(self, blocks: Mapping[str, list[bpy.types.ID]]) -> dict[str, _Prim]:
         """Return the facts about the prims of objects, by name. blocks: Blender's data, by the
@@ -142,7 +177,33 @@ class _Stage:
         prims = {block.name: prim for prim, block in pairs if isinstance(block, Object)}
         # Of an object that is merged from two prims, the geometry's prim says more.
         prims |= {objects[block].name: prim for prim, block in pairs if block in objects}
-        return {name: self._facts(prim) for name, prim in prims.items()}
+        names = {prim.GetPath(): name for name, prim in prims.items()}
+        facts = {name: self._facts(prim, names) for name, prim in prims.items()}
+        skinned = self._skinned_points()
+        return {
+            name: fact._replace(points=skinned.get(prims[name].GetPath()))
+            for name, fact in facts.items()
+        }
+
+    def _skinned_points(self) -> dict[Any, NDArray[np.float64]]:
+        """Return the points of skinned meshes by their paths, in their own coordinates."""
+        bound = [
+            prim
+            for prim in self._stage.Traverse()
+            if prim.IsA(self._geom.Mesh)
+            and (
+                self._skel.BindingAPI(prim).GetJointIndicesAttr().HasAuthoredValue()
+                or self._skel.BindingAPI(prim).GetBlendShapesAttr().HasAuthoredValue()
+            )
+        ]
+        if bound:
+            # Blender's modifiers may read the other layers again.
+            self._stage.SetEditTarget(self._stage.GetSessionLayer())
+            self._skel.BakeSkinning(self._stage.Traverse())
+        return {
+            prim.GetPath(): np.array(self._geom.Mesh(prim).GetPointsAttr().Get(self._time))
+            for prim in bound
+        }
 
     def unread(self, blocks: Mapping[str, list[bpy.types.ID]]) -> list[str]:
         """Return the paths and types of visible shapes that Blender's importer leaves out."""
@@ -161,25 +222,79 @@ class _Stage:
         shown = [prim for prim in left if self._why_hidden(self._geom.Imageable(prim)) is None]
         return ["{} ({})".format(prim.GetPath(), prim.GetTypeName()) for prim in shown]
 
-    def _facts(self, prim: Any) -> _Prim:
+    def _facts(self, prim: Any, names: Mapping[Any, str]) -> _Prim:
         scheme = (
             self._geom.Mesh(prim).GetSubdivisionSchemeAttr().Get()
             if prim.IsA(self._geom.Mesh)
             else "none"
         )
-        place = np.array(self._places.GetLocalToWorldTransform(prim)).T
+        members = None
+        if prim.IsA(self._geom.PointInstancer):
+            found: dict[str, list[NDArray]] = {}
+            for path, matrices in self._members(prim):
+                if path in names:
+                    found.setdefault(names[path], []).append(matrices)
+            members = {name: np.concatenate(blocks) for name, blocks in found.items()}
         return _Prim(
             self._why_hidden(self._geom.Imageable(prim)),
             None if scheme in ("none", "bilinear") else scheme,
             self._solid(prim),
-            self._to_scene @ place if self._is_sheared(prim) else None,
+            self._to_scene @ np.array(self._places.GetLocalToWorldTransform(prim)).T,
             prim.IsInPrototype(),
+            None,
+            members,
         )
 
+    def _members(self, instancer: Any) -> Iterator[tuple[Any, NDArray[np.float64]]]:
+        """Yield the paths of shapes that an instancer shows, and their (k, 4, 4) places in it."""
+        schema = self._geom.PointInstancer(instancer)
+        matrices = np.array(
+            schema.ComputeInstanceTransformsAtTime(
+                self._time,
+                self._time,
+                self._geom.PointInstancer.IncludeProtoXform,
+                self._geom.PointInstancer.IgnoreMask,
+            ),
+            np.float64,
+        ).reshape(-1, 4, 4)
+        indices = np.array(schema.GetProtoIndicesAttr().Get(self._time) or [], int)
+        mask = schema.ComputeMaskAtTime(self._time)
+        shown = np.array(mask, bool) if len(mask) else np.ones(len(indices), bool)
+        for number, target in enumerate(schema.GetPrototypesRel().GetForwardedTargets()):
+            chosen = matrices[shown & (indices == number)].transpose(0, 2, 1)
+            root = self._stage.GetPrimAtPath(target)
+            for path, local in self._shapes(root, root) if root and len(chosen) else ():
+                yield path, (chosen[:, None] @ local).reshape(-1, 4, 4)
+
+    def _shapes(self, prim: Any, root: Any) -> Iterator[tuple[Any, NDArray[np.float64]]]:
+        """Yield the shapes of a prototype that are shown, and their places relative to its root."""
+        imageable = self._geom.Imageable(prim)
+        if imageable and (
+            imageable.GetVisibilityAttr().Get(self._time) == self._geom.Tokens.invisible
+            or imageable.GetPurposeAttr().Get() in _PURPOSES
+        ):
+            return
+        local = np.array(self._places.ComputeRelativeTransform(prim, root)[0]).T
+        if prim.IsA(self._geom.PointInstancer):
+            for path, matrices in self._members(prim):
+                yield path, local @ matrices
+            return
+        if prim.IsA(self._geom.Gprim):
+            yield prim.GetPath(), local[None]
+        children = self._usd.TraverseInstanceProxies(self._usd.PrimDefaultPredicate)
+        for child in prim.GetFilteredChildren(children):
+            yield from self._shapes(child, root)
+
     def _why_hidden(self, imageable: Any) -> str | None:
+        above = imageable.GetPrim().GetParent()
         if imageable.ComputeVisibility(self._time) == self._geom.Tokens.invisible:
             return "it is invisible"
-        return _PURPOSES.get(imageable.ComputePurpose())
+        purpose = _PURPOSES.get(imageable.ComputePurpose())
+        while purpose is None and above:
+            if above.IsA(self._geom.PointInstancer):
+                return "it is only shown by its instancer, if at all"
+            above = above.GetParent()
+        return purpose
 
     def _solid(self, prim: Any) -> tuple[float, float, float, str, bool] | None:
         kind = prim.GetTypeName().removesuffix("_1")
@@ -195,25 +310,14 @@ class _Stage:
         top = value("radiusTop", 0.0 if kind == "Cone" else radius)
         return bottom, top, value("height", 0.0), value("axis", "Z"), kind in ("Sphere", "Capsule")
 
-    def _is_sheared(self, prim: Any) -> bool:
-        """Return whether the transform of a prim, or of one above it, has axes that are not at
-        right angles.
-        """
-        while not prim.IsPseudoRoot():
-            axes = np.array(self._places.GetLocalTransformation(prim)[0])[:3, :3]
-            lengths = np.linalg.norm(axes, axis=1)
-            if (
-                np.abs(axes @ axes.T - np.diag(lengths**2)) > _SHEAR * np.outer(lengths, lengths)
-            ).any():
-                return True
-            prim = prim.GetParent()
-        return False
 
-
-def _correct(prims: Mapping[str, _Prim], missing: tuple[Finding, ...]) -> Opened:
+def _correct(
+    prims: Mapping[str, _Prim], missing: tuple[Finding, ...], start: float | None
+) -> Opened:
     """Correct the objects by their prims, and return the findings."""
     bpy.context.view_layer.update()
     hidden: dict[str, Finding] = {}
+    notes = () if start is None else (finding(FRAME_MEASURED, frame=start),)
     findings: dict[str, tuple[Finding, ...]] = {}
     surfaces: dict[tuple, tuple[bpy.types.Curve, float]] = {}
     for name, prim in sorted(prims.items()):
@@ -223,28 +327,65 @@ def _correct(prims: Mapping[str, _Prim], missing: tuple[Finding, ...]) -> Opened
             hidden[name] = finding(FILE_HIDES, cause=prim.hidden)
         if prim.scheme is not None:
             findings[name] = (finding(USD_CAGE, scheme=prim.scheme),)
-        shear = None if prim.place is None or obj.constraints else _shear(obj, prim.place)
         patch = None if prim.solid is None else revolved_solid(*prim.solid)
         if patch is not None:
-            key = (prim.solid, None if shear is None else shear.tobytes())
-            if key not in surfaces:
-                patch = patch if shear is None else patch.transform(shear)
-                surfaces[key] = surface_data(name, [patch], 1.0)[:2]
-            data, moved = surfaces[key]
+            if prim.solid not in surfaces:
+                surfaces[prim.solid] = surface_data(name, [patch], 1.0)[:2]
+            data, moved = surfaces[prim.solid]
             findings[name] = (finding(SURFACES_ROUNDED, share=moved),) if moved else ()
             _replace(obj, data)
-        elif shear is not None and obj.type == "MESH":
-            obj.data.transform(Matrix(shear))
+        elif prim.points is not None and len(prim.points) == len(obj.data.vertices):
+            obj.modifiers.clear()
+            obj.shape_key_clear()
+            obj.data.attributes["position"].data.foreach_set(
+                "vector", prim.points.astype(np.float32).ravel()
+            )
+    place_objects({name: prim.place for name, prim in prims.items() if prim.members is None})
+    for name, prim in prims.items():
+        if prim.members is not None:
+            _show_members(name, prim)
+            about = [one for member in prim.members for one in findings.get(member, ())]
+            findings[name] = tuple(dict.fromkeys(about))
+        elif prim.hidden is None and not prim.is_member:
+            obj = bpy.data.objects[name]
+            if not any(collection in _rendered() for collection in obj.users_collection):
+                bpy.context.scene.collection.objects.link(obj)
+            obj.hide_render = False
     bpy.context.view_layer.update()
-    return Opened(missing, (), findings, hidden)
+    return Opened(missing, notes, findings, hidden)
 
 
-def _shear(obj: Object, place: NDArray[np.float64]) -> NDArray | None:
-    """Return the (4, 4) map that the matrix of an object lacks, or None if it is flat and has no
-    volume.
-    """
-    matrix = np.array(obj.matrix_world, np.float64)
-    return np.linalg.solve(matrix, place) if np.linalg.det(matrix) else None
+def _rendered() -> set[bpy.types.Collection]:
+    """Return the collections of the scene that are rendered."""
+    waiting = [bpy.context.scene.collection]
+    found = set()
+    while waiting:
+        collection = waiting.pop()
+        if not (collection.hide_render or collection.hide_viewport):
+            found.add(collection)
+            waiting += collection.children
+    return found
+
+
+def _show_members(name: str, prim: _Prim) -> None:
+    """Replace an instancer by an empty that shows the shapes of its prototypes in their places."""
+    old = bpy.data.objects[name]
+    is_hidden = old.hide_render
+    homes = [*old.users_collection]
+    bpy.data.objects.remove(old)
+    collection = bpy.data.collections.new(name)
+    for member, matrices in (prim.members or {}).items():
+        copy = bpy.data.objects[member].copy()
+        copy.parent = None
+        copy.hide_render = copy.hide_viewport = False
+        set_places(copy, matrices)
+        collection.objects.link(copy)
+    obj = bpy.data.objects.new(name, None)
+    obj.instance_type, obj.instance_collection = "COLLECTION", collection
+    obj.hide_render = is_hidden
+    for home in homes:
+        home.objects.link(obj)
+    place_objects({name: prim.place})
 
 
 def _replace(obj: Object, data: bpy.types.Curve) -> None:

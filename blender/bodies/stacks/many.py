@@ -16,6 +16,7 @@ import numpy as np
 from ....core.measurement.settings import Settings
 from ....core.verdict import internal_error
 from ...read.mesh import mesh_surface, plain_mesh
+from ...read.places import has_places, world_matrices
 from ...settings.options import AS_SET, MeasureOptions, object_settings
 from ..measure_object import Measured, measure_body
 from .stack import MeshShape, Stacked, StackMember, measure_members
@@ -127,14 +128,15 @@ class _Collector:
             return None
         matrix = obj.evaluated_get(self.depsgraph).matrix_world
         location, turn, _scale = matrix.decompose()
+        placed = world_matrices(obj)[0] if has_places(obj) else np.array(matrix)
         member = StackMember(
             len(self.members),
             obj,
             shape,
             settings,
             self._digest(settings),
-            np.array(matrix),
-            location.to_tuple(),
+            placed,
+            tuple(placed[:3, 3].tolist()) if has_places(obj) else location.to_tuple(),
             (turn.w, turn.x, turn.y, turn.z),
         )
         self.members.append(member)

@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects of an imported file, brought to its first frame and to the places that it states."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from ...blender.read.places import set_places
+from ...core.bodies.reading import float64_matrix
+
+ANCHOR = "Imported Places"  # an empty at the world's origin
+_AGREEMENT = 1e-5  # of an axis, and of a location: larger than the rounding along chains of parents
+
+
+def set_frame(frame: float) -> None:
+    """Evaluate the scene at a frame, which need not be whole."""
+    whole = math.floor(frame)
+    bpy.context.scene.frame_set(whole, subframe=frame - whole)
+
+
+def first_frame() -> float | None:
+    """Return the first frame of the animations in use, None if there are none."""
+    starts = [
+        action.frame_range[0]
+        for action in bpy.data.actions
+        if action.users and action.frame_range[1] > action.frame_range[0]
+    ]
+    return min(starts, default=None)
+
+
+def place_objects(places: Mapping[str, NDArray[np.float64]]) -> None:
+    """Give objects their (4, 4) places, and move those to them that stand elsewhere."""
+    bpy.context.view_layer.update()
+    wrong = []
+    for name, place in places.items():
+        obj = bpy.data.objects[name]
+        set_places(obj, place)
+        size = np.abs(place[:3]).max(axis=0)
+        apart = np.abs(float64_matrix(obj.matrix_world)[:3] - place[:3])
+        if (apart > _AGREEMENT * np.maximum(size, [*[size[:3].max()] * 3, 1e-30])).any():
+            wrong.append(obj)
+    if not wrong:
+        return
+    anchor = bpy.data.objects.new(ANCHOR, None)
+    bpy.context.scene.collection.objects.link(anchor)
+    # The objects below move with them.
+    moved = {*wrong, *(child for parent in wrong for child in parent.children_recursive)}
+    for obj in moved:
+        if obj.name in places:
+            obj.constraints.clear()
+            obj.animation_data_clear()
+            obj.parent = anchor
+            obj.matrix_basis = Matrix()
+            obj.matrix_parent_inverse = Matrix(places[obj.name])  # unlike channels, it holds shear
+    bpy.context.view_layer.update()
