@@ -178,7 +178,11 @@ def mistakes():
 
 def said(stated=TRUTH, *references, otherwise=()):
     (found,) = diagnose(stated, references or [REFERENCE], otherwise)
-    return found.finding.code.removeprefix("audit_"), dict(found.finding.values)
+    values = dict(found.finding.values)
+    agree = values.pop("agree", None)
+    is_center = values.get("part") == "center of mass"
+    assert agree in (None, "the centers" if is_center else "inertial and geometry") or is_center
+    return found.finding.code.removeprefix("audit_"), values
 
 
 def test_two_mistakes_are_both_named():
@@ -202,6 +206,20 @@ def test_two_mistakes_are_both_named():
     found, note = diagnose(uneven, [REFERENCE], (), True)
     assert note.finding.code == "audit_not_uniform" and abs(note.finding.values["distance"]) < 1e-15
     assert not found.is_certain and close(found.repaired.center, CENTER, 1e-15)
+
+
+def test_center_repaired_alone_claims_agreement_of_centers_only():
+    """The mass is not spread evenly: no change of the center makes the inertias agree."""
+    found, note = diagnose(of_inertia(INERTIA * 0.8, CENTER / 1e-3), [REFERENCE], (), True)
+    assert found.finding.values["agree"] == "the centers"
+    assert note.finding.code == "audit_not_uniform"
+
+
+def test_inertia_in_kg_inches_keeps_a_right_mass_and_is_not_certain():
+    """Pounds and lb·in² explain the same numbers per kilogram, so none of both is certain."""
+    (found,) = diagnose(of_inertia(INERTIA / INCH**2), [REFERENCE])
+    assert close(found.repaired.mass, MASS, 1e-15) and close(found.repaired.inertia, INERTIA, 1e-12)
+    assert not found.is_certain
 
 
 def of_density(density):
