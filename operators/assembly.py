@@ -180,9 +180,8 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
     def _place(self, context: Context, assembly: "Assembly", center: list[float]) -> str:
         root = assembly.root.member.data
         body = assembly.measurement.mass_properties
-        owner = (
-            context.scene if root == context.scene.collection else root
-        )  # nothing else can point to it
+        # nothing else can point to it
+        owner = context.scene if root == context.scene.collection else root
         empty = next((obj for obj in context.scene.objects if obj.get(FRAME_OF) == owner), None)
         if empty is None:
             empty = bpy.data.objects.new("{:s} Principal Frame".format(root.name), None)

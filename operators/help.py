@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The manual: the pages in the zip, the website, or else the first page in Blender's text editor."""
+"""The manual: the pages in the zip, the website, or else the README in Blender's text editor."""
 
 from pathlib import Path
 

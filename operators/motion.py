@@ -6,7 +6,7 @@ from contextlib import suppress
 from time import perf_counter
 
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
-from bpy.types import Context, Event, Operator, Scene
+from bpy.types import Context, Event, Operator, Scene, UILayout
 
 from ..blender import session
 from ..blender.write import reports
@@ -31,6 +31,8 @@ class KeyedFlight(ModalDialog, OnArmature):
 
     TURNS = False
     DONE = ""
+    OWN: tuple[str, ...] = ()  # properties that only a subclass has
+    layout: UILayout
     # properties of subclasses
     lead = 0
     blend = 0

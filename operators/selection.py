@@ -206,9 +206,8 @@ def iterate_objects(
             for share in action(obj) or ():
                 yield done - 1 + share
         except Exception as error:
-            failures.append(
-                reports.failure(obj.name_full, error)
-            )  # objects of two libraries may have one name
+            # objects of two libraries may have one name
+            failures.append(reports.failure(obj.name_full, error))
         yield done
 
 

@@ -10,6 +10,7 @@ from bpy.types import Context, Object, Operator
 
 from ..blender import session
 from ..blender.session import stored
+from ..blender.session.selected import subject
 from ..blender.session.tracking import staleness
 from ..blender.write import reports
 from ..blender.write.translations import localized
@@ -88,7 +89,8 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         layout = self.layout
         layout.use_property_split = True
         layout.prop(self, "pose")
-        poses = stored.stability.poses(context.object) if context.object is not None else None
+        obj = subject(context)
+        poses = None if obj is None else stored.stability.poses(obj)
         if self.pose and poses is not None and not isinstance(poses, Finding):
             count = len(poses.shares)
             place = (self.pose - 1) % count
@@ -105,9 +107,8 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         def lay(obj: Object) -> bool:
             return session.lay_on_ground(context, obj, self.pose, self.ground, notes)
 
-        moved, failures = selection.apply_to_all(
-            objects, lay
-        )  # one after the other, for a child moves with its parent
+        # one after the other, for a child moves with its parent
+        moved, failures = selection.apply_to_all(objects, lay)
         session.remeasure(context, moved)
         texts = ("Laid {count} object on the ground", "Laid {count} objects on the ground")
         done = reports.phrase(*texts, count=len(moved))

@@ -67,9 +67,8 @@ def _bounds(layout: UILayout, obj: Object, shown: PlainBody) -> None:
         ("Float32 Coordinates, at Most", shown.error_bound["input"]),
     )
     measures = ("Volume", "volume", "volume", shown.volume), ("Area", "area", "area", shown.area)
-    entries = [
-        entry for entry in measures if entry[-1]
-    ]  # a wire has neither, a grid of densities no surface
+    # a wire has neither, a grid of densities no surface
+    entries = [entry for entry in measures if entry[-1]]
     entries.append(("Center", "length", "center_of_mass", max(map(abs, shown.center))))
     entries.append(("Inertia", "inertia", "inertia", max(shown.moments)))
     rows.error_bounds(body, sources, entries)

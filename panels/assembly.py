@@ -43,7 +43,7 @@ MEMBER_ICONS = {
     "POINT": "EMPTY_SINGLE_ARROW",
 }
 LINES = 8  # height of the tree, before it scrolls
-EQUAL_RTOL = 1e-5  # of the masses of equal parts: turned copies differ by rounding
+EQUAL_RTOL = 1e-5  # relative to the masses of equal parts: turned copies differ by rounding
 
 
 class BODY_MOMENTS_UL_assembly(UIList):

@@ -3,8 +3,9 @@
 """The main panel: the answer (a verdict, mass, volume and center of mass), the buttons, and then
 the findings.
 
-Nothing that comes and goes stands above a button of this panel: warnings are below them, refusals of
-the last action below all sub-panels. The rest is in sub-panels, in the order of CAD's mass property dialogs (`places.ORDER`).
+Nothing that comes and goes stands above a button of this panel: warnings are below them, refusals
+of the last action below all sub-panels. The rest is in sub-panels, in the order of CAD's mass
+property dialogs (`places.ORDER`).
 """
 
 from __future__ import annotations
@@ -31,19 +32,22 @@ from .density import material_row
 from .overlay.draw import header_switch
 from .places import in_both_places
 
+# by the frame
 CENTER_HEADINGS = {
     "WORLD": "Center of Mass (World)",
     "OBJECT": "Center of Mass (Object)",
-}  # by the frame
+}
+# for rigs
 RESTING_HEADINGS = {
     "WORLD": "Center of Mass at Rest (World)",
     "OBJECT": "Center of Mass at Rest (Object)",
-}  # for rigs
+}
 
+# prefix for the measured data, before a method
 SOURCES = {
     Source.NURBS: "NURBS: {:s}",
     Source.GRID: "Grid: {:s}",
-}  # prefix for the measured data, before a method
+}
 
 LIVE = {
     Lag.NONE: "Live: {milliseconds:.0f} ms, not stored",

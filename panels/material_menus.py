@@ -68,9 +68,8 @@ def density_row(layout: UILayout, scene: Scene, material: Material, label: str =
     """Draw a material's density with the menu of the table."""
     settings = material.body_moments
     row = layout.row(align=True)
-    row.enabled = (
-        material.is_editable
-    )  # the menu goes by names, which a local one may share with a linked one
+    # the menu goes by names, which a local one may share with a linked one
+    row.enabled = material.is_editable
     if label:
         split = row.split(factor=0.4, align=True)
         split.label(text=label, icon="MATERIAL", translate=False)

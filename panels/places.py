@@ -19,6 +19,7 @@ from ..blender.session.displayed import shown_objects
 from ..blender.session.selected import subject
 from ..blender.settings.chosen import chosen_objects
 
+# posed objects first, then the order of CAD's mass property dialogs
 ORDER = (
     "weight",
     "inertia",
@@ -34,7 +35,7 @@ ORDER = (
     "shape",
     "advanced",
     "refused",
-)  # posed objects first, then the order of CAD's mass property dialogs
+)
 ROOT = "body_moments"
 PLACES = {  # by the beginning of the panels' identifiers
     "VIEW3D_PT_": {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Moments"},

@@ -65,8 +65,9 @@ def lines(
 
 
 def notes(layout: UILayout, idname: str, findings: Sequence[Finding]) -> None:
-    """Draw a sub-panel, closed at first, of notes and accepted warnings; it is there without any, so
-    that nothing moves when one comes.
+    """Draw a sub-panel, closed at first, of notes and accepted warnings.
+
+    It is there without any, so that nothing moves when one comes.
     """
     shown_notes = of_severity(findings, Severity.NOTE)
     header, body = layout.panel(idname, default_closed=True)
@@ -85,13 +86,13 @@ def _headline(context: Context, group: Group) -> str:
     shown = replace(group.finding, elements=())
     clause = re.split(r"\.$|[.;,] | \(", localized_sentence(shown, context.scene.unit_settings))[0]
     if not group.objects:
-        return (
-            clause if rows.fits(1.0, clause) else clause.partition(": “")[0]
-        )  # its names are in the sentence
+        # its names are in the sentence
+        return clause if rows.fits(1.0, clause) else clause.partition(": “")[0]
+    # nouns keep their capitals in other languages
     if bpy.app.translations.locale[:2] in (
         "",
         "en",
-    ):  # nouns keep their capitals in other languages
+    ):
         clause = clause[0].lower() + clause[1:]
     if len(group.objects) == 1:
         return "{:s}: {:s}".format(group.objects[0], clause)

@@ -41,11 +41,12 @@ MIN_LINE_WIDTH = 50  # no line is made narrower
 MIN_PART = 4
 MIN_LAST_PART = 3
 NARROW = 220  # regions below this width have buttons without icons, and headings above
+# ERROR is Blender's warning sign
 ICONS = {
     Severity.NOTE: "INFO",
     Severity.WARNING: "ERROR",
     Severity.ERROR: "CANCEL",
-}  # ERROR is Blender's warning sign
+}
 
 VERDICTS = {  # icon and word; the form says it, not the color alone
     Verdict.EXACT: ("CHECKMARK", "Exact"),
@@ -357,8 +358,9 @@ def remark(
 
 
 def state(layout: UILayout, text: str, icon: str = "") -> None:
-    """Draw one row about the state of numbers. It is there without a text too, so that nothing below
-    it moves.
+    """Draw one row about the state of numbers.
+
+    It is there without a text too, so that nothing below it moves.
     """
     row = layout.row()
     row.alert = icon == "FILE_REFRESH"

@@ -43,10 +43,10 @@ def _load_root() -> ModuleType:
 
 
 def _name_tests() -> None:
-    """Make `tests` this folder, not a package of that name that some distribution installed."""
-    module = ModuleType("tests")
-    module.__path__ = [str(ROOT / "tests")]
-    sys.modules["tests"] = module
+    """Make `tests` and `tools` our folders, not packages that some distribution installed."""
+    for name in ("tests", "tools"):
+        sys.modules[name] = ModuleType(name)
+        sys.modules[name].__path__ = [str(ROOT / name)]
 
 
 def _isolate_blender() -> None:

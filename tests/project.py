@@ -9,16 +9,23 @@
                                                alone
     python3 tests/project.py build        build the extension's zip, and the wheel for Python, into
                                           dist/
-    python3 tests/project.py benchmark    times and ratios against trimesh and libigl
-    python3 tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
     python3 tests/project.py lint         check the rules, the format and the types
+
+and what is run by hand, from the folder tools:
+
+    python3 tests/project.py benchmark    times and ratios against trimesh, libigl, CoACD and vtk
+    python3 tests/project.py batch        the cost of measuring 400 files in one process or several
+    python3 tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
+    python3 tests/project.py film         the film of the thrown crates in the manual
+    python3 tests/project.py retrieval    the rate at which moved and noisy parts are recognized
+    python3 tests/project.py robots       audit robots of the Python index: the manual's page
     python3 tests/project.py soak         what takes long: hostile files, kills, random damage, ...
 
-Each sets up what it needs in .envs/: one environment for each Blender that exists as a Python
-module, with the Python which that module is made for. Environments are used again until their
-requirements change. Libraries that the module lacks are installed on Debian and Ubuntu, if the user
-may. A real Blender, for the demo and for the window tests, is the one named by the variable
-BLENDER, else (window tests only) `blender` on the PATH. The window tests pass on the one that
+Each sets up what it needs in .envs/, and no more: one environment for each Blender that exists as a
+Python module, with the Python which that module is made for. Environments are used again until
+their requirements change. Libraries that the module lacks are installed on Debian and Ubuntu, if
+the user may. A real Blender, for the demo and for the window tests, is the one that the variable
+BLENDER names, else (window tests only) `blender` on the PATH. The window tests pass on the one that
 BLENDER_45 names, too.
 """
 
@@ -42,6 +49,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 TESTS = ROOT / "tests"
+TOOLS = ROOT / "tools"
 ENVS = ROOT / ".envs"
 WINDOWS = os.name == "nt"
 CI = os.environ.get("CI", "").lower() in ("1", "true", "yes")
@@ -59,6 +67,31 @@ SUBJECT_GROUPS = ("core", "blender", "command", "operators", "panels")  # where 
 SILENCE_LIMIT = 1800
 EXIT_LIMIT = 240  # seconds that an interpreter may take to end once its tests are over
 INTERRUPT_LIMIT = 10  # seconds that what was interrupted may take to clean up
+
+# What the tests need beside a Blender: pytest and others, and what builds the manual and the wheel.
+TESTED = ("tests", "build")
+# command -> its script in the folder tools, requirements beside a Blender, and help
+TOOLBOX = {
+    "benchmark": (
+        "benchmark.py",
+        ("benchmark",),
+        "times and ratios against trimesh, libigl, CoACD and vtk; --quick, --stream M",
+    ),
+    "batch": (
+        "benchmark_batch.py",
+        (),
+        "the cost of measuring 400 files in one process or several",
+    ),
+    "tables": ("paper_tables.py", (), "the paper's tables of trivariate densities beside ours"),
+    "film": ("tumbling.py", ("tools",), "the film of the thrown crates in the manual"),
+    "retrieval": ("retrieval.py", (), "the rate at which moved and noisy parts are recognized"),
+    "robots": ("published_robots.py", ("tools",), "audit robots of the Python index"),
+    "soak": (
+        "soak",
+        TESTED,
+        "what takes long: hostile files, kills, random damage; --minutes N, --seed S, names",
+    ),
+}
 
 INSTALL = ["apt-get", "install", "-y", "--no-install-recommends"]
 INSTALLING = threading.Lock()  # apt-get refuses to run twice at a time
@@ -213,7 +246,7 @@ def python_of_uv(version: str) -> str | None:
     """A Python that uv knows or brings; uv itself is installed where it is not on the PATH."""
     uv = shutil.which("uv")
     if not uv:
-        scripts = prepare("uv", sys.executable, RUNNING, ["requirements-uv.txt"]).parent
+        scripts = prepare("uv", sys.executable, RUNNING, ["uv"]).parent
         uv = scripts / ("uv.exe" if WINDOWS else "uv")
     call([uv, "python", "install", version], f"uv python install {version}")
     path = call([uv, "python", "find", "--no-project", version], f"uv python find {version}")
@@ -238,37 +271,48 @@ def find_python(version: str) -> str | None:
 
 
 def prepare(name: str, python: str, version: str, requirements: list[str]) -> Path:
-    """The Python of the environment .envs/<name>, which is made anew if it is old or broken."""
+    """Return the Python of the environment .envs/<name> with these requirements installed.
+
+    Missing ones are added; an environment with outdated ones, or a broken one, is made anew.
+    """
     folder = ENVS / name
     executable = folder / ("Scripts/python.exe" if WINDOWS else "bin/python")
-    texts = [(TESTS / file).read_text(encoding="utf-8") for file in requirements]
-    stamp = hashlib.sha256("\0".join([str(folder), version, *texts]).encode()).hexdigest()
-    marker = folder / "complete"
-    current = marker.is_file() and marker.read_text(encoding="utf-8") == stamp
-    if current and probe([executable], version):
+    marker = folder / "complete.json"
+    installed = json.loads(marker.read_text(encoding="utf-8")) if marker.is_file() else {}
+    current = {file: stamp(folder, version, file) for file in {*installed, *requirements}}
+    if installed.items() - current.items() or not probe([executable], version):
+        installed = {}
+    missing = [file for file in requirements if file not in installed]
+    if not missing:
         return executable
-    print(f"Setting up .envs/{name} ...", flush=True)
-    ENVS.mkdir(exist_ok=True)
-    call([python, "-m", "venv", "--clear", folder], f"Making the environment .envs/{name}")
+    print(f"Setting up .envs/{name}: {', '.join(missing)} ...", flush=True)
+    if not installed:
+        ENVS.mkdir(exist_ok=True)
+        call([python, "-m", "venv", "--clear", folder], f"Making the environment .envs/{name}")
     install = [executable, "-m", "pip", "install", "--disable-pip-version-check", "--no-input"]
-    for file in requirements:
-        install += ["-r", TESTS / file]
-    call(install, f"Installing {' and '.join(requirements)}")
-    marker.write_text(stamp, encoding="utf-8")
+    for file in missing:
+        install += ["-r", TESTS / f"requirements-{file}.txt"]
+    call(install, f"Installing {' and '.join(missing)}")
+    marker.write_text(json.dumps({**installed, **{file: current[file] for file in missing}}))
     return executable
 
 
-def prepare_blender(version: str, addition: str | None = None) -> Path | None:
-    """Return the Python that has this Blender as a module and what builds the packages, or None if
-    no Python fits.
+def stamp(folder: Path, version: str, file: str) -> str:
+    """Return the digest that an environment keeps of a file of requirements."""
+    path = TESTS / f"requirements-{file}.txt"
+    text = path.read_text(encoding="utf-8") if path.is_file() else ""
+    return hashlib.sha256("\0".join([str(folder), version, text]).encode()).hexdigest()
 
-    The requirements of an addition are installed beside it, in an environment of their own.
+
+def prepare_blender(version: str, *additions: str, name: str = "") -> Path | None:
+    """Return the Python that has this Blender as a module and additional requirements.
+
+    `name`: an environment of their own. None if no Python fits.
     """
     wanted = BLENDERS[version]
     if not (python := find_python(wanted)):
         return None
-    requirements = [f"requirements-{name}.txt" for name in (version, "build", addition) if name]
-    executable = prepare(addition or f"blender-{version}", python, wanted, requirements)
+    executable = prepare(name or f"blender-{version}", python, wanted, [version, *additions])
     with INSTALLING:
         if find_load_problem(executable):
             packages = re.search(
@@ -309,14 +353,14 @@ def prepare_consumers(version: str) -> Path:
     Blender is made for.
     """
     wanted = BLENDERS[version]
-    return prepare("robots", find_python(wanted), wanted, ["requirements-robots.txt"])
+    return prepare("robots", find_python(wanted), wanted, ["robots"])
 
 
 def prepare_core() -> Path:
     """Return the Python of the environment for the tests of the core: numpy and no Blender, on the
     running version.
     """
-    return prepare("core", sys.executable, RUNNING, ["requirements-core.txt"])
+    return prepare("core", sys.executable, RUNNING, ["core"])
 
 
 def any_blender() -> str:
@@ -484,7 +528,7 @@ def test_folder(name: str, extra: list[str]) -> int:
     if group not in SUBJECT_GROUPS or not folder.is_dir():
         raise Failed(f"{name} is no folder of code with tests: try core/solid or blender/read.")
     version = f"Python {RUNNING}" if group == "core" else any_blender()
-    python = prepare_core() if group == "core" else prepare_blender(version)
+    python = prepare_core() if group == "core" else prepare_blender(version, *TESTED)
     return finish([run_tests(Runner(), python, version, group, extra, [folder])])
 
 
@@ -507,7 +551,7 @@ def test_subject(subject: str, extra: list[str]) -> int:
             f"No tests are about {subject!r}. Folders: {names}; or a word of a test file's name."
         )
     version = any_blender()
-    python = prepare_blender(version)
+    python = prepare_blender(version, *TESTED)
     print(
         f"The tests of {subject}, on Blender {version} alone; at most half a minute on two cores."
     )
@@ -530,9 +574,8 @@ def test(options: argparse.Namespace) -> int:
     if options.subject:
         return test_subject(options.subject, extra)
     groups = options.only or list(GROUPS)
-    versions = [
-        version for version, wanted in BLENDERS.items() if find_python(wanted)
-    ]  # this may install uv
+    # this may install uv
+    versions = [version for version, wanted in BLENDERS.items() if find_python(wanted)]
     if not versions:
         raise Failed(NO_PYTHON)
     absent = BLENDERS.keys() - versions
@@ -556,7 +599,7 @@ def test(options: argparse.Namespace) -> int:
     runner, failures = Runner(), [len(absent)] if CI else []
 
     def lane(version: str) -> list[dict]:
-        python = prepare_blender(version)
+        python = prepare_blender(version, *TESTED)
         mine = [group for group in groups if group not in ("robots", "window")]
         outcomes = [run_tests(runner, python, version, group, extra) for group in mine]
         if "robots" in groups and version == max(versions):
@@ -568,11 +611,9 @@ def test(options: argparse.Namespace) -> int:
     outcomes = in_lanes(lane, versions)
     if "window" in groups:  # alone: drawing without a graphics card takes both cores
         version = max(versions)
-        outcomes.append(run_tests(runner, prepare_blender(version), version, "window", extra))
+        python = prepare_blender(version, *TESTED)
+        outcomes.append(run_tests(runner, python, version, "window", extra))
         if older := os.environ.get("BLENDER_45"):
-            python = prepare_blender(
-                version
-            )  # of pytest alone: the tests talk to Blender's process
             outcomes.append(run_tests(runner, python, "4.5", "window", extra, BLENDER=older))
         else:
             remarks.append("Left out: the window of Blender 4.5: BLENDER_45 names none")
@@ -584,7 +625,7 @@ def demo(options: argparse.Namespace) -> int:
     out = ROOT / "demo"
     out.mkdir(exist_ok=True)
     body, record, picture = out / "bracket.blend", out / "measure.json", out / "picture.png"
-    script, batch = TESTS / "demo.py", ROOT / "operators" / "batch.py"
+    script, batch = TOOLS / "demo.py", ROOT / "operators" / "batch.py"
     measure = ["measure", "--object", "Bracket", "--density", "2700", "--output", record]
     if blender := os.environ.get("BLENDER"):
         name = f"the Blender at {blender}"
@@ -615,49 +656,23 @@ def demo(options: argparse.Namespace) -> int:
 
 
 def build(options: argparse.Namespace) -> int:
-    python = prepare_blender(any_blender())
-    zipped = show([python, "-P", TESTS / "package" / "extension.py", ROOT / "dist"])
-    return (
-        show(
-            [
-                python,
-                "-P",
-                "-m",
-                "build",
-                "--wheel",
-                "--no-isolation",
-                "--outdir",
-                ROOT / "dist",
-                ROOT,
-            ]
-        )
-        or zipped
-    )
+    python = prepare_blender(any_blender(), "build")
+    zipped = show([python, "-P", TOOLS / "extension.py", ROOT / "dist"])
+    wheel = ["-m", "build", "--wheel", "--no-isolation", "--outdir", ROOT / "dist", ROOT]
+    return show([python, "-P", *wheel]) or zipped
 
 
-def benchmark(options: argparse.Namespace) -> int:
-    return show(
-        [
-            prepare_blender(any_blender(), "benchmark"),
-            "-P",
-            TESTS / "benchmark.py",
-            *options.arguments,
-        ]
-    )
-
-
-def tables(options: argparse.Namespace) -> int:
-    return show([prepare_blender(any_blender()), "-P", TESTS / "paper_tables.py"])
-
-
-def soak(options: argparse.Namespace) -> int:
-    """What takes long, on one Blender; reports are in .envs/soak/."""
-    return show([prepare_blender(any_blender()), "-P", TESTS / "soak", *options.arguments])
+def tool(options: argparse.Namespace) -> int:
+    """Run a script of the folder tools; reports of `soak` are in .envs/soak/."""
+    script, additions, _ = TOOLBOX[options.tool]
+    name = additions[0] if additions and additions != TESTED else ""
+    python = prepare_blender(any_blender(), *additions, name=name)
+    return show([python, TOOLS / script, *options.arguments])
 
 
 def lint(options: argparse.Namespace) -> int:
     """Check the rules, the format and the types: all three, whatever the first ones say."""
-    python = prepare("lint", sys.executable, RUNNING, ["requirements-lint.txt"])
+    python = prepare("lint", sys.executable, RUNNING, ["lint"])
     checks = (
         ["ruff", "check", "--no-cache", ROOT],
         ["ruff", "format", "--check", "--no-cache", ROOT],
@@ -672,16 +687,12 @@ def parse(words: list[str]) -> argparse.Namespace:
         prog="project.py", description="Sets up what it needs and runs one of the commands."
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    for name, (_, _, text) in TOOLBOX.items():
+        commands.add_parser(name, help=text).set_defaults(function=tool, tool=name)
     for function, text in (
         (demo, "measure a real body"),
         (test, "pass the tests"),
         (build, "build the extension's zip and the wheel"),
-        (benchmark, "times and ratios against trimesh and libigl; --quick, --stream M"),
-        (tables, "the paper's tables of trivariate densities beside ours"),
-        (
-            soak,
-            "what takes long: hostile files, kills, random damage; --minutes N, --seed S, names",
-        ),
         (lint, "check the rules, the format and the types"),
     ):
         command = commands.add_parser(function.__name__, help=text)
@@ -696,7 +707,7 @@ def parse(words: list[str]) -> argparse.Namespace:
             command.add_argument("-k", metavar="WORDS", help="tests with such names, as in pytest")
             command.epilog = "What follows -- is for pytest."
     own, arguments = words, []
-    if words[:1] in (["benchmark"], ["soak"]):  # argparse would take options for the parser's own
+    if words and words[0] in TOOLBOX:  # argparse would take options for the parser's own
         own, arguments = words[:1], words[1:]
     elif words[:1] == ["test"] and "--" in words:
         split = words.index("--")
@@ -706,11 +717,12 @@ def parse(words: list[str]) -> argparse.Namespace:
 
 def main() -> int:
     options = parse(sys.argv[1:])
+    # a shell's job in the background has the first ignored
     for name in (
         "SIGINT",
         "SIGTERM",
         "SIGHUP",
-    ):  # a shell's job in the background has the first ignored
+    ):
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.default_int_handler)
     try:

@@ -43,11 +43,12 @@ from .request import Request
 
 MEASURED_AS = frozenset({"solid", "shell"})
 
+# findings about the bodies before their union
 REPAIRS = {
     HOLES_CAPPED,
     FLIPPED_FACES,
     INVERTED_COMPONENTS,
-}  # findings about the bodies before their union
+}
 HULL_RTOL = 1e-6  # relative to the extent: points that are outside by less are left out
 NOISE = 4.0  # half ulps of float32 coordinates: allowed unevenness of flat faces
 MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
@@ -143,7 +144,6 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
         findings=tuple(findings),
         face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
         solids=((solid, np.eye(4)[None]),),
-        _known={},
     )
 
 

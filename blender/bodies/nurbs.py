@@ -47,11 +47,12 @@ from .request import Request
 MEASURED_AS = frozenset({"solid", "shell"})
 
 MIN_CREASE_ANGLE = 0.02  # radians; smaller creases may be due to float32 alone
+# in thicknesses of a wall
 HEIGHTS = {
     "inward": (-1.0, 0.0),
     "outward": (0.0, 1.0),
     "centered": (-0.5, 0.5),
-}  # in thicknesses of a wall
+}
 
 
 @dataclass(frozen=True, eq=False)

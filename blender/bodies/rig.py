@@ -198,9 +198,8 @@ class _Measuring:
             options.thickness if shell else 1.0
         )
         if not volume > 0.0:
-            raise ReadError(
-                NO_VOLUME
-            )  # `rig` reports the names of refused objects, without the reason
+            # `rig` reports the names of refused objects, without the reason
+            raise ReadError(NO_VOLUME)
         density = options.density or 0.0 if options.mass is None else options.mass / volume
         if options.mass is None and request.density is not None:
             measurement = measure_body(obj, self.depsgraph, self.options).measurement

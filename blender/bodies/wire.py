@@ -27,7 +27,7 @@ from .request import Request
 MEASURED_AS = frozenset({"wire"})
 
 DEGREE = monomials(KNOWN_ORDER).sum(axis=1)
-CLOSED_RTOL = 1e-9  # of the wire's reach: ends that are nearer count as one point
+CLOSED_RTOL = 1e-9  # relative to the wire's reach: ends that are nearer count as one point
 
 
 @dataclass(frozen=True, eq=False)

@@ -97,9 +97,8 @@ def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
     """
     keys = []
     for member in root.walk():
-        if (
-            member.kind == MemberKind.POINT
-        ):  # an empty with children stores the results of its assembly
+        # an empty with children stores the results of its assembly
+        if member.kind == MemberKind.POINT:
             settings = member.data.body_moments
             keys.append(
                 GivenPart.from_settings(settings, 1.0).key

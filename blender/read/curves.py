@@ -152,9 +152,8 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
     _require_finite(points, name)
     start = 0
     for spline, row in zip(splines, control_points):
-        weights = weighted_points(spline)[:, 3].astype(
-            np.float64
-        )  # Bézier splines have none and need none
+        # Bézier splines have none and need none
+        weights = weighted_points(spline)[:, 3].astype(np.float64)
         if spline.type == "NURBS" and not _has_known_knots(
             spline, _curve(*_kind(spline), row, weights)
         ):

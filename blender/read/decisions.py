@@ -129,9 +129,8 @@ def modifier_findings(obj, scene) -> Iterator[Finding]:
 def _render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
     differences = list(_render_differences(obj, scene, exact))
     if differences:
-        are_levels = all(
-            difference.code == RENDER_LEVELS_DIFFER for difference in differences
-        )  # Blender's default
+        # Blender's default
+        are_levels = all(difference.code == RENDER_LEVELS_DIFFER for difference in differences)
         yield finding(
             RENDER_DIFFERS,
             slight=are_levels,

@@ -73,9 +73,8 @@ def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
     """Return the sign of the determinant and the lengths of the axes; None if sheared, flat or not
     finite.
     """
-    axes = list(
-        zip(*[row[:3] for row in obj.matrix_world[:3]])
-    )  # pure Python: a panel asks for many objects
+    # pure Python: a panel asks for many objects
+    axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))
     lengths = [math.hypot(*axis) for axis in axes]
     if not all([0.0 < length < MAX_LENGTH for length in lengths]):
         return None
@@ -106,11 +105,33 @@ def scale_hash(obj: bpy.types.Object) -> str:
     """Return a digest of the object's ratios of scale and its shear, independent of place, rotation
     and total scale.
     """
-    axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))
-    products = [sum([i * j for i, j in zip(a, b)]) for a in axes for b in axes]
+    products = scale_products(obj)
     largest = max(map(abs, products)) or 1.0
     return measurement.settings.digest(
         struct.pack("<9d", *[round(product / largest * 1e5) / 1e5 + 0.0 for product in products])
+    )
+
+
+def scale_products(obj: bpy.types.Object) -> list[float]:
+    """Return the nine scalar products of the object's axes, which depend on scale and shear
+    alone.
+    """
+    axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))
+    return [sum([i * j for i, j in zip(a, b)]) for a in axes for b in axes]
+
+
+def has_scale(obj: bpy.types.Object, key: str, products: list[float]) -> bool:
+    """Return whether the object is turned or moved at most since `products` and its key were
+    stored.
+    """
+    if has_transform(obj, key):
+        return True
+    now = scale_products(obj)
+    return (
+        _moves_along(obj)
+        and key[:1] not in {"+", "-"}
+        and len(products) == len(now)
+        and all([abs(a - b) <= 4.0 * SAME_SCALE_RTOL * max(now) for a, b in zip(now, products)])
     )
 
 

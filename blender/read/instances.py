@@ -187,9 +187,8 @@ class InstanceCollector:
         bounds = np.searchsorted(chosen[order], np.arange(len(references) + 1))
         for reference, start, end in zip(references, bounds[:-1], bounds[1:], strict=True):
             if start < end and reference is not None:
-                with np.errstate(
-                    invalid="ignore", over="ignore"
-                ):  # parts() counts what is not finite
+                # parts() counts what is not finite
+                with np.errstate(invalid="ignore", over="ignore"):
                     placed = (matrices[:, None] @ transforms[order[start:end]][None]).reshape(
                         -1, 4, 4
                     )

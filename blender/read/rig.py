@@ -19,12 +19,13 @@ from .fingerprint import matrix_bytes, settings_hash
 from .tracking import tracking_paused
 from .visibility import measurable
 
+# constraints that put objects into a hand
 HOLDING = {
     "CHILD_OF",
     "COPY_TRANSFORMS",
     "COPY_LOCATION",
     "ARMATURE",
-}  # constraints that put objects into a hand
+}
 
 
 @contextmanager

@@ -45,9 +45,8 @@ def require_editable(data: ID) -> None:
 
 def require_storable_data(obj: Object) -> None:
     """Raise EditRefusedError for a linked object, and for a library override."""
-    if (
-        not obj.is_editable or obj.override_library is not None
-    ):  # a file keeps only overridable properties of it
+    # a file keeps only overridable properties of it
+    if not obj.is_editable or obj.override_library is not None:
         raise EditRefusedError(LINKED_OBJECT)
 
 
@@ -120,9 +119,8 @@ def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
         while front:
             front = {user for data in front for user in users[data]} - reachable
             reachable |= front
-        return {
-            data for data in reachable if isinstance(data, Object)
-        }  # lying in one collection ties nothing
+        # lying in one collection ties nothing
+        return {data for data in reachable if isinstance(data, Object)}
 
     return {obj: reached(obj) for obj in objects}
 
@@ -173,9 +171,8 @@ class MadeCollection:
         made = [obj for obj in self._collection.objects if obj.get(self._key) == self._armature]
         meshes = {obj.data for obj in made if obj.data is not None}
         bpy.data.batch_remove(made)
-        bpy.data.batch_remove(
-            [mesh for mesh in meshes if not mesh.users]
-        )  # other meshes have users of their own
+        # other meshes have users of their own
+        bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])
 
     def link(self, obj: Object) -> None:
         obj[self._key] = self._armature

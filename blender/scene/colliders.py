@@ -186,6 +186,31 @@ def _in_body(collider: Object) -> NDArray[np.float64]:
     return float64_matrix(collider.matrix_parent_inverse) @ float64_matrix(collider.matrix_basis)
 
 
+def apply_for_bullet(collider: Object) -> None:
+    """Give a collider a transform and mesh that Blender's rigid bodies take as they are.
+
+    Bullet knows place and rotation of a child in its body, but no scale of the child, and applies
+    the body's scale to its mesh.
+    """
+    own = Matrix(_in_body(collider).tolist())
+    linear = own.to_3x3()
+    turn = own.to_quaternion().to_matrix()
+    is_scaled = (
+        max(abs(size - 1.0) for size in collider.parent.matrix_world.to_scale()) > PLACE_RTOL
+    )
+    off = max(abs((linear - turn)[i][j]) for i in range(3) for j in range(3))
+    if off <= PLACE_RTOL and not is_scaled:
+        return
+    if collider.data.users > 1:
+        collider.data = collider.data.copy()
+    collider.data.transform(linear.to_4x4(), shape_keys=False)
+    if linear.determinant() < 0.0:
+        collider.data.flip_normals()
+    collider.matrix_parent_inverse = Matrix()
+    collider.matrix_basis = Matrix.Translation(own.translation)
+    collider[COLLIDER] = {"kind": HULL, "size": [], "mass": collider[COLLIDER]["mass"]}
+
+
 def remove_colliders(colliders: Sequence[Object]) -> None:
     """Remove colliders with their meshes, and their collection if nothing is left in it."""
     meshes = {obj.data for obj in colliders}

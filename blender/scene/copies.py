@@ -24,7 +24,7 @@ from typing import NamedTuple
 
 import bpy
 import numpy as np
-from bpy.types import ID, Context, Mesh, Node, NodeTree, Object, bpy_prop_collection
+from bpy.types import ID, Context, Mesh, Node, NodesModifier, NodeTree, Object, bpy_prop_collection
 from numpy.typing import NDArray
 
 from ...core.mesh.correspondence import Correspondence, Elements, correspondences
@@ -56,11 +56,12 @@ UNSEEN = (
     ".es.",
     ".pn.",
 )
+# names of attributes' values, by their type in RNA
 DTYPES = {
     "FLOAT": np.float32,
     "INT": np.int32,
     "BOOLEAN": bool,
-}  # of attributes' values, by their type in RNA
+}
 PLACES = (
     bpy.types.Collection,
     bpy.types.Scene,
@@ -72,6 +73,7 @@ CHANNELS = ("location", "rotation", "scale", "delta")  # beginnings of animated 
 # Nodes that show a mesh's own axes: outputs, by the node's type, or values of a setting.
 OWN_AXES_OUTPUTS = {"TEX_COORD": {"Object", "Generated", "Normal"}, "OBJECT_INFO": {"Location"}}
 OWN_AXES_VALUES = {"OBJECT", "BLENDER_OBJECT", "RADIAL"}
+# if nothing is linked
 GENERATED = {
     "NOISE",
     "VORONOI",
@@ -81,7 +83,7 @@ GENERATED = {
     "BRICK",
     "GRADIENT",
     "GABOR",
-}  # if nothing is linked
+}
 
 
 class MeshData:
@@ -102,7 +104,9 @@ class MeshData:
         self.elements = Elements(
             points.astype(float), _read(mesh.edges, "vertices").astype(np.intp), corners, starts
         )
-        layers = [layer for layer in mesh.attributes if not layer.name.startswith(UNSEEN)]
+        # Custom normals alone decide the shading; importers set these two by comparing floats.
+        unseen = (*UNSEEN, "sharp_") if mesh.has_custom_normals else UNSEEN
+        layers = [layer for layer in mesh.attributes if not layer.name.startswith(unseen)]
         self.layers = {
             layer.name: (layer.data_type, layer.domain, _read(layer.data)) for layer in layers
         }
@@ -342,12 +346,17 @@ def link_copies(
     plans: list[reframe.Plan] = []
     members: dict[Object, tuple] = {}  # own and shared mesh, places of the vertices, materials
     followers = _followers(
-        {obj for kind in kinds for obj, _, found in kind.members if not _is_mere_exchange(found)}
+        {
+            target
+            for kind in kinds
+            for obj, _, found in kind.members
+            for target in ((obj.data,) if _is_mere_exchange(found) else (obj, obj.data))
+        }
     )
     for kind in kinds:
         for obj, data, found in kind.members:
             try:
-                _check(obj, found, followers.get(obj))
+                _check(obj, found, followers.get(obj) or followers.get(obj.data))
             except MeasureError as error:
                 left_out.append((obj, error.finding))
                 continue
@@ -395,22 +404,38 @@ def _is_mere_exchange(found: Correspondence) -> bool:
     return found.is_still and found.is_ordered
 
 
-def _followers(objects: set[Object]) -> dict[Object, ID]:
-    """Return, by object, data that may show its transform at another time, as by a driver or a
-    constraint.
+def _followers(objects: set[ID]) -> dict[ID, ID]:
+    """Return, by object or mesh, data that may show its transform or values at another time, as by
+    a driver or a constraint.
     """
-    found: dict[Object, ID] = {}
+    found: dict[ID, ID] = {}
     for obj, users in (bpy.data.user_map(subset=objects) if objects else {}).items():
-        for user in users:
-            targets: list[ID | None] = []
-            if isinstance(user, Object):
-                curves = user.animation_data.drivers if user.animation_data is not None else ()
-                variables = [variable for curve in curves for variable in curve.driver.variables]
-                targets += [target.id for variable in variables for target in variable.targets]
-                targets += [getattr(constraint, "target", None) for constraint in user.constraints]
-            if obj in targets or not isinstance(user, (Object, *PLACES)):
+        for user in users - {getattr(obj, "shape_keys", None)}:
+            if not isinstance(user, (Object, *PLACES)) or obj in _pointed_at(user):
                 found[obj] = user
     return found
+
+
+def _pointed_at(user: ID) -> set[ID]:
+    """Return the data that drivers, constraints, modifiers and the constraints of bones point
+    at.
+    """
+    curves = user.animation_data.drivers if getattr(user, "animation_data", None) else ()
+    variables = [variable for curve in curves for variable in curve.driver.variables]
+    pointed = {target.id for variable in variables for target in variable.targets}
+    if isinstance(user, Object):
+        bones = user.pose.bones if user.pose is not None else ()
+        constraints = [*user.constraints, *(each for bone in bones for each in bone.constraints)]
+        for each in (*constraints, *user.modifiers):
+            pointed |= {
+                getattr(each, prop.identifier)
+                for prop in each.bl_rna.properties
+                if prop.type == "POINTER"
+            }
+            pointed |= {target.target for target in getattr(each, "targets", ())}
+            values = each.values() if isinstance(each, NodesModifier) else ()
+            pointed |= {value for value in values if isinstance(value, ID)}
+    return pointed
 
 
 def _check(obj: Object, found: Correspondence, follower: ID | None) -> None:
@@ -423,11 +448,11 @@ def _check(obj: Object, found: Correspondence, follower: ID | None) -> None:
         or obj.data.override_library
     ):
         raise EditRefusedError(LINKED_OBJECT)
+    if follower is not None:
+        raise EditRefusedError(FOLLOWS_MOVED, follower=follower.name, target=obj.name)
     if _is_mere_exchange(found):
         return
     reframe.check(obj)
-    if follower is not None:
-        raise EditRefusedError(FOLLOWS_MOVED, follower=follower.name, target=obj.name)
     own = [
         each.name for each in obj.modifiers if each.type not in reframe.FRAME_INDEPENDENT_MODIFIERS
     ]

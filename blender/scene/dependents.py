@@ -26,9 +26,8 @@ from .transforms import FLOAT32, Matrix4, world
 SAME_SHAPE_RTOL = 1e-5
 # Points compared in each of many instances; the first instance is compared point by point.
 SAMPLES = 64
-SORT_DIRECTION = np.array(
-    [1.0, 0.7548776662, 0.5698402910]
-)  # a direction along which hardly anything is symmetric
+# a direction along which hardly anything is symmetric
+SORT_DIRECTION = np.array([1.0, 0.7548776662, 0.5698402910])
 
 Shape = list[tuple[NDArray[np.float64], NDArray[np.float64]]]
 

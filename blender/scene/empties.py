@@ -68,9 +68,8 @@ def place_empties(
         except Exception as error:
             failures[obj] = error
 
-    followers = dependents(
-        existing.values()
-    )  # objects that move with an empty are measured after it
+    # objects that move with an empty are measured after it
+    followers = dependents(existing.values())
     for several in independent_rounds(
         (obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects
     ):
@@ -144,9 +143,8 @@ def _moved(
         empty.empty_display_size = size * body.size
         empty.matrix_world = Matrix(frame)
         yield
-        if parent is not None and not _is_there(
-            empty, body
-        ):  # a curve also lays its children along its path
+        # a curve also lays its children along its path
+        if parent is not None and not _is_there(empty, body):
             outer = np.linalg.solve(basis(empty).T, world(empty).T).T
             inverse = np.array(empty.matrix_parent_inverse, np.float64) @ np.linalg.inv(outer)
             empty.matrix_parent_inverse = Matrix(inverse)

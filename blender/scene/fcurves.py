@@ -35,11 +35,12 @@ KEY = np.dtype(
         ("select_right_handle", np.bool_),
     ]
 )
+FIELDS = KEY.names or ()
 HANDLES = ("handle_left", "handle_right")
 SAME_TIME = 1e-3  # frames; Blender itself takes closer keys for one
 SAME_VALUE = 1e-4
-MOVED = 1e-3  # of a curve's range: a smaller move of a handle does not matter
-JUMP = 1.0 / 64.0  # frames from a key to the one that takes up another turn of the same rotation
+MOVED = 1e-3  # relative to a curve's range: a smaller move of a handle does not matter
+JUMP = 1.0 / 80.0  # the least time between keys: Blender merges those within 0.01
 Channel = tuple[str, int]  # data path and index
 
 
@@ -171,7 +172,7 @@ def write_keys(
 def read(curve: FCurve) -> NDArray:
     """Return the (k,) keys of a curve, as `KEY`."""
     keys = np.zeros(len(curve.keyframe_points), KEY)
-    for name in KEY.names:
+    for name in FIELDS:
         values = np.ascontiguousarray(keys[name])
         curve.keyframe_points.foreach_get(name, values.ravel())
         keys[name] = values
@@ -190,7 +191,7 @@ def write(curve: FCurve, keys: NDArray) -> None:
     tolerance = MOVED * max(float(np.ptp(keys["co"][:, 1])), np.finfo(np.float32).tiny)
     curved = np.concatenate([[False], keys["interpolation"] == BEZIER])
     while True:
-        _put(points, keys, KEY.names)
+        _put(points, keys, FIELDS)
         curve.update()
         freed = False
         for name, bends in zip(HANDLES, (curved[:-1], curved[1:])):
@@ -337,6 +338,7 @@ def _split(previous: NDArray, new: NDArray, following: NDArray, time: float) -> 
     span = points[3, 0] - points[0, 0]
     if lengths.sum() > span:  # Blender shortens handles that overlap
         points[[1, 2]] = points[[0, 3]] + span / lengths.sum() * (points[[1, 2]] - points[[0, 3]])
+    levels = [points]
     low, high = 0.0, 1.0
     for _ in range(60):
         share = (low + high) / 2.0
@@ -385,9 +387,8 @@ def add_layer(obj: Object, name: str, times: NDArray, channels: Mapping[Channel,
     """
     scene = bpy.context.scene
     scale = time_scale(scene)
-    beyond = int(
-        scale != 1.0
-    )  # stretched times are single precision, so their last one may be later
+    # stretched times are single precision, so their last one may be later
+    beyond = int(scale != 1.0)
     animation = obj.animation_data_create()
     action = animation.action
     if action is not None:

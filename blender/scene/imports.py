@@ -317,9 +317,8 @@ def read_placed(
     )
     matrix, positions = place_samples(matrix, positions, shortest_decimal(unit))
     for axis, row in enumerate(positions):
-        if (
-            row is not None
-        ):  # Blender's voxels are even: the first and the last are where they belong
+        # Blender's voxels are even: the first and the last are where they belong
+        if row is not None:
             matrix[:3, axis] *= row[-1] / (len(row) - 1)
     target = path.with_name(path.name[: -len(scan_suffix(path))] + ".vdb")
     return PlacedScan(scan, matrix, positions, (*scan.findings, *findings), target)

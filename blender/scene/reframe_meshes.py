@@ -178,9 +178,8 @@ def _reframe_alike(
     for i in np.flatnonzero(~fits).tolist():
         channels[i].restore()
     chosen = np.flatnonzero(fits)
-    wanted = data_change(
-        was, targets, move_only
-    )  # without the rounding of places far from the origin
+    # without the rounding of places far from the origin
+    wanted = data_change(was, targets, move_only)
     owners = _give_meshes(
         [plans[i] for i in chosen.tolist()], wanted[chosen], np.abs(boxes[chosen]).max(axis=(1, 2))
     )

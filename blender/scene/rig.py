@@ -65,9 +65,8 @@ def _follower(
     empty.parent_type = "BONE"
     empty.parent_bone = bone.name
     empty.matrix_parent_inverse = Matrix.Identity(4)
-    empty.location = Vector(local) - Vector(
-        (0.0, bone.length, 0.0)
-    )  # children of a bone start at its tail
+    # children of a bone start at its tail
+    empty.location = Vector(local) - Vector((0.0, bone.length, 0.0))
     empty.hide_set(True)
     return empty
 

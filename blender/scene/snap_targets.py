@@ -22,14 +22,16 @@ from numpy.typing import NDArray
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.plain_body import EQUAL_AXES
 from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
+from ...core.numerics.rotations import polar_rotation
 from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict.finding import EditRefusedError, Finding
 from ...core.verdict.method import Procedure
 from ..bodies.measure_object import Measured, measure_body
+from ..bodies.shape.shape import NoShapeError, shape_of_measured
 from ..bodies.stacks.many import measured_in_turn
 from ..bodies.stacks.stack import Stacked
 from ..scale import meters_per_unit
-from ..settings.options import MeasureOptions
+from ..settings.given import COLLIDER
 from . import reframe
 from .changes import ancestors
 from .findings import FOLLOWS_MOVED, MIRROR_IMAGE, OPEN_OBJECT
@@ -39,7 +41,6 @@ if TYPE_CHECKING:
     from ..bodies.flat.flat_shape import FlatShape
     from ..bodies.shape.shape import Shape
 
-POSE = MeasureOptions(pose=True)
 MAX_DIRECTION_NOISE = 1e-3  # rounding in float32 of directions fixed by moments of higher order
 DIAGONAL_RTOL = 4e-7  # products of inertia by rounding in float32, relative to the trace
 UNIT_SCALE = 1e-6  # largest deviation of the products of an object's axes from 1 and 0
@@ -117,37 +118,52 @@ def targets_in_turn(context: Context, objects: Sequence[Object]) -> Callable[[Ob
     """Return a function that gives the `snap_target` of one object at a time, measured in batches,
     in a fixed scene.
     """
-    measured = measured_in_turn(objects, context.evaluated_depsgraph_get(), POSE)
-    return lambda obj: target_of(context, obj, measured(obj), False)
+    measured = measured_in_turn(objects, context.evaluated_depsgraph_get())
+    return lambda obj: target_of(context, obj, measured(obj))
 
 
 def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarget:
     """Measure an object for snapping, or raise EditRefusedError; strict: by Zhang and Chen's
     rule.
     """
-    return target_of(
-        context, obj, measure_body(obj, context.evaluated_depsgraph_get(), POSE), strict
-    )
+    return target_of(context, obj, measure_body(obj, context.evaluated_depsgraph_get()), strict)
 
 
 def target_of(
-    context: Context, obj: Object, measured: Measured | Stacked, strict: bool
+    context: Context,
+    obj: Object,
+    measured: Measured | Stacked,
+    strict: bool = False,
+    by_shape: bool = True,
 ) -> SnapTarget:
-    """Return the `snap_target` of a measured object."""
+    """Return the `snap_target` of a measured object; by_shape: moments to sixth order choose among
+    axes that lower ones leave open.
+    """
     if measured.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT)
     unit = meters_per_unit(context.scene)
     body = measured.mass_properties
     principal = body.principal
-    if strict:
+    if strict or (by_shape and not principal.is_unique):
         # Measured alone, a body gets exact third moments if they are doubtful.
-        depsgraph = context.evaluated_depsgraph_get()
-        own = measure_body(obj, depsgraph, POSE) if isinstance(measured, Stacked) else measured
-        measurement = own.measurement
-        body_of = None if measurement.kind == "shell" else own.body
-        refine = None if body_of is None or body_of.mass is not None else body_of.third_order
-        principal = zhang_chen_frame(measurement.mass_moments[0], refine)
+        own = measured
+        if isinstance(own, Stacked):
+            own = measure_body(obj, context.evaluated_depsgraph_get())
+        if strict:
+            moments, _ = own.measurement.mass_moments
+            is_varying = own.measurement.kind == "shell" or own.body.mass is not None
+            principal = zhang_chen_frame(moments, None if is_varying else own.body.third_order)
+        else:
+            principal = _frame_by_shape(own)
     return SnapTarget.of_body(obj, body, principal, unit)
+
+
+def _frame_by_shape(measured: Measured) -> PrincipalFrame:
+    """Return the principal frame that the shape fixes; the measured one if it has no shape."""
+    try:
+        return shape_of_measured(measured, 1).principal_frame()
+    except NoShapeError:
+        return measured.mass_properties.principal
 
 
 def matrix_at_center(obj: Object, body: SnapTarget) -> NDArray | None:
@@ -174,6 +190,26 @@ def matrix_along_axes(obj: Object, body: SnapTarget) -> NDArray | None:
         return None
     target = np.eye(4)
     target[:3, :3], target[:3, 3] = body.axes, body.center
+    return target
+
+
+def matrix_for_bullet(obj: Object, body: SnapTarget) -> NDArray | None:
+    """Return the matrix of the body's center with the object's rotation, or None if the object has
+    it already.
+
+    A scale is applied if it mirrors or shears, or if the object has colliders: Bullet knows no
+    mirrored or sheared bodies, and scales the margins of colliders.
+    """
+    linear = world(obj)[:3, :3]
+    products = linear.T @ linear
+    has_colliders = any(COLLIDER in child for child in obj.children)
+    wanted = np.eye(3) if has_colliders else np.diag(np.diag(products))
+    off = np.abs(products - wanted).max()
+    if np.linalg.det(linear) > 0.0 and off <= UNIT_SCALE * products.max():
+        return matrix_at_center(obj, body)
+    target = np.eye(4)
+    target[:3, :3] = polar_rotation(np.array([obj.matrix_world.to_quaternion().to_matrix()]))[0][0]
+    target[:3, 3] = body.center
     return target
 
 

@@ -103,9 +103,8 @@ def _rotation(obj: Object) -> Matrix3:
 def _delta_rotation(obj: Object) -> Matrix3:
     if obj.rotation_mode == "QUATERNION":
         return rotation_matrix(obj.delta_rotation_quaternion)
-    if (
-        obj.rotation_mode == "AXIS_ANGLE"
-    ):  # its delta has no place in Blender's interface and is not shown
+    # its delta has no place in Blender's interface and is not shown
+    if obj.rotation_mode == "AXIS_ANGLE":
         return np.eye(3)
     return euler_matrix(np.array(obj.delta_rotation_euler), obj.rotation_mode)
 

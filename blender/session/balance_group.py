@@ -75,9 +75,8 @@ class BalanceGroup:
                 for member in root.walk()
                 if member.kind in SUMS
             ]
-            self._assembly = (
-                root.data if any(given) else None
-            )  # it need not weigh as much as its objects
+            # it need not weigh as much as its objects
+            self._assembly = root.data if any(given) else None
         else:
             objects = context.view_layer.objects.selected
             if context.mode == "POSE":

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object
 from numpy.typing import NDArray
 
+from ...core.bodies.reading import float64_matrix
 from ...core.colliders.effects import correct_masses, correct_vertices, effect, uniform_masses
 from ...core.colliders.fits import Wanted, distances, make_colliders
 from ...core.inertia.mass_properties import MassProperties
@@ -21,21 +23,21 @@ from ...core.measurement.settings import digest
 from ...core.mesh.hulls import convex_hull
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.moments.affine_maps import are_singular
+from ...core.numerics.rotations import polar_rotation
 from ...core.robots.model import Pose, Shape
 from ...core.verdict.finding import ReadError
 from ..bodies.measure_object import Measured, measure_body
 from ..read.findings import OBJECT_WITHOUT_GEOMETRY, SCALE_ZERO_AXIS
-from ..read.fingerprint import colliders_digest
+from ..read.fingerprint import colliders_digest, scale_products
 from ..scale import meters_per_unit
 from ..scene import colliders as scene
 from ..scene.changes import require_storable_data
 from ..settings.given import COLLIDER, COLLIDERS
-from ..settings.options import MeasureOptions
+from ..write import properties
 from .tracking import staleness, stamps
 
 SAME = 1e-5  # relative: float32 matrices of turned copies differ by less
 LIMITED = ("automatic", "hull", "pieces")  # shapes with tolerances
-WITHOUT_AXES = MeasureOptions(axes=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +69,7 @@ def plan_colliders(
     plans of this run by their keys, to which this one is added.
     """
     require_storable_data(obj)
-    measured = measure_body(obj, depsgraph, WITHOUT_AXES)
+    measured = measure_body(obj, depsgraph)
     measurement = measured.measurement
     unit = meters_per_unit(depsgraph.scene)
     surface = _surface(obj, measured)
@@ -169,6 +171,7 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
         marks = {
             "fingerprint": plan.fingerprint,
             "digest": colliders_digest(plan.obj),
+            "scale": scale_products(plan.obj),
             "engine": engine,
         }
         known = {
@@ -182,6 +185,33 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
     ]
     staleness.mark_stamps(context, fresh)
     return made
+
+
+@contextmanager
+def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Iterator[None]:
+    """Keep the stored effects of colliders valid while nothing but frames of their bodies changes,
+    and results are stored anew.
+    """
+    kept = {
+        obj: float64_matrix(obj.matrix_world)
+        for obj in objects
+        if COLLIDERS in obj
+        and staleness.stale_reason(obj, context.scene, stamps.of_colliders) is None
+    }
+    yield
+    context.view_layer.update()
+    fresh = []
+    for obj, before in kept.items():
+        group = obj[COLLIDERS]
+        turn = polar_rotation(float64_matrix(obj.matrix_world)[None, :3, :3])[0][0].T
+        turn = turn @ polar_rotation(before[None, :3, :3])[0][0]
+        group["center_shift"] = (turn @ group["center_shift"]).tolist()
+        group["fingerprint"] = properties.fingerprint(obj) or group["fingerprint"]
+        group["digest"] = colliders_digest(obj)
+        group["scale"] = scale_products(obj)
+        staleness.note_edits(obj)
+        fresh.append((obj, stamps.of_colliders(obj)))
+    staleness.mark_stamps(context, fresh)
 
 
 def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
@@ -220,7 +250,7 @@ def collider_record(
     is_same = is_same or _is_same_body(stored.get("body", ()), measurement.in_object_frame())
     if reason is None and not is_same:
         reason = stamps.Stale.GEOMETRY
-    shown = stored.keys() - {"fingerprint", "digest", "body", "limits"}
+    shown = stored.keys() - {"fingerprint", "digest", "scale", "body", "limits"}
     return {
         **{key: stored[key] for key in stored if key in shown},
         "out_of_date": reason and str(reason),

@@ -12,9 +12,11 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import bpy
+import numpy as np
 from bpy.types import Context, Object
 
 from ...core.inertia.mass_properties import combine
+from ...core.measurement.findings import NO_VOLUME
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError
 from ...core.verdict.method import Procedure
 from ..bodies.measure_object import Measured as MeasuredBody
@@ -24,7 +26,7 @@ from ..read.tracking import tracking_paused
 from ..scale import meters_per_unit
 from ..scene import reframe
 from ..scene.changes import require_storable_data
-from ..scene.colliders import colliders_by_body
+from ..scene.colliders import apply_for_bullet, colliders_by_body
 from ..scene.findings import OPEN_OBJECT, RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
 from ..scene.rigid_world import (
     MIN_MASS,
@@ -33,9 +35,16 @@ from ..scene.rigid_world import (
     remove_joint,
     require_rigid_world,
 )
-from ..scene.snap_targets import POSE, SnapTarget, matrix_along_axes, matrix_at_center
+from ..scene.snap_targets import (
+    SnapTarget,
+    matrix_along_axes,
+    matrix_for_bullet,
+    target_of,
+)
+from ..scene.transforms import world
 from ..settings.given import COLLIDER
 from ..write import reports
+from .colliders import colliders_kept_current
 from .stored import assembly
 from .stored.results import store_measured
 from .tracking import staleness
@@ -67,13 +76,14 @@ class Measured:
 
 @dataclass(frozen=True, eq=False)
 class RigidBodies:
-    """New rigid bodies by their objects, their masses in kg by Calculate Mass, and the refusals of
-    other bodies.
+    """New rigid bodies by their objects, their masses in kg by Calculate Mass, the refusals of
+    other bodies, and passive bodies without a mass.
     """
 
     measured: dict[Object, Measured]
     calculated: dict[Object, float]
     failures: list[Finding]
+    floors: list[Object]
 
 
 def make_rigid_bodies(
@@ -85,18 +95,32 @@ def make_rigid_bodies(
     bodies = _bodies(objects) if compounds else [Body(obj) for obj in objects]
     measured: dict[Object, Measured] = {}
     failures: list[Finding] = []
+    floors: list[Object] = []
     ask = _measure_in_turn(context, bodies)
     with reports.progress(len(bodies)) as step:
         for done, body in enumerate(bodies, 1):
             try:
                 measured[body.obj] = _measured(context, body, ask)
             except Exception as error:
+                found = error.finding.code if isinstance(error, MeasureError) else None
+                if type == "PASSIVE" and found in {OPEN_OBJECT, NO_VOLUME}:
+                    floors.append(body.obj)  # no engine asks for the mass of a passive body
+                    step(done)
+                    continue
                 failures.append(reports.failure(body.obj.name_full, error))
             step(done)
     # Blender reports a rigid body as a change of the shape, and again when results are stored on it
-    with assembly.kept_up_to_date(context), tracking_paused():
+    with (
+        assembly.kept_up_to_date(context),
+        colliders_kept_current(context, objects),
+        tracking_paused(),
+    ):
         failures += _place(context, measured, frame)
         new = _add(context, measured, type, shape)
+        add_rigid_bodies(context, [obj for obj in floors if obj.rigid_body is None], type)
+        for obj in floors:
+            obj.rigid_body.type = "PASSIVE"
+            obj.rigid_body.collision_shape = "MESH"
         calculated = _calculated_masses(context, measured)
         for obj in new:
             obj.rigid_body.mesh_source = (
@@ -105,7 +129,7 @@ def make_rigid_bodies(
         for obj, one in measured.items():
             obj.rigid_body.mass = one.target.mass
         store_measured(context, [part for one in measured.values() for part in one.parts])
-    return RigidBodies(measured, calculated, failures)
+    return RigidBodies(measured, calculated, failures, floors)
 
 
 def _place(context: Context, measured: dict[Object, Measured], frame: str) -> list[Finding]:
@@ -115,11 +139,8 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
     failures: list[Finding] = []
     if frame == "KEEP":
         return failures
-    move_only = frame == "ORIGIN"
-    frame_of = matrix_at_center if move_only else matrix_along_axes
-    for _ in range(
-        1 if move_only else 2
-    ):  # a new scale may cut faces that are not flat into other triangles
+    frame_of = matrix_for_bullet if frame == "ORIGIN" else matrix_along_axes
+    for _ in range(2):  # a new scale may cut faces that are not flat into other triangles
         plans = []
         joints = {}
         for obj, one in list(measured.items()):
@@ -133,6 +154,7 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
                 failures.append(reports.failure(obj.name_full, error))
                 del measured[obj]
                 continue
+            move_only = np.array_equal(target[:3, :3], world(obj)[:3, :3])
             plans.append(reframe.Plan(obj, target, one.target.size, move_only=move_only))
         with reports.progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)
@@ -147,8 +169,7 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
         ask = _measure_in_turn(context, [measured[plan.obj].body for plan in changed])
         for plan in changed:
             measured[plan.obj] = _measured(context, measured[plan.obj].body, ask)
-        if not move_only:
-            staleness.mark_axes_changed(plan.obj for plan in changed)
+        staleness.mark_axes_changed(plan.obj for plan in changed if not plan.move_only)
     return failures
 
 
@@ -161,6 +182,8 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
     colliders = colliders_by_body(context.scene.objects) if shape == "KEEP" else {}
     added = [collider for part in parts for collider in colliders.get(part, ())]
     new = [obj for obj in parts if obj.rigid_body is None]
+    for collider in added:
+        apply_for_bullet(collider)
     add_rigid_bodies(context, [*new, *(obj for obj in added if obj.rigid_body is None)], type)
     for collider in added:
         collider.rigid_body.collision_shape = COLLISION_SHAPES.get(
@@ -199,7 +222,7 @@ def _measure_in_turn(
 ) -> Callable[[Object], MeasuredBody | Stacked]:
     """Return a function that measures the objects of the bodies, one at a time and in order."""
     parts = [part for body in bodies for part in (body.obj, *body.members)]
-    return measured_in_turn(parts, context.evaluated_depsgraph_get(), POSE)
+    return measured_in_turn(parts, context.evaluated_depsgraph_get())
 
 
 def _measured(
@@ -214,16 +237,17 @@ def _measured(
         except MeasureError as error:
             raise EditRefusedError(error.finding.of_sources([part.name_full])) from error
     measurements = [measured.measurement for _, measured in parts]
-    whole = measurements[0].mass_properties
     if body.members:
         moments = [measurement.mass_moments for measurement in measurements]
         whole = combine(moments, preferred_axes=measurements[0].rotation)
-    if whole.mass < MIN_MASS:
-        raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(whole.mass), limit=MIN_MASS)
-    unit = meters_per_unit(context.scene)
-    target = SnapTarget.of_body(body.obj, whole, whole.principal, unit)
+        unit = meters_per_unit(context.scene)
+        target = SnapTarget.of_body(body.obj, whole, whole.principal, unit)
+    else:
+        target = target_of(context, *parts[0])
+    if target.mass < MIN_MASS:
+        raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(target.mass), limit=MIN_MASS)
     volume = sum(measurement.volume for measurement in measurements)
-    return Measured(body, target, whole.mass / volume, tuple(parts))
+    return Measured(body, target, target.mass / volume, tuple(parts))
 
 
 def _measured_part(

@@ -73,9 +73,8 @@ class SceneLinks:
                     np.array_equal(frame.rotation, link.pose.rotation)
                     and len(self.members[link.name]) == 1
                 )
-                to_link = (
-                    Pose() if is_own else link.pose.inverse() @ frame
-                )  # equal frames without rounding
+                # equal frames without rounding
+                to_link = Pose() if is_own else link.pose.inverse() @ frame
                 placed += [replace(shape, pose=to_link @ shape.pose) for shape in shapes]
             return placed
 
@@ -279,7 +278,9 @@ def link_surface(
         except MeasureError:  # such as a grid of densities
             continue
         pieces.append(surface.transform(unit * to_link.rotation, to_link.position))
-    return join_surfaces(pieces) if len(pieces) > 1 else pieces[0] if pieces else None
+    if len(pieces) > 1:
+        return join_surfaces(pieces)
+    return pieces[0] if pieces else None
 
 
 def sheared_objects(objects: Iterable[Object]) -> list[str]:

@@ -33,7 +33,16 @@ def subject(context: Context) -> Object | None:
     if active is not None and (active.mode != "OBJECT" or pinned_object(context) is not None):
         return active
     shown = armatures.subjects(chosen_objects(context))
-    return active if active in shown else shown[0] if len(shown) == 1 else None
+    if active in shown:
+        return active
+    return shown[0] if len(shown) == 1 else None
+
+
+def require_subject(context: Context) -> Object:
+    """Return the subject, which the poll of an operator has seen."""
+    obj = subject(context)
+    assert obj is not None
+    return obj
 
 
 def objects_with_settings(objects: Iterable[Object]) -> list[Object]:

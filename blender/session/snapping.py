@@ -16,14 +16,11 @@ from ..bodies.stacks.many import measure_many, measured_in_turn
 from ..bodies.stacks.stack import Stacked
 from ..read.tracking import tracking_paused
 from ..scene import reframe
-from ..scene.snap_targets import POSE, SnapTarget, target_of
-from ..settings.options import MeasureOptions
+from ..scene.snap_targets import SnapTarget, target_of
 from ..write import properties, reports
 from .stored import assembly
 from .stored.results import store_measured
 from .tracking import staleness
-
-CENTER = MeasureOptions(axes=False)
 
 
 def remeasure(
@@ -40,11 +37,10 @@ def remeasure(
         return
     measured = [(obj, known[obj]) for obj in stored if obj in known]
     unknown = [obj for obj in stored if obj not in known]
-    for together in measure_many(unknown, context.evaluated_depsgraph_get(), POSE):
+    for together in measure_many(unknown, context.evaluated_depsgraph_get()):
         for obj, outcome in together:
-            if isinstance(
-                outcome, Exception
-            ):  # stored results stay, and the panel shows that they are out of date
+            # stored results stay, and the panel shows that they are out of date
+            if isinstance(outcome, Exception):
                 internal_error.finding_of(outcome)
             else:
                 measured.append((obj, outcome))
@@ -64,22 +60,20 @@ def reframe_objects(
     """
 
     def plans_of(
-        chosen: Sequence[Object], right: dict[Object, Measured | Stacked]
+        chosen: Sequence[Object], right: dict[Object, Measured | Stacked], by_shape: bool
     ) -> tuple[list[reframe.Plan], list[Finding]]:
         """Return plans and refusals; measurements of unchanged objects with stored results go to
-        `right`.
+        `right`. by_shape: moments to sixth order choose among axes that lower ones leave open.
         """
         plans: list[reframe.Plan] = []
         failures: list[Finding] = []
-        measured = measured_in_turn(
-            chosen, context.evaluated_depsgraph_get(), CENTER if move_only else POSE
-        )
+        measured = measured_in_turn(chosen, context.evaluated_depsgraph_get())
         with reports.progress(len(chosen)) as step:
             for done, obj in enumerate(chosen, 1):
                 try:
                     reframe.check(obj)
                     outcome = measured(obj)
-                    body = target_of(context, obj, outcome, strict)
+                    body = target_of(context, obj, outcome, strict, by_shape)
                     target = target_matrix(obj, body)
                 except Exception as error:
                     failures.append(reports.failure(obj.name_full, error))
@@ -91,16 +85,16 @@ def reframe_objects(
                 step(done)
         return plans, failures
 
-    plans, failures = plans_of(objects, {})
+    plans, failures = plans_of(objects, {}, not move_only)
     known: dict[Object, Measured | Stacked] = {}
     with assembly.kept_up_to_date(context):
         with tracking_paused(), reports.progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)
             failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
-            if (
-                not move_only
-            ):  # a new scale may change the triangles of faces that are not flat: another body
-                reframe.reframe(context, plans_of([plan.obj for plan in changed], known)[0])
+            # a new scale may change the triangles of faces that are not flat: another body
+            if not move_only:
+                again, _ = plans_of([plan.obj for plan in changed], known, by_shape=False)
+                reframe.reframe(context, again)
         remeasure(context, [plan.obj for plan in changed], known)
     if not move_only:
         staleness.mark_axes_changed(plan.obj for plan in changed)

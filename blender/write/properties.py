@@ -71,10 +71,11 @@ DESCRIPTIONS = {
     "storing coordinates as float32 may have",
     "body_axis_inertia": "Moment of inertia about the axis of the reference, in kg·m²",
 }
+# beginnings of the keys of results about a reference
 REFERENCE_KEYS = (
     "body_reference",
     "body_axis",
-)  # beginnings of the keys of results about a reference
+)
 FRAMES = {  # by the type of the owner of results
     bpy.types.Object: "the object's frame (location and rotation, unit scale)",
     bpy.types.Collection: "the world",
@@ -97,10 +98,11 @@ BALANCE_GROUP = (
 )
 # on it: first frame, last frame, N·s and N·m·s from nothing, span after span
 BALANCE_SPANS = "body_balance_spans"
+# for wires, and for bodies measured without their display mesh
 OPTIONAL = (
     "body_length",
     "body_display_volume",
-)  # for wires, and for bodies measured without their display mesh
+)
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 
 
@@ -298,9 +300,8 @@ def store_reference(obj: Owner, values: dict) -> None:
 def require_storable(obj: Owner) -> None:
     """Raise EditRefusedError for an owner that cannot store results."""
     data = obj.id_data
-    if (
-        not data.is_editable or data.override_library is not None
-    ):  # saving drops an override's new ID properties
+    # saving drops an override's new ID properties
+    if not data.is_editable or data.override_library is not None:
         raise EditRefusedError(LINKED_OBJECT, subject=data.name_full)
 
 

@@ -61,9 +61,8 @@ def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) ->
     sampled, samples = _sample(corners, areas, _SAMPLES if len(owner) else _MANY_SAMPLES)
     owner = np.concatenate([sampled, owner])
     spots = np.concatenate([samples, spots])
-    order = np.argsort(
-        -spots[:, 2], kind="stable"
-    )  # the farthest first: the last one put at a pixel stays
+    # the farthest first: the last one put at a pixel stays
+    order = np.argsort(-spots[:, 2], kind="stable")
     light = np.abs(normals @ (0.75, 0.75, -0.35)) / np.maximum(areas, np.finfo(float).tiny)
     colors = np.full((len(areas), 4), 255, np.uint8)
     colors[:, :3] = _BODY * (0.35 + 0.65 * np.minimum(light, 1.0)[:, None])

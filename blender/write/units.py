@@ -74,11 +74,10 @@ MIN_GROUPED = 5  # integers of fewer digits are read at a glance
 # beyond these, powers of ten are shown
 MIN_EXPONENT = -5
 MAX_EXPONENT = 10
-# of reports in SI units
-REPORT_DIGITS = 7  # float32 coordinates carry as many
-ZERO_DISPLAY_RTOL = (
-    2.5e-7  # of the largest component: float32 matrices miss right angles by as much; shown as 0
-)
+# digits of reports in SI units: float32 coordinates carry as many
+REPORT_DIGITS = 7
+# shown as 0, relative to the largest component: float32 matrices miss right angles by as much
+ZERO_DISPLAY_RTOL = 2.5e-7
 INDENT, REPORT_WIDTH = "  ", 22
 
 

@@ -137,9 +137,8 @@ def reason(error: Exception) -> str:
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     if not lines:
         return type(error).__name__
-    if any(
-        _TRACEBACK in line for line in lines
-    ):  # the exception's line follows the indented ones of its frames
+    # the exception's line follows the indented ones of its frames
+    if any(_TRACEBACK in line for line in lines):
         lines = [line.rstrip() for line in str(error).splitlines()]
         last = max(
             number

@@ -187,9 +187,8 @@ class Buffers:
         self.binary: tuple[Data, int] | None = None
         self.opened: dict[int, tuple[Data, int]] = {}
         text = data
-        if (
-            data[:4] == b"glTF"
-        ):  # chunks of the text and of the first buffer, each behind its length and type
+        # chunks of the text and of the first buffer, each behind its length and type
+        if data[:4] == b"glTF":
             end = 20 + struct.unpack_from("<I", data, 12)[0]
             text = data[20:end]
             self.binary = (data, end + 8)

@@ -46,10 +46,11 @@ class _Prim(NamedTuple):
 
 
 _SHAPELESS = "Points", "BasisCurves", "HermiteCurves", "NurbsCurves"  # have no volume
+# of prims that are not rendered
 _PURPOSES = {
     "proxy": "its purpose is proxy",
     "guide": "its purpose is guide",
-}  # of prims that are not rendered
+}
 
 
 def import_usd(path: str) -> Opened:

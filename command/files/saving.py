@@ -58,9 +58,8 @@ class Place:
         FileError if this fails, or the file has changed meanwhile.
         """
         try:
-            if not os.access(
-                self.path, os.W_OK
-            ):  # the folder alone decides whether a file can be replaced
+            # the folder alone decides whether a file can be replaced
+            if not os.access(self.path, os.W_OK):
                 raise OSError("it is gone, or read-only")
             with open(self.path, "rb") as file:
                 packed = file.read(4).startswith(_PACKED)

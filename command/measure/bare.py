@@ -55,10 +55,11 @@ from ..supervisor.processes import has_blender
 from .entries import Contents, failure
 
 BYTES_PER_FACE = 500  # approximate memory for reading and measuring a mesh
+# Least bytes for each face: a file's size limits its faces.
 BYTES_OF_FILE = {
     ".stl": 50,
     ".ply": 19,
-}  # Least bytes for each face: a file's size limits its faces.
+}
 DEFAULT_DENSITY = 1000.0  # kg/m³
 _NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
 

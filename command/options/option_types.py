@@ -23,12 +23,13 @@ MAX_ORDER = 30
 MAX_SPLINE_ORDER = 16
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 ABOUT = ("center", "origin", "world")
+# by source: True if a name follows
 _NAMED = {
     "value": False,
     "materials": False,
     "attribute": True,
     "volume": True,
-}  # by source: True if a name follows
+}
 
 
 def _to_robot(file_documents: Iterable[dict[str, Any]]) -> Iterator[str]:

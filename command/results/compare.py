@@ -169,9 +169,8 @@ def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
         "centroid[{}]".format(axis): (value, gyration, bound)
         for axis, value in zip("xyz", entry["centroid"])
     }
-    turned = (
-        found["area"][2] / area if area else 0.0
-    )  # The axes are known to that accuracy at best.
+    # The axes are known to that accuracy at best.
+    turned = found["area"][2] / area if area else 0.0
     for name in ("x", "y", "normal"):
         found |= {
             "plane.{}[{}]".format(name, axis): (value, 1.0, turned)
@@ -231,11 +230,12 @@ def _product(first: Matrix, second: Matrix) -> Matrix:
 
 def _bound(entry: dict[str, Any], name: str) -> float:
     """Return the bound of a number in a body's record."""
+    # A given value has no bound, and does not differ.
     if name in (
         "mass",
         "density",
         "linear_density",
-    ):  # A given value has no bound, and does not differ.
+    ):
         measure = "volume" if entry["volume"] else "area"
         size = entry[measure]
         return _bound(entry, measure) / abs(size) * abs(entry[name] or 0.0) if size else 0.0

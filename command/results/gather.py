@@ -26,9 +26,8 @@ from ..supervisor import journal, listing
 from . import compare
 
 _LISTED = 10  # files in each part of a summary
-Entry = tuple[
-    dict[str, Any], dict[str, Any]
-]  # a document, and its `attempts` and `seconds` from a journal
+# a document, and its `attempts` and `seconds` from a journal
+Entry = tuple[dict[str, Any], dict[str, Any]]
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
@@ -168,9 +167,8 @@ def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         paths = [*dict.fromkeys(listing.expand(options.paths))]
     except OSError as error:
         raise UsageError("{}: {}".format(error.filename, system_reason(error))) from error
-    if (
-        options.output and options.output.parent != Path()
-    ):  # Relative names in a list start from its folder.
+    # Relative names in a list start from its folder.
+    if options.output and options.output.parent != Path():
         paths = [os.path.abspath(path) for path in paths]
     return listing.write_lines(paths, options.parts), 0
 

@@ -100,9 +100,8 @@ class Journal:
         self._file.seek(0)
         end, self._torn = 0, False
         for line in self._file:
-            with suppress(
-                ValueError, KeyError, TypeError, AttributeError, RecursionError
-            ):  # torn, damaged or foreign
+            # torn, damaged or foreign
+            with suppress(ValueError, KeyError, TypeError, AttributeError, RecursionError):
                 record = json.loads(line)
                 self._add(record, end, len(line), **_read_back(record["document"]))
             end += len(line)

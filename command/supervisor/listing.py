@@ -27,9 +27,8 @@ USD = (".usd", ".usda", ".usdc", ".usdz")
 IMPORTED = (".stl", ".ply", ".obj", ".fbx", ".3mf", ".igs", ".iges", ".glb", ".gltf", *USD)
 SUFFIXES = (BLEND, *IMPORTED, *(suffix for suffix in scans.SUFFIXES if suffix != ".raw"))
 COPY_SUFFIX = ".body_moments.blend"  # suffix of our own copies of .blend files
-_RAW = re.compile(
-    r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE
-)  # Other .raw files belong to headers.
+# Other .raw files belong to headers.
+_RAW = re.compile(r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE)
 
 
 def expand(names: Iterable[str]) -> Iterator[str]:

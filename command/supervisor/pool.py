@@ -27,9 +27,8 @@ from .lifeline import MARK
 ATTEMPTS = 2  # for a file that ends its child; the second in a fresh child
 START_LIMIT = 300.0  # seconds in which a child must be ready
 MAX_FAILED_STARTS = 5  # in a row
-_WATCH = (
-    0.05 if sys.platform.startswith("linux") else 1.0
-)  # seconds between looks at the memory of children
+# seconds between looks at the memory of children
+_WATCH = 0.05 if sys.platform.startswith("linux") else 1.0
 _STEP = 0.2  # Longest wait for an answer of a child, in seconds.
 _LOG_TAIL = 1 << 16  # Bytes of a child's output that are kept.
 
@@ -210,9 +209,8 @@ class Pool:
     def _read(self, child: _Child) -> None:
         """Queue a child's answers as events, and finally its end; runs in a thread."""
         stream = child.answers
-        with suppress(
-            ValueError, TypeError, AttributeError, OSError
-        ):  # a child that answers nonsense counts as dead
+        # a child that answers nonsense counts as dead
+        with suppress(ValueError, TypeError, AttributeError, OSError):
             while line := stream.readline():
                 if line.startswith(MARK):
                     head = json.loads(line[len(MARK) :])

@@ -21,9 +21,8 @@ from typing import Any
 from .lifeline import WINDOW
 
 _WINDOWS = os.name == "nt"
-_NEW_GROUP = getattr(
-    subprocess, "CREATE_NEW_PROCESS_GROUP", 0
-)  # on Windows: a process that can be asked to end
+# on Windows: a process that can be asked to end
+_NEW_GROUP = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)
 _MEMORY_SHARE = 0.8  # share of the machine's memory, for all processes that measure
 _END = 5.0  # seconds that a killed process may take to be gone
 _TOOL = 5.0  # seconds that a tool of the system may take to answer

@@ -198,9 +198,8 @@ def measure_array(
         positions = read_all_positions(array.positions, scan.samples.shape)
         matrix, positions = place_samples(matrix, positions, array.unit_scale or 1.0)
         if array.positions:
-            unspaced = finding(
-                SCAN_UNSTATED, part="spacing", option="spacing"
-            )  # unknown, if two axes have positions
+            # unknown, if two axes have positions
+            unspaced = finding(SCAN_UNSTATED, part="spacing", option="spacing")
             findings = [one for one in findings if len(array.positions) < 3 or one != unspaced]
             findings.append(finding(SAMPLES_POSITIONED, axes=sorted(array.positions)))
         findings = (*scan.findings, *findings)
@@ -248,9 +247,8 @@ def _threshold_body(
     )
     if spline_order > TRILINEAR and scan.samples.size > MAX_SAMPLES:
         raise ReadError(GRID_TOO_LARGE, grid=name, samples=list(scan.samples.shape))
-    slowest = np.argsort(
-        [-abs(stride) for stride in scan.samples.strides], kind="stable"
-    )  # read in the file's order
+    # read in the file's order
+    slowest = np.argsort([-abs(stride) for stride in scan.samples.strides], kind="stable")
     turned = affine_matrices(np.eye(3)[:, slowest])
 
     def values(block: NDArray) -> NDArray[np.float64]:

@@ -6,20 +6,17 @@ its places.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.principal_frames import OwnMoments
 from ..measurement.measurement import Body
 from ..mesh.surface import Surface, normals
-from ..moments.affine_maps import affine_matrices, are_similarities
-from ..moments.images import invert_through_point, sum_of_images
-from ..moments.moments import Moments, monomials, stack_moments, sum_moments
-from ..numerics.rotations import polar_rotation
+from ..moments.images import sum_of_images
+from ..moments.moments import Moments, monomials, sum_moments
 from ..polyhedron import polyhedron_moments
 from ..solid.findings import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES
 from ..solid.measure import SolidIntegrals, measure_solid
@@ -59,21 +56,14 @@ class MeshBody(Body):
 
     solids: tuple[tuple[SolidIntegrals, NDArray[np.float64]], ...] = ()
     threads: int = field(kw_only=True)
-    _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments of volume and area (None without `area`) to an order, measured once
         for each part.
         """
-        if (order, area) not in self._known:  # the frame and the shape ask for the same order
-            self._known[order, area] = self._to_order(order, area)
-        return self._known[order, area]
-
-    def _to_order(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         volumes, areas = [], []
-        alone = (
-            0 if order <= 3 else None
-        )  # up to third order the area is found on the way, and makes bounds smaller
+        # up to third order the area is found on the way, and makes bounds smaller
+        alone = 0 if order <= 3 else None
 
         def measured(surface: Surface) -> Moments:
             return polyhedron_moments(
@@ -82,11 +72,12 @@ class MeshBody(Body):
 
         for solid, matrices in self.solids:
             surface = solid.given_surface
+            # otherwise the repaired surface has fewer or more faces
             same = (
                 solid.method in (Procedure.EXACT, Procedure.REORIENTED)
                 and not solid.health.duplicate_faces
                 and solid.repaired_surface.triangle_count == surface.triangle_count
-            )  # otherwise the repaired surface has fewer or more faces
+            )
             volume, faces = polyhedron_moments(
                 solid.repaired_surface,
                 order,
@@ -101,23 +92,6 @@ class MeshBody(Body):
                 of_faces = faces if same and faces is not None else measured(surface)
                 areas.extend(area_of_instances(surface, of_faces, matrices, measured))
         return sum_moments(volumes), sum_moments(areas) if area else None
-
-    def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments from which axes are found, in the surface's own coordinates for one
-        similar image.
-        """
-        if len(self.solids) == 1 and len(self.solids[0][1]) == 1:
-            solid, matrices = self.solids[0]
-            if are_similarities(matrices[:, :3, :3])[0]:
-                in_place = replace(self, solids=((solid, np.eye(4)[None]),), _known={})
-                volume, areas = in_place.moments(order, area)
-                own = (
-                    with_known(volume, solid.volume)
-                    if areas is None
-                    else with_known(areas, solid.area)
-                )
-                return own_moments([own], np.zeros(1, np.intp), matrices[:, :3, :3])
-        return super().moments_for_axes(order, area)
 
     def third_order(self) -> Moments:
         """Return the moments of the volume, the third order exact to rounding."""
@@ -135,23 +109,6 @@ class MeshBody(Body):
         for solid, matrices in self.solids:
             piece = solid.given_surface if sheets else solid.repaired_surface
             yield from (piece.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
-
-
-def with_known(moments: Moments, known: Moments) -> Moments:
-    """Return moments with the lower orders and bounds of `known`, if both are about the same
-    point.
-    """
-    if not np.array_equal(moments.about, known.about):
-        return moments
-    names = "raw", "rounding_error", "input_error"
-    lower = len(known.raw)
-    return replace(
-        moments,
-        **{
-            name: np.concatenate([getattr(known, name), getattr(moments, name)[lower:]])
-            for name in names
-        },
-    )
 
 
 def with_input_error(moments: Moments, known: Moments) -> Moments:
@@ -172,34 +129,6 @@ def extend_input_error(moments: Moments, known: Moments) -> Moments:
     swept, further = known.input_error[:2].tolist()
     reach = further / swept if swept > 0.0 else 0.0
     return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
-
-
-def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:
-    """Return the moments, in own coordinates, of m images of `shapes` (`which`) under (m, 3, 3)
-    linear maps.
-    """
-    is_mirrored = np.linalg.det(linear) < 0.0
-    is_even = are_similarities(linear)
-    rotation = np.eye(3)[None].repeat(len(which), 0)
-    rotation[is_even] = polar_rotation(linear[is_even])[0]
-    rotation[is_mirrored & is_even] *= -1.0
-    moments: list[Moments] = []
-    number: dict[tuple[int, ...], int] = {}
-    of_bodies = []
-    for body, shape in enumerate(which.tolist()):
-        key = (shape, int(is_mirrored[body])) if is_even[body] else (shape, 0, body)
-        if key not in number:
-            number[key] = len(moments)
-            own = (
-                shapes[shape]
-                if is_even[body]
-                else shapes[shape].transform(affine_matrices(linear[body]))
-            )
-            moments.append(
-                invert_through_point(own) if is_even[body] and is_mirrored[body] else own
-            )
-        of_bodies.append(number[key])
-    return OwnMoments(stack_moments(moments), np.array(of_bodies), rotation)
 
 
 def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:

@@ -257,9 +257,8 @@ def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Find
     """Return the surface with faces outward if it is closed, else unchanged with a finding."""
     if solid.method in (Procedure.EXACT, Procedure.REORIENTED):
         area = polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[1].total
-        if (
-            abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total
-        ):  # else the repair has removed faces
+        # else the repair has removed faces
+        if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:
             findings += [
                 result
                 for result in solid.findings

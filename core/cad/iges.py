@@ -383,9 +383,8 @@ class IgesReader:
         moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(
             fields[start + count : start + 4 * count]
         )
-        if (
-            surface.weights is not None
-        ):  # A point is a mean of control points: it moves by twice its weights' share.
+        # A point is a mean of control points: it moves by twice its weights' share.
+        if surface.weights is not None:
             share = decimal_rounding(fields[start : start + count]) / float(surface.weights.min())
             moved += 2.0 * share * patches_size([surface])
         self._rounding = max(self._rounding, moved)

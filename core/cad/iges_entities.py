@@ -64,9 +64,8 @@ LINE = 110
 SPLINE = 126
 MAX_DEPTH = 50  # nesting of subfigures, transformations and curves
 MAX_PIECES = 10_000  # pieces of the boundary of a surface
-MAX_ARC = (
-    2.0 * math.pi / 3.0
-)  # radians; a quadratic piece of a circle keeps its weights away from zero
+# radians; a quadratic piece of a circle keeps its weights away from zero
+MAX_ARC = 2.0 * math.pi / 3.0
 _DECIMALS = re.compile(r"([0-9]*)\.([0-9]*)(?:[EDed]([+-]?[0-9]+))?")
 _NUMBERS = re.compile(r"[0-9+\-.eEdD \n]*")
 _STRING = re.compile(r"\s*(\d{1,9})H")

@@ -289,9 +289,8 @@ def read_obj_meshes(path: Path) -> list[FileMesh]:
     meshes = []
     for i, (end, last, _) in enumerate([*starts[1:], (len(sides), len(points), "")]):
         begin, first, name = starts[i]
-        if begin == end and (
-            first == last or i == 0 < len(starts) - 1
-        ):  # Later faces may use the first vertices.
+        # Later faces may use the first vertices.
+        if begin == end and (first == last or i == 0 < len(starts) - 1):
             continue
         own = corners[ends[begin] : ends[end]]
         own_points = points

@@ -39,9 +39,8 @@ WHOLES = {b"deg": 1, b"curv2": 2}  # the least count of whole numbers
 FREE_FORM = {b"surf": 4, b"curv": 2}  # the count of numbers before the indices
 _KINDS = b"|".join([*VERTICES, *INDICES, *WHOLES, *FREE_FORM, b"parm"])
 _MARKED = re.compile(MARK + rb"[ \t]*(?:" + _KINDS + rb")(?!\S)")
-_SPACES = bytes.maketrans(
-    bytes(range(10)) + bytes(range(11, 13)) + bytes(range(14, 32)), b" " * 30
-)  # not \n, \r
+# not \n, \r
+_SPACES = bytes.maketrans(bytes(range(10)) + bytes(range(11, 13)) + bytes(range(14, 32)), b" " * 30)
 _NEXT = b" \v "  # joins a line and its continuation, so that lines can still be counted
 _INDEX = rb"%(n)b(?:/(?:%(n)b)?+){0,2}+"
 _SHORT_INDEX, _ANY_INDEX = (_INDEX % {b"n": number} for number in (SHORT_WHOLE, rb"[+-]?[0-9]++"))
@@ -96,9 +95,8 @@ class Lines:
 
     def __init__(self, text: bytes, counts: NDArray[np.int64]) -> None:
         self.text = text
-        self.letters = np.frombuffer(
-            text + b"\n\n\n", np.uint8
-        )  # so that three letters can be read from any word on
+        # so that three letters can be read from any word on
+        self.letters = np.frombuffer(text + b"\n\n\n", np.uint8)
         self._is_word = self.letters > ord(" ")
         self._is_word[1:] &= self.letters[:-1] <= ord(" ")
         self.ends = np.flatnonzero(self.letters[:-3] == ord("\n"))

@@ -25,19 +25,19 @@ from ..numerics.quadrature import spread_directions
 from ..verdict.finding import MeasureError
 from .plane_cuts import ON_PLANE_RTOL, Piece, connected_parts, cut, piece_from_surface
 
-HULL_RTOL = 1e-6  # of the resulting hulls
-SEARCH_RTOL = 1e-4  # of hulls that are only compared
-COARSE_POINTS = 96  # of the copy that planes are compared on
+HULL_RTOL = 1e-6  # tolerance of the resulting hulls
+SEARCH_RTOL = 1e-4  # tolerance of hulls that are only compared
+COARSE_POINTS = 96  # points of the copy that planes are compared on
 MAX_PLANES = 24  # through concave edges
 # directions that choose planes, and planes that are compared exactly
 DIRECTIONS = 120
 LIKELY_PLANES = 6
 SAMPLES_PER_BLOCK = 32  # after the first few, which most often decide
-SHARES = np.array([1, 2, 3]) / 4.0  # of the extent, where planes divide a piece evenly
+SHARES = np.array([1, 2, 3]) / 4.0  # shares of the extent, where planes divide a piece evenly
 LEAST_GAIN = 1e-3  # relative to the body's volume: a smaller reduction is none
 LEAST_EXCESS = 0.01  # of the hull over the volume of a piece that is worth two cuts
 HOPE = 0.02  # The gain of a cut that gains nothing yet, relative to the excess.
-MERGE_CORNERS = 96  # of hulls that are compared before they are merged
+MERGE_CORNERS = 96  # corners of hulls that are compared before they are merged
 SPARE = 2  # pieces made for each wanted piece, before they are merged
 
 
@@ -158,9 +158,8 @@ def _coarse(piece: Piece) -> Piece:
     extent = np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
     far = np.argsort(-((points - points.mean(axis=0)) ** 2).sum(axis=1), kind="stable")
     while True:
-        number = np.maximum(
-            np.ceil(cells * extent / extent.max()), 2.0
-        )  # a thin body keeps both of its sides
+        # a thin body keeps both of its sides
+        number = np.maximum(np.ceil(cells * extent / extent.max()), 2.0)
         cell = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp) @ (
             cells * cells,
             cells,
@@ -261,9 +260,8 @@ def _gains(
         number = np.full(height.shape, -1)
         number[vertex, of] = np.arange(len(vertex))
         ends = number[edges]  # (e, 2, k)
-        link = np.nonzero(
-            (ends >= 0).all(axis=1) & ((a != 0.0) | (b != 0.0))
-        )  # an edge in the plane joins nothing
+        # an edge in the plane joins nothing
+        link = np.nonzero((ends >= 0).all(axis=1) & ((a != 0.0) | (b != 0.0)))
         new_number = len(vertex) + np.arange(len(new))
         inner = ends[edge, :, plane].max(axis=1)
         label, parts = connected_components(

@@ -53,16 +53,16 @@ IN_NORM = np.where(monomials(2).max(axis=1) * 2 == DEGREE, np.sqrt(2.0), 1.0) * 
 HELD_WEIGHT = 30.0
 NEARNESS = 1e-5
 REPETITIONS = 40
-# of the body's mass and size
+# relative to the body's mass and size
 ROUNDING = 1e-15
 REACHED = 1e-11
-MOVES_REACHED = 1e-8  # of the body's volume and size, as precise as single precision
+MOVES_REACHED = 1e-8  # relative to the body's volume and size, as precise as single precision
 NEAR = 1e-6  # beyond which the volume is given up
 MAX_STEPS, MAX_MULTIPLIER_STEPS = 60, 60
-# of the trust region, in the body's radii of gyration
+# radii of the trust region, in the body's radii of gyration
 FIRST_RADIUS = 0.1
 LEAST_RADIUS = 1e-6
-MIN_AREA = 1e-3  # of the largest share: corners with less move as if they had so much
+MIN_AREA = 1e-3  # relative to the largest share: corners with less move as if they had so much
 # of the effect of all moves: how far sums that cannot be reached may be from the nearest ones
 SLACK = 1e-9
 TINY = float(np.finfo(np.float64).tiny)

@@ -39,11 +39,11 @@ MOST_SAMPLES = 20_000
 ROUND_POINTS = 400
 RING_POINTS = 96
 END = np.array([0.0, 0.0, 0.5])
-BALL_SAG = 0.012  # of the radius: the greatest depth of their faces in a ball
-CONVEX_RTOL = 1e-9  # of the volume that a convex body lacks in its hull
+BALL_SAG = 0.012  # relative to the radius: the greatest depth of their faces in a ball
+CONVEX_RTOL = 1e-9  # share of the volume that a convex body lacks in its hull
 PAIRS_PER_BLOCK = 1 << 20
-INSIDE_RTOL = 1e-9  # of the size
-# of the size: reach of the first searches for the body around a place
+INSIDE_RTOL = 1e-9  # relative to the size
+# relative to the size: reach of the first searches for the body around a place
 ON_BODY_RTOL = 1e-10
 NEAR_BODY = 0.02
 

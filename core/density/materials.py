@@ -220,11 +220,12 @@ DENSITY_UNITS = {  # name of a setting → kg/m³, unit
     "LB_IN3": (POUND / (FOOT / 12.0) ** 3, "lb/in³"),
     "LB_FT3": (POUND / FOOT**3, "lb/ft³"),
 }
+# The customary units of tables, not kg/mm³.
 SYSTEM_UNITS = {
     "METRIC": "KG_M3",
     "IMPERIAL": "LB_FT3",
     "NONE": "KG_M3",
-}  # The customary units of tables, not kg/mm³.
+}
 
 
 def density_unit(chosen: str, system: str) -> str:

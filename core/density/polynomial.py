@@ -128,14 +128,12 @@ class Polynomial:
         )
         for axis in range(3):  # from coefficients of t^j to Bernstein coefficients on [0, 1]
             net = np.moveaxis(np.tensordot(bernstein, net, (1, axis)), 0, axis)
-        boxes = [
-            (float(net.min()), 0, net)
-        ]  # a heap: the least bound first; the number breaks ties
+        # a heap: the least bound first; the number breaks ties
+        boxes = [(float(net.min()), 0, net)]
         for number in range(1, 2 * MAX_BOXES, 2):
             least, _, net = boxes[0]
-            if (
-                least >= -tolerance or min(net[corner] for corner in CORNERS) < 0.0
-            ):  # corners of the net are values
+            # corners of the net are values
+            if least >= -tolerance or min(net[corner] for corner in CORNERS) < 0.0:
                 break
             heapq.heappop(boxes)
             # Second differences bound the net's distance from the polynomial.
@@ -184,9 +182,8 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         if isinstance(node.value, float) and not math.isfinite(node.value):
             raise MeasureError(POLYNOMIAL_OVERFLOW, part=_source_text(node, text))
-        number = Fraction(
-            node.value if isinstance(node.value, int) else str(node.value)
-        )  # the decimal that was typed
+        # the decimal that was typed
+        number = Fraction(node.value if isinstance(node.value, int) else str(node.value))
         return _validated(_nonzero({(0, 0, 0): number}), node, text)
     if isinstance(node, ast.Name) and node.id in VARIABLES:
         return {VARIABLES[node.id]: Fraction(1)}

@@ -108,9 +108,8 @@ def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
     """
     nodes, weights = gauss_legendre(points)
     _, exponent = np.frexp(np.abs(corners).max(axis=(1, 2, 3)))
-    corners = np.ldexp(
-        corners, -exponent[:, None, None, None]
-    )  # so that no product leaves the range of numbers
+    # so that no product leaves the range of numbers
+    corners = np.ldexp(corners, -exponent[:, None, None, None])
     # by y and z: at x = 0, and along x
     near = corners[:, 0]
     step = corners[:, 1] - corners[:, 0]

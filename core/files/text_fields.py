@@ -30,9 +30,8 @@ MARK = b"\xef\xbb\xbf"  # byte order mark
 SHORT = rb"[+-]?(?:[0-9]{1,8}+(?:\.[0-9]*+)?+|\.[0-9]++)(?:[eE](?:-[0-9]++|\+?0?[0-2]?[0-9]))?+"
 SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
 SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
-_NOT_FINITE = re.compile(
-    rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE
-)  # forms that C prints
+# forms that C prints
+_NOT_FINITE = re.compile(rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE)
 MAX_POWER = 22  # up to this float64 holds a power of ten
 MAX_WHOLE = 1e18  # int64 holds smaller numbers, and replaces larger ones by its largest
 _POWERS = 10.0 ** np.arange(MAX_POWER + 1)

@@ -43,10 +43,11 @@ def partial_file(path: Path) -> Iterator[Path]:
     try:
         yield partial
     finally:
+        # Blender writes the second one while it saves
         for leftover in (
             partial,
             Path("{}@".format(partial)),
-        ):  # Blender writes the second one while it saves
+        ):
             leftover.unlink(missing_ok=True)
 
 

@@ -238,9 +238,8 @@ def _steep_side_windings(
         a = start[near]
         b = end[near]
         d = along[near]
-        up = (b[:, 1] > y).astype(np.int64) - (
-            a[:, 1] > y
-        )  # 1 where the ray's line is crossed upward, -1 downward
+        # 1 where the ray's line is crossed upward, -1 downward
+        up = (b[:, 1] > y).astype(np.int64) - (a[:, 1] > y)
         ahead = d[:, 0] * (y - a[:, 1]) - d[:, 1] * (x - a[:, 0])  # positive to the edge's left
         within = (x - a[:, 0]) * (x - b[:, 0]) + (y - a[:, 1]) * (y - b[:, 1]) <= 0.0
         on = within & (np.abs(ahead) <= np.maximum(touch, 1e-12 * length[near]) * length[near])
@@ -312,9 +311,8 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
         pair = pair[along]
         unit = (end[i] - start[i]) / length[i, None]
         first, last = (((point[j] - start[i]) * unit).sum(axis=1) for point in (start, end))
-        common = np.minimum(first, length[i]) - np.maximum(
-            last, 0.0
-        )  # For opposite edges first is beyond last.
+        # For opposite edges first is beyond last.
+        common = np.minimum(first, length[i]) - np.maximum(last, 0.0)
         opposed.update(
             zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist())
         )

@@ -93,9 +93,8 @@ class Section:
         """Principal second moments I_1 ≥ I_2."""
         first, second, mixed = map(float, self.second)
         larger = (first + second) / 2.0 + hypot((first - second) / 2.0, mixed)
-        return larger, max(
-            0.0, (first * second - mixed * mixed) / larger
-        )  # no difference of near equals
+        # no difference of near equals
+        return larger, max(0.0, (first * second - mixed * mixed) / larger)
 
     @property
     def axes_undetermined(self) -> bool:

@@ -218,9 +218,8 @@ class GridTransform(Transform):
             vectors = self.waves.vectors(slice(0, self.waves.rows))
             middle = (self.grid.half, self.grid.half, 0)
             for axis, waves in enumerate(self.spreading.sums()):
-                spread = (
-                    waves.reshape(-1) - waves[middle].real
-                )  # less the 1/2 that `Transform` subtracts from each D
+                # less the 1/2 that `Transform` subtracts from each D
+                spread = waves.reshape(-1) - waves[middle].real
                 self.sums += vectors[axis] * spread if self.measure == Measure.VOLUME else spread
                 yield 1.0 - checked
             self.exact = Transform(

@@ -40,14 +40,12 @@ from .triangle_kernel import (
 )
 from .wave_vectors import FrequencyGrid, GridWaves, ListWaves, Spectrum, wave_vectors
 
-PAIRS_PER_TASK = (
-    1 << 20
-)  # pairs of triangles and frequencies that are handed out at a time: about a tenth of a second
+# pairs of triangles and frequencies that are handed out at a time: about a tenth of a second
+PAIRS_PER_TASK = 1 << 20
 ZERO_WAVE_NUMBER = 1e-20  # |q| R below which F is V - i q·∫x dV, to all digits
 OPEN_AREA_RTOL = 1e-6  # Relative to the area: above it a surface counts as open.
-GENERIC_WAVE_VECTOR = np.array(
-    [[0.72, 0.9, 0.96]]
-)  # a wave vector that is special to no body, of length 1.5
+# a wave vector that is special to no body, of length 1.5
+GENERIC_WAVE_VECTOR = np.array([[0.72, 0.9, 0.96]])
 ROUNDING_FACTOR = 64.0
 
 

@@ -270,6 +270,5 @@ def _series_terms(radius: float) -> int:
     return n
 
 
-SPLIT_SERIES_TERMS = _series_terms(
-    np.sqrt(MAX_SERIES_SQUARE * 2.0 / 3.0)
-)  # For Σ d² below MAX_SERIES_SQUARE.
+# For Σ d² below MAX_SERIES_SQUARE.
+SPLIT_SERIES_TERMS = _series_terms(np.sqrt(MAX_SERIES_SQUARE * 2.0 / 3.0))

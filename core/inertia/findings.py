@@ -33,7 +33,7 @@ AXES_FREE_BY_SHAPE = note(
 )
 AXES_AMBIGUOUS = note(
     "axes_ambiguous",
-    "The body is symmetric under half a turn; the directions nearest to the object's axes are "
+    "The moments are the same after half a turn; the directions nearest to the object's axes are "
     "used.",
 )
 STRICT_RULE_UNDEFINED = error(

@@ -22,11 +22,11 @@ from ..numerics.arrays import PerBody
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError
 from .findings import NO_CERTAIN_VOLUME
-from .principal_frames import OwnMoments, PrincipalFrame, principal_frame, principal_frames
+from .principal_frames import PrincipalFrame, principal_frame, principal_frames
 from .third_moment_frames import ThirdMomentFrames
 
 IDENTITY_3 = np.eye(3)
-MAX_INPUT_SHARE = 0.1  # of a volume: a larger bound for float32 coordinates leaves none
+MAX_INPUT_SHARE = 0.1  # relative to a volume: a larger bound for float32 coordinates leaves none
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +72,6 @@ class MassProperties:
         density: float = 1.0,
         preferred_axes: ArrayLike | None = None,
         refine: Callable[[], Moments] | None = None,
-        higher: Callable[[], Moments | OwnMoments] | None = None,
     ) -> MassProperties:
         """Derive the mass properties of a body with constant density ≥ 0 from its moments to order
         3 or more.
@@ -87,9 +86,7 @@ class MassProperties:
             raise ValueError("impossible density: {!r}".format(density))
         if not has_certain_total(moments):
             raise MeasureError(NO_CERTAIN_VOLUME)
-        return cls._with_frame(
-            moments, density, principal_frame(moments, preferred_axes, refine, higher)
-        )
+        return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine))
 
     @classmethod
     def of_stack(
@@ -98,14 +95,13 @@ class MassProperties:
         density: NDArray,
         preferred_axes: NDArray,
         fixed: ThirdMomentFrames,
-        higher: Callable[[NDArray[np.intp]], OwnMoments] | None = None,
     ) -> MassProperties:
         """Derive the mass properties of a stack of n bodies with certain volumes and (n,)
         densities.
 
         The other arguments are as for `principal_frames`.
         """
-        return cls._with_frame(moments, density, principal_frames(fixed, preferred_axes, higher))
+        return cls._with_frame(moments, density, principal_frames(fixed, preferred_axes))
 
     @classmethod
     def _with_frame(

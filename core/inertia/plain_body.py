@@ -247,9 +247,8 @@ def principal_axes(tensor: Sequence[float]) -> tuple[Vector, Axes, str]:
         turned = turn_tensor(tensor, axes)
         gap = turned[i] - turned[j]
         twice = 2.0 * turned[entry]
-        angle = 0.5 * atan2(
-            twice if gap >= 0.0 else -twice, abs(gap)
-        )  # at most an eighth of a turn
+        # at most an eighth of a turn
+        angle = 0.5 * atan2(twice if gap >= 0.0 else -twice, abs(gap))
         c, s = cos(angle), sin(angle)
         pairs = tuple(zip(axes[i], axes[j]))
         moved = {

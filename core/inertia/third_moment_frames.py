@@ -19,9 +19,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX, Moments
 from ..numerics.arrays import cross_rows, lengths
-from .canonical_frame import NOISE_LEVEL, SecondMomentAxes
 from .plain_body import EQUAL_AXES, EQUAL_MOMENTS_RTOL, EQUAL_TRACE_ATOL, SYMMETRIES
 
+# a normalized third moment below this is noise: ten times the noise of float32 coordinates
+NOISE_LEVEL = 1e-5
 EQUAL_SCORES_RTOL = 1e-4  # scores closer than this, relatively, are equally clear
 # For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.
 PARTNER_AXES = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
@@ -38,7 +39,24 @@ MAX_TRACE_AMBIGUITY = (
     0.1  # traces farther apart never count as equal; closer than EQUAL_TRACE_ATOL, always
 )
 AXIS_RANK = np.array([4, 2, 1])  # axes that point along the preferred ones count in this order
-MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by second moments and the same axis of a copy
+
+
+@dataclass(frozen=True, eq=False)
+class SecondMomentAxes:
+    """Axes from second moments.
+
+    axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents (standard
+    deviations) along them. undetermined_axes: the axes that equal moments leave free. step: shift
+    of the points by float32, as a length. tilt: the angle by which this shift and rounding may have
+    turned the other axes. noise: normalized third moments that differ by less are equal.
+    """
+
+    axes: NDArray[np.float64]
+    size: NDArray[np.float64]
+    undetermined_axes: tuple[int, ...]
+    step: float
+    tilt: float = 0.0
+    noise: float = NOISE_LEVEL
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +121,7 @@ def third_moment_frames(
         - shift[:, :, None] * shift[:, None, :]
     )
     scale = np.abs(second.trace(axis1=1, axis2=2))
+    is_lost = total * scale < np.finfo(float).tiny
     scale[scale == 0.0] = 1.0  # keeps eigh clear of overflow and denormals
     spread, axes = np.linalg.eigh(second / scale[:, None, None])
     spread = spread[:, ::-1]
@@ -112,21 +131,19 @@ def third_moment_frames(
         4.0 * moments.rounding_error[:, 4:10].max(axis=1) / (total * scale)
         + 8.0 * np.finfo(float).eps
     )
-    is_body = spread[:, 2] >= -rounding
+    is_body = (spread[:, 2] >= -rounding) & ~is_lost
     spread = np.maximum(spread, 0.0)
 
-    size = np.sqrt(
-        np.maximum(spread, 1e-30 * spread[:, :1])
-    )  # a lamina has no extent along an axis, and no skewness
+    # a lamina has no extent along an axis, and no skewness
+    size = np.sqrt(np.maximum(spread, 1e-30 * spread[:, :1]))
     # Shift of the points by float32: the share of the volume that this moves, times the thinnest
     # extent.
     step = moments.input_error[:, 0] / total * size[:, 2]
     gaps = spread[:, :2] - spread[:, 1:]
     doubtful = (2.0 * step)[:, None] * size[:, :2] + rounding[:, None]
     equal = gaps <= noise_factor * EQUAL_MOMENTS_RTOL * spread[:, :2] + doubtful
-    tilts = np.where(
-        equal, 0.0, doubtful / np.where(equal, 1.0, gaps)
-    )  # between axes 1 and 2, and 2 and 3
+    # between axes 1 and 2, and 2 and 3
+    tilts = np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))
     symmetry = 2 * equal[:, 0] + equal[:, 1]
 
     noise = noise_factor * NOISE_LEVEL + (4.0 * step)[:, None, None] / np.minimum(
@@ -191,9 +208,8 @@ def _are_decided(
     size = size[body, AXES, first]
     error = error[body, AXES, first]
     noise = noise[body, AXES, first]
-    last = size.argmin(axis=1)[
-        :, None
-    ]  # the least of three scores: both others have to be clear of it
+    # the least of three scores: both others have to be clear of it
+    last = size.argmin(axis=1)[:, None]
     least = size[body, last]
     unsure = (noise + error).max(axis=1, keepdims=True)
     apart = (size - least > EQUAL_SCORES_RTOL * least + 2.0 * (error + unsure)).sum(axis=1) == 2
@@ -250,35 +266,6 @@ def _allowed_signs(scores: NDArray, unsure: NDArray) -> NDArray[np.bool_]:
     last = 2 - weak[:, ::-1].argmax(axis=1)
     counts = counts & ~(counts.all(axis=1)[:, None] & (last[:, None] == AXES))
     return ((HALF_TURN_SIGNS * scores[:, None] > 0.0) | ~counts[:, None]).all(axis=2)
-
-
-def align_frames(
-    frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
-) -> NDArray[np.float64]:
-    """Return (m, k, 3, 3) frames, turned so that their axes fixed by second moments lie along the
-    bodies' axes.
-    """
-    is_fixed = IS_FIXED[fixed.symmetry[bodies]]
-    if not is_fixed.any():
-        return frames
-    along = np.einsum("mai,mkai->mki", fixed.axes[bodies], frames)
-    near = fixed.axes[bodies][:, None] * np.sign(along)[:, :, None]
-    # a frame stays if its axes were found among equal moments but the body's are not, or the other
-    # way round
-    alike = ~is_fixed | (np.abs(along) > MIN_ALIGNED_COSINE).all(axis=1)
-    is_fixed = is_fixed & alike.all(axis=1, keepdims=True)
-    frames = np.where(is_fixed[:, None, None], near, frames)
-    for axis in range(3):
-        alone = np.flatnonzero(is_fixed[:, axis] & (is_fixed.sum(axis=1) == 1))
-        if len(alone):
-            first, second = (axis + 1) % 3, (axis + 2) % 3
-            pole = frames[alone, :, :, axis]
-            side = frames[alone, :, :, first]
-            side = side - pole * np.einsum("mka,mka->mk", pole, side)[..., None]
-            side /= lengths(side)
-            frames[alone, :, :, first] = side
-            frames[alone, :, :, second] = cross_rows(pole, side)
-    return frames
 
 
 def complete_free_axes(
@@ -344,9 +331,8 @@ def nearest_frames(
     is_along = local[body, candidate, row, AXES] > 0.0
     rank = np.where(near, is_along @ AXIS_RANK, -1)
     near = rank == rank.max(axis=1, keepdims=True)
-    for entry in local.reshape(*local.shape[:2], 9).transpose(
-        2, 0, 1
-    ):  # several frames may still be left
+    # several frames may still be left
+    for entry in local.reshape(*local.shape[:2], 9).transpose(2, 0, 1):
         entry = np.where(near, entry, -np.inf)
         near = entry > entry.max(axis=1, keepdims=True) - equal
     return candidates[body[:, 0, 0], near.argmax(axis=1)] + 0.0  # no negative zeros

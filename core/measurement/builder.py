@@ -6,28 +6,24 @@ bounds.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..inertia.canonical_frame import MAX_ORDER
 from ..inertia.findings import AXES_FREE, MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
 from ..inertia.mass_properties import MassProperties, has_certain_total
-from ..inertia.principal_frames import OwnMoments, PrincipalFrame
+from ..inertia.principal_frames import PrincipalFrame
 from ..mesh.surface import Surface
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Measure, Moments, U, monomial_count
 from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict.finding import Finding, ReadError, finding
-from ..verdict.findings import OBJECT_TOO_LARGE
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method, Procedure
 from ..wall.findings import NO_FACE_AREA
 from .findings import (
-    AXES_FROM_THIRD_ORDER,
     DENSITY_FROM_MEMBERS,
     LARGE_BOUND,
     NO_VOLUME,
@@ -37,8 +33,6 @@ from .findings import (
 from .measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Body, Measurement
 from .settings import Settings
 
-# Up to so many faces, higher moments for a principal frame take negligible time.
-MAX_FACES_HIGH_ORDER = 20_000
 NO_AXES_FIXED = "isotropic"
 MAX_CENTER_BOUND = (
     1e-3  # relative to the largest radius of gyration: the center is uncertain above it
@@ -50,9 +44,8 @@ BOUNDED = (
     ("smallest principal moment", "value"),
     ("center of mass", "size"),
 )
-Extent = tuple[
-    float, float, float
-]  # a volume or area, and the bounds of rounding and of float32 coordinates
+# a volume or area, and the bounds of rounding and of float32 coordinates
+Extent = tuple[float, float, float]
 
 
 def build_measurement(
@@ -94,20 +87,11 @@ def measure_body(
     solid = body.wall or body.volume
     measured = find_extent(body, settings)
     moments, factor, density = _weigh(body, measured, settings)
-    higher = _higher(body, shell)
-    uses_high_order = settings.axes and (settings.pose or body.face_count <= MAX_FACES_HIGH_ORDER)
     properties = MassProperties.from_moments(
         moments,
         factor,
         preferred_axes=fields["rotation"],
         refine=None if shell or body.mass is not None else body.third_order,
-        higher=higher if uses_high_order else None,
-    )
-    left_open = (
-        settings.axes
-        and not uses_high_order
-        and higher is not None
-        and not properties.principal.is_unique
     )
     volume_moments = None if thin else solid
     area_moments = body.area
@@ -134,7 +118,6 @@ def measure_body(
             *findings,
             *body.findings,
             *find_large_bounds(measured.at(None), body.area.at(None), properties)[0],
-            *((finding(AXES_FROM_THIRD_ORDER),) if left_open else ()),
         ),
         length=float(measured.raw[0]) if wire else None,
         display_volume=body.display_volume,
@@ -264,29 +247,6 @@ def _weigh(body: Body, measured: Moments, settings: Settings) -> tuple[Moments, 
     if not density > 0.0:
         raise ReadError(ZERO_QUANTITY, quantity="density" if settings.mass is None else "mass")
     return moments, factor, density
-
-
-def _higher(body: Body, shell: bool) -> Callable[[], Moments | OwnMoments] | None:
-    """Return a function that computes higher moments for the principal frame, None if they are
-    unknown.
-    """
-    if (
-        not body.any_order
-        or body.mass is not None
-        or body.length is not None
-        or body.wall is not None
-    ):
-        return None  # walls have none either, because their axes follow a slider
-
-    def frame_moments() -> Moments | OwnMoments:
-        with np.errstate(over="ignore", invalid="ignore"):
-            found = body.moments_for_axes(MAX_ORDER, shell)
-        moments = found.moments if isinstance(found, OwnMoments) else found
-        if not (np.isfinite(moments.raw).all() and np.isfinite(moments.rounding_error).all()):
-            raise ReadError(OBJECT_TOO_LARGE)
-        return found
-
-    return frame_moments
 
 
 def _to_order(body: Body, settings: Settings, order: int) -> tuple[Moments | None, Moments] | None:

@@ -28,10 +28,11 @@ STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version"
 
 # Content of the file of a Fourier transform.
 SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
+# Additional arrays of a flat shape: its plane in the world.
 FLAT_SPECTRUM_ARRAYS = (
     "axes",
     "origin",
-)  # Additional arrays of a flat shape: its plane in the world.
+)
 
 # An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break,
 # so none matches. Patterns are compiled at their first use: registration reads the constants of
@@ -225,10 +226,11 @@ _OPTIONAL_COLUMNS = (
     "linear_density",
     "principal_axes_unique",
 )
+# All other columns, such as notes and findings, come before these.
 _LAST_COLUMNS = (
     "warnings",
     "error",
-)  # All other columns, such as notes and findings, come before these.
+)
 
 
 def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:

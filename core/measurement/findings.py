@@ -22,10 +22,4 @@ LARGE_BOUND = warning(
     "it, or move "
     "vertices nearer to the object's origin.",
 )
-AXES_FROM_THIRD_ORDER = warning(
-    "axes_from_third_order",
-    "The principal axes use moments to order 3 only, as the mesh has many faces; Apply to Object "
-    "and --pose use "
-    "higher orders and may differ.",
-)
 DENSITY_FROM_MEMBERS = note("density_from_members", "members")

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.mass_properties import MassProperties
-from ..inertia.principal_frames import OwnMoments
 from ..mesh.surface import Surface
 from ..moments.moments import Measure, Moments
 from ..verdict.finding import Finding, ReadError, finding
@@ -73,13 +72,6 @@ class Body:
         exact third order.
         """
         return self.volume
-
-    def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments that fix the axes; a single surface under a similarity keeps its own
-        coordinates.
-        """
-        volume, areas = self.moments(order, area)
-        return volume if areas is None else areas
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
         """Yield the surfaces of the solid, or the unchanged sheets, in world coordinates as

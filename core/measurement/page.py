@@ -225,9 +225,8 @@ def _picture(entry: dict[str, Any]) -> str:
     if radius_of_gyration(entry) is None or not axes or None in sum(axes, []):
         return ""
     half = sum(moments) / 2.0
-    sides = [
-        math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments
-    ]  # Half sides of a box.
+    # Half sides of a box.
+    sides = [math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments]
     scale = 40.0 / (max(sides) * 1.8 or 1.0)
     columns = [[row[number] for row in axes] for number in range(3)]
 

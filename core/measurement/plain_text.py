@@ -12,12 +12,13 @@ import sys
 import unicodedata
 
 PROGRAM = "body_moments"
+# categories: control, surrogates, separators of lines and paragraphs
 _ESCAPED = {
     "Cc",
     "Cs",
     "Zl",
     "Zp",
-}  # categories: control, surrogates, separators of lines and paragraphs
+}
 _DIRECTIONS = {*"\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"}
 
 

@@ -21,16 +21,12 @@ class RequestedResults:
     """Results that a measurement has on request.
 
     order: of the moments; None for the order that mass properties need. surface: area moments, too.
-    pose: the principal frame follows the shape to sixth order, for any number of faces. compare:
-    bodies that need no display mesh are compared with it. axes: True to choose ambiguous principal
-    axes by moments above third order; else any of them may result.
+    compare: bodies that need no display mesh are compared with it.
     """
 
     order: int | None = None
     surface: bool = False
-    pose: bool = False
     compare: bool = True
-    axes: bool = True
     threads: int = 1
 
 

@@ -439,9 +439,8 @@ def _edges_cross_triangles(
             leaves = begin / np.where(begin != end, begin - end, 1.0)
             first = np.where(begin < 0.0, np.maximum(first, leaves), first)
             last = np.where(end < 0.0, np.minimum(last, leaves), last)
-        over = [
-            np.abs(rise + part * (fall - rise)) for part in (first, last)
-        ]  # both ends of the part over the partner
+        # both ends of the part over the partner
+        over = [np.abs(rise + part * (fall - rise)) for part in (first, last)]
         depth = np.maximum(depth, np.minimum.reduce([within, *over]))
     return at[depth > tolerance]
 
@@ -497,7 +496,6 @@ def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
     extents = extents * (1.0 - ROUNDING)
     low = centers - extents
     high = centers + extents
-    pairs = following_pairs(
-        *_sweep(low, high, 0.0), PAIRS_PER_BATCH
-    )  # a flat box overlaps another one by nothing
+    # a flat box overlaps another one by nothing
+    pairs = following_pairs(*_sweep(low, high, 0.0), PAIRS_PER_BATCH)
     return any(bool(((low[i] < high[j]) & (low[j] < high[i])).all(axis=1).any()) for i, j in pairs)

@@ -17,9 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-DIRECTION = np.array(
-    [0.7071, 0.5477, 0.4472]
-)  # hardly any mesh has points that coincide along this direction
+# hardly any mesh has points that coincide along this direction
+DIRECTION = np.array([0.7071, 0.5477, 0.4472])
 MAX_CANDIDATES = 500  # similarities that are compared in full
 PROBES = 6  # vertices that are compared first
 RESEMBLANCE = 20.0  # the scores of equal vertices differ by at most so many tolerances
@@ -235,7 +234,7 @@ def _prove(
     error = np.linalg.norm(points @ linear.T + offset - met, axis=1).max()
     if error > limit:
         return None
-    # Of maps that are equally good up to rounding, take the one that changes least.
+    # Take, among maps that are equally good up to rounding, the one that changes least.
     rounding = 4.0 * np.finfo(np.float32).eps * max(np.abs(points).max(), np.abs(met).max())
     for simple in [] if mirrored else [np.zeros(3), met.mean(axis=0) - first.middle]:
         if np.linalg.norm(points + simple - met, axis=1).max() <= min(

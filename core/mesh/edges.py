@@ -32,13 +32,14 @@ from .surface import Surface, face_of_each
 HASH_FACTOR = np.uint32(0x9E3779B1)  # a prime of xxHash, by Yann Collet
 FACES_PER_BLOCK = 1 << 14  # in the cache with all that is made of them
 MAX_SORTED_SIDES = 3 << 10  # a table is made for more
+# primes of xxHash, by Yann Collet
 HASH_FACTORS = (
     0x9E3779B1,
     0x85EBCA77,
     0xC2B2AE3D,
     0x27D4EB2F,
     0x165667B1,
-)  # primes of xxHash, by Yann Collet
+)
 SAMPLED_VERTICES = 512  # vertices with sides that decide on the hash
 NOBODY = -1
 # Sides as three arrays: their indices, their starts and their stops.
@@ -56,9 +57,8 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     sides_at = _sides_at(surface, corners)
     if sides_at is None:
         return None
-    count = (
-        int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1
-    )  # a negative edge becomes a large one
+    # a negative edge becomes a large one
+    count = int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1
     if count > 2 * len(corners) or count > np.iinfo(edges.dtype).max // 2:
         # Most of them without faces, or too many for their type: a table costs more than a search.
         return None
@@ -220,9 +220,8 @@ def uncancelled_sides(
     high = np.maximum(start, stop)
     owner = np.repeat(owner, 3).astype(np.int64)
     first = first_occurrence(low, high, owner)
-    left = np.bincount(first, np.sign(stop - start)).astype(
-        np.intp
-    )  # nothing of sides without length
+    # nothing of sides without length
+    left = np.bincount(first, np.sign(stop - start)).astype(np.intp)
     first = np.repeat(np.arange(len(left)), np.abs(left))
     low = low[first]
     high = high[first]
@@ -294,9 +293,8 @@ def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray
     if max(faces.size, vertex_count << bits) > np.iinfo(np.int32).max:
         return None
     faces = np.ascontiguousarray(faces)
-    if any(
-        (faces[:, k] == faces[:, k - 1]).any() for k in range(faces.shape[1])
-    ):  # a side that is its own partner
+    # a side that is its own partner
+    if any((faces[:, k] == faces[:, k - 1]).any() for k in range(faces.shape[1])):
         return None
     partner = np.empty(faces.size + 1, np.int32)
     partner[NOBODY] = NOBODY

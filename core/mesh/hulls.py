@@ -270,9 +270,8 @@ class _GrowingHull:
         order = np.lexsort((self.reach[self.outside[place]], self.seen[place]))
         seen = self.seen[place[order]]
         place = place[order[np.append(seen[1:] != seen[:-1], True)]]
-        place = place[
-            np.lexsort((self.seen[place], -self.height[place]))
-        ]  # the first one is never left out
+        # the first one is never left out
+        place = place[np.lexsort((self.seen[place], -self.height[place]))]
         apexes = self.outside[place]
         visible, horizon = self._visible_faces(apexes, self.seen[place])
         keeps = self._independent(len(apexes), visible, horizon)

@@ -8,15 +8,13 @@ fans from its first and its second corner differ by tetrahedra that join the edg
 corners to each other edge. A face counts as not flat if its diagonals pass each other by more than
 its coordinates' own errors and a millionth of its size, and it has an area.
 
-The kernel of the moments hands most of these numbers to a `PlanarityAccumulator`, a block at a
-time. A quad's normal is the sum of its triangles' normals, of lengths p and q. It is at most p + q
-long, and at least 0.7 (p + q) unless the triangles face away from each other. Faces that this does
-not decide are classified one by one.
+The kernel of the moments hands these numbers to a `PlanarityAccumulator`, a block at a time; a
+quad's normal is the sum of its triangles' normals. Faces that may have no area, and polygons, are
+classified one by one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 
@@ -91,46 +89,22 @@ class PlanarityAccumulator:
         longest = 3.0 * self.extent * self.extent  # no face is longer than √3 times the extent
         return float(2.0 * np.sqrt(_degenerate_limit(longest, self.error)))
 
-    def add_quads(
-        self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray
-    ) -> None:
-        """Add the quads from row `start` on.
-
-        lengths: (2, k) of both triangles' normals. volume: (k,) 6 times the corners' tetrahedra,
-        overwritten. folded: columns whose triangles may face away from each other. room: (2, k)
-        scratch.
+    def add_quads(self, start: int, normals: NDArray, volume: NDArray) -> None:
+        """Add the quads from row `start` on, by (k,) lengths of their normals and 6 times their
+        corners' tetrahedra.
         """
-        volume = np.abs(volume, out=volume)
-        normal = np.add(lengths[0], lengths[1], out=room[0])
-        least, most = normal.min(), normal.max()
-        bent = volume > np.multiply(
-            normal, 8.0 * self.error + PLANAR_RTOL * np.sqrt(most), out=room[1]
-        )
-        narrow = NO_FACES
-        if least <= self.degenerate_limit or len(folded):
-            normal[folded] = 0.0
-            narrow = np.flatnonzero(normal <= self.degenerate_limit)
-            bent[narrow] = False
-        count = np.count_nonzero(bent)
-        unsure = NO_FACES
-        if count < len(bent):
-            limit = 0.7 * (8.0 * self.error + PLANAR_RTOL * np.sqrt(0.7 * least))
-            maybe = volume > np.multiply(normal, limit, out=room[1])
-            maybe[narrow] = True
-            unsure = start + np.flatnonzero(maybe > bent)
-            volume[np.flatnonzero(~bent)] = 0.0
+        narrow = np.flatnonzero(normals <= self.degenerate_limit)
+        limit = normals * (8.0 * self.error + PLANAR_RTOL * np.sqrt(normals))
+        limit[narrow] = np.inf
+        bent = volume[volume > limit]
         self.quads[start] = _PlanarityPartial(
-            len(bent), int(count), float(np.add.reduce(volume)), unsure
+            len(volume), len(bent), float(np.add.reduce(bent)), start + narrow
         )
 
-    def add_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
-        """Add every `step`-th triangle from each row in `starts` on. lengths: (len(starts), k) of
-        their normals.
-        """
-        for start, normal in zip(starts, lengths):
-            self.triangles[start] = _PlanarityPartial(
-                len(normal), 0, 0.0, start + step * np.flatnonzero(normal <= self.degenerate_limit)
-            )
+    def add_triangles(self, start: int, normals: NDArray) -> None:
+        """Add the triangles from row `start` on, by the (k,) lengths of their normals."""
+        narrow = np.flatnonzero(normals <= self.degenerate_limit)
+        self.triangles[start] = _PlanarityPartial(len(normals), 0, 0.0, start + narrow)
 
     def planarity(self) -> Planarity:
         """Return the planarity from the kernel's reports, and from a pass over the faces that these

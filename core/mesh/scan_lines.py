@@ -153,9 +153,8 @@ def find_crossings(
     count = triangles.shape[1]
     owner = np.zeros(count, np.intp) if body is None else body[triangles[0]].astype(np.intp)
     places = grids.places(surface.points.take(corners, 0), None if body is None else body[corners])
-    above = (
-        np.ceil(places[0]).astype(np.intp).reshape(3, count)
-    )  # the lowest row that is not below the corner
+    # the lowest row that is not below the corner
+    above = np.ceil(places[0]).astype(np.intp).reshape(3, count)
     first, last = (
         np.clip(end, 0, grids.rows) for end in (np.minimum.reduce(above), np.maximum.reduce(above))
     )
@@ -195,9 +194,8 @@ def _cells(
     points: NDArray[np.floating], grids: LineGrids, body: NDArray[np.integer] | None
 ) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
     """Return the (n,) lowest rows and the (n,) lowest columns that are not below the points."""
-    short = (
-        max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4
-    )  # the cache holds more of these
+    # the cache holds more of these
+    short = max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4
     cells = np.empty((2, len(points)), np.int16 if short else np.int32)
     for start in range(0, len(points), POINTS_PER_BLOCK):
         part = slice(start, start + POINTS_PER_BLOCK)

@@ -103,9 +103,8 @@ class Surface:
         """Smallest and largest coordinates of the points, (3,) each, unused points included; NaN if
         any is NaN.
         """
-        rows = np.ascontiguousarray(
-            self.points.T
-        )  # along rows of three numpy is twenty times as slow
+        # along rows of three numpy is twenty times as slow
+        rows = np.ascontiguousarray(self.points.T)
         return np.minimum.reduce(rows, axis=1).astype(np.float64), np.maximum.reduce(
             rows, axis=1
         ).astype(np.float64)
@@ -251,10 +250,12 @@ def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
     """Return a (q,) mask of quads that Blender (is_quad_flip_v3_first_third_fast) cuts from the
     second corner on.
     """
+    return has_flipped_corners(*(points[quads[:, i]].T for i in range(4)))
+
+
+def has_flipped_corners(a: NDArray, b: NDArray, c: NDArray, d: NDArray) -> NDArray[np.bool_]:
+    """Return the mask of `flipped_quads` from the coordinates of corners, (3, q) each."""
     with np.errstate(over="ignore", invalid="ignore"):
-        points = points.astype(np.float32, copy=False)
-        a, b, c, d = (points[quads[:, i]] for i in range(4))
-        first = (b - a).T
-        second = (d - a).T
-        diagonal = (c - a).T
-        return dot(cross(first, diagonal), cross(second, diagonal)) > 0.0
+        a, b, c, d = (corner.astype(np.float32, copy=False) for corner in (a, b, c, d))
+        diagonal = c - a
+        return dot(cross(b - a, diagonal), cross(d - a, diagonal)) > 0.0

@@ -229,9 +229,8 @@ class SurfaceStack(TriangleStack):
         first_face = self.first_face
         fits = np.add.reduceat(sizes, first_face) == self.corner_counts
         fits &= np.minimum.reduceat(sizes, first_face) > 0
-        if (
-            not fits.all()
-        ):  # the rings of the others are not known; their corners must not be taken for rings
+        # the rings of the others are not known; their corners must not be taken for rings
+        if not fits.all():
             sizes = np.where(np.repeat(fits, self.face_counts), sizes, 0)
             known = np.repeat(fits, self.corner_counts)
             corners, edges = corners[known], edges[known]

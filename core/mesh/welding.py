@@ -28,9 +28,8 @@ WELD_LIMIT_RTOL = 1e-3  # relative to the smallest triangle at a vertex: larger 
 
 def first_at_equal_position(points: NDArray[np.floating]) -> NDArray[np.intp]:
     """Return the (n,) first points at exactly the same places as the points; -0.0 equals 0.0."""
-    return first_occurrence(
-        *(points[:, k].astype(np.float64) + 0.0 for k in range(3))
-    )  # -0.0 + 0.0 = 0.0
+    # -0.0 + 0.0 = 0.0
+    return first_occurrence(*(points[:, k].astype(np.float64) + 0.0 for k in range(3)))
 
 
 def may_have_neighbor(

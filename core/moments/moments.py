@@ -113,9 +113,8 @@ class Moments:
     raw: NDArray[np.float64]
     about: NDArray[np.float64]
     measure: Measure = Measure.VOLUME
-    rounding_error: NDArray[np.float64] = cast(
-        "NDArray[np.float64]", None
-    )  # zeros after `__post_init__`
+    # zeros after `__post_init__`
+    rounding_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)
     input_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)
 
     def __post_init__(self) -> None:
@@ -397,9 +396,8 @@ def image(moments: Moments, matrices: NDArray, center: NDArray | None = None) ->
         moved = monomials(order)[raised, axis] * tolerance * weight * size[..., : len(raised)]
         rounding[..., raised] += moved
     if uneven.any():
-        rounding = (
-            rounding + weight * uneven * shifted[..., -1, :]
-        )  # a face at a time, some more and some less
+        # a face at a time, some more and some less
+        rounding = rounding + weight * uneven * shifted[..., -1, :]
     return unchecked_moments(
         weight * mapped, center, moments.measure, rounding, weight * mapped_input
     )

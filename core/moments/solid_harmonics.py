@@ -8,8 +8,8 @@ matrix; so their sum of squares is invariant, and so is any coupling of three of
 3j symbols). Y_lm are orthonormal, with the Condon-Shortley phase, and their polynomials are
 (Varshalovich et al., Quantum Theory of Angular Momentum, 5.1)
 
-    r^l Y_lm = sqrt((2l+1)/4π (l+m)! (l-m)!) Σ_k (-(x+iy)/2)^(k+m) ((x-iy)/2)^k z^(l-m-2k) / ((k+m)!
-    k! (l-m-2k)!).
+    r^l Y_lm = sqrt((2l+1)/4π (l+m)! (l-m)!)
+               Σ_k (-(x+iy)/2)^(k+m) ((x-iy)/2)^k z^(l-m-2k) / ((k+m)! k! (l-m-2k)!).
 """
 
 from __future__ import annotations
@@ -37,9 +37,8 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
             result[l + 2 * j, l] = with_negative_orders(half)
         if order - 2 * j >= 2:
             products = zip(product_indices(order - 2 * j), product_indices(order - 2 * j - 1))
-            raw = raw[np.array([twice[once] for twice, once in products])].sum(
-                axis=0
-            )  # ∫ r² f, f two orders lower
+            # ∫ r² f, f two orders lower
+            raw = raw[np.array([twice[once] for twice, once in products])].sum(axis=0)
     return result
 
 

@@ -129,9 +129,8 @@ def first_occurrence(
                 key = hash_uint64(key + column)
             slots = (key & np.uint64(size - 1)).view(np.intp)
         winner = np.empty(size, rest.dtype)
-        winner[slots[::-1]] = np.arange(
-            len(rest) - 1, -1, -1, dtype=rest.dtype
-        )  # numpy keeps the last of equal slots
+        # numpy keeps the last of equal slots
+        winner[slots[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=rest.dtype)
         winner = winner.take(slots).astype(np.intp)
         lost = np.zeros(len(rest), bool)
         for column in bits_of:
@@ -148,9 +147,8 @@ def first_occurrence(
     return first.astype(np.intp, copy=False)
 
 
-GOLDEN_RATIO_64 = np.uint64(
-    0x9E3779B97F4A7C15
-)  # 2^64 divided by the golden ratio, as in SplitMix64
+# 2^64 divided by the golden ratio, as in SplitMix64
+GOLDEN_RATIO_64 = np.uint64(0x9E3779B97F4A7C15)
 
 
 def hash_uint64(values: NDArray[np.uint64]) -> NDArray[np.uint64]:

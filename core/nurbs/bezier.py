@@ -28,9 +28,8 @@ VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoi
 ROUNDING = (
     64.0  # Estimated rounding: units roundoff of the sum of absolute values, per order of a basis.
 )
-Rule = tuple[
-    tuple[int, ...], tuple[int, ...]
-]  # along s and t the points of a Gauss rule, or of two side by side
+# along s and t the points of a Gauss rule, or of two side by side
+Rule = tuple[tuple[int, ...], tuple[int, ...]]
 Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
 # Up to this many cells of a patch keep a common anchor: none is so small that rounding by the
 # patch's size matters.

@@ -305,9 +305,8 @@ def _overlapping_sides(
     ):
         t = nearest_parameters(curve, samples, others, tolerance)
         gaps.append(float(np.linalg.norm(others - curve.evaluate(t), axis=1).max()))
-        ways.append(
-            float((np.diff(others, axis=0) * curve.velocity(t[:-1])).sum())
-        )  # negative if they run against it
+        # negative if they run against it
+        ways.append(float((np.diff(others, axis=0) * curve.velocity(t[:-1])).sum()))
         if gaps[-1] > tolerance:
             return []
     return [(max(gaps), i, j, ways[0] > 0.0)]

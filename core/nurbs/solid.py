@@ -181,9 +181,8 @@ def assess(
     ]
     volumes = [moments * sign for _, moments, _, sign in turned_parts]
     volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
-    whole_sign = (
-        -1.0 if volume.total < 0.0 else 1.0
-    )  # May be negative if open, or if cavities overlap.
+    # May be negative if open, or if cavities overlap.
+    whole_sign = -1.0 if volume.total < 0.0 else 1.0
     volume = replace(volume, raw=whole_sign * volume.raw)
     reach = size + 4.0 * stored
     # Caps move with their boundaries: their area counts too.

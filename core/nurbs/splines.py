@@ -23,12 +23,13 @@ from ..verdict.tolerances import check_size
 from .findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 
 Face: TypeAlias = "Patch | FlatFace"
+# (fixed axis, end, run forward), counter-clockwise
 SIDES = (
     (1, 0, True),
     (0, 1, True),
     (1, 1, False),
     (0, 0, False),
-)  # (fixed axis, end, run forward), counter-clockwise
+)
 
 
 def _freeze_points(part: Curve | Patch, *shape: int) -> None:

@@ -8,8 +8,8 @@ Sheynin and Tuzikov (*Explicit formulae for polyhedra moments*, Pattern Recognit
 the origin on a triangle a, b, c with determinant w, and over the triangle itself, with doubled area
 A, are
 
-    ∫ x^p y^q z^r dV = w p! q! r! / (p+q+r+3)! S_pqr,    ∫ x^p y^q z^r dA = A p! q! r! / (p+q+r+2)!
-                                                         S_pqr.
+    ∫ x^p y^q z^r dV = w p! q! r! / (p+q+r+3)! S_pqr,
+    ∫ x^p y^q z^r dA = A p! q! r! / (p+q+r+2)! S_pqr.
 
 The recursion of `any_order_kernel` replaces their explicit sum for S. Coordinates are taken about a
 point of the body, and scaled by a power of two to at most about 1 if they are far from it, so that
@@ -46,8 +46,7 @@ from ..numerics.vectors import cross, dot
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import check_size
 from .any_order_kernel import UNDERFLOW_BOUND, AnyOrderKernel, Sums, absolute_sums, row_count
-from .third_order import box_center, finite_box, nothing, quad_corners
-from .third_order_kernel import NO_VERTEX
+from .third_order import NO_VERTEX, box_center, finite_box, nothing
 
 SCRATCH_NUMBERS = (
     1_400_000  # limit of a block's scratch; with smaller blocks, two threads wait for each other
@@ -202,7 +201,7 @@ class StreamIntegrator:
         """
         corners = faces.shape[1]
         # The kernel takes two triangles that share an edge as one face.
-        ours = 2 if corners == 3 and quad_corners(faces[:2]) is not None else 1
+        ours = 2 if corners == 3 and _quad_corners(faces[:2]) is not None else 1
         most = ours * max(
             SCRATCH_NUMBERS // row_count(corners + ours - 1, self.order, 1), MIN_FACES_PER_BLOCK
         )
@@ -251,7 +250,7 @@ class StreamIntegrator:
             faces = task.faces[start : start + task.size]
             if faces.shape[1] == 4:
                 faces = turned_quads(task.points, faces)
-            halves = quad_corners(faces) if faces.shape[1] == 3 else None
+            halves = _quad_corners(faces) if faces.shape[1] == 3 else None
             yield (faces.T, task.size) if halves is None else (halves, task.size // 2)
 
     def _moments(self, total: _CompensatedSum, of: Measure) -> Moments:
@@ -261,9 +260,8 @@ class StreamIntegrator:
         factors = area_factors(self.order) / ((degree + 3.0) if of == Measure.VOLUME else 1.0)
         sizes = total.sizes[3 * row : 3 * row + 3]
         raw = (total.high[row] + total.low[row]) * factors
-        mean = 2.0 * (
-            (degree + 3.0) if of == Measure.VOLUME else 1.0
-        )  # ∫ |x^α| is at most weight reach^α / this
+        # ∫ |x^α| is at most weight reach^α / this
+        mean = 2.0 * ((degree + 3.0) if of == Measure.VOLUME else 1.0)
         rounding = U * (8.0 * degree + 228.0)
         error = (
             (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean
@@ -363,9 +361,8 @@ def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.
         grown[below:] = 0.0
         for z, vector in enumerate(vectors[1:]):
             np.multiply(known, vector, out=terms[:below])
-            for rows in range(
-                1, degree + 1
-            ):  # In each run of equal q + r, rows times y or z are the next run's.
+            # In each run of equal q + r, rows times y or z are the next run's.
+            for rows in range(1, degree + 1):
                 source = rows * (rows - 1) // 2
                 target = rows * (rows + 1) // 2 + z
                 grown[target : target + rows] += terms[source : source + rows]
@@ -373,3 +370,22 @@ def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.
         grown[:, 2] += grown[:, 1]
         out[monomial_count(degree - 1) : monomial_count(degree)] = grown[:, 2]
     return out
+
+
+def _quad_corners(triangles: NDArray) -> list[NDArray] | None:
+    """Return (k/2,) corners of quads, if triangles 2i and 2i+1 are always halves of a quad; else
+    None.
+    """
+    first = triangles[0::2]
+    second = triangles[1::2]
+    if not len(second) or len(first) != len(second):
+        return None
+    for i in range(3):
+        for j in range(3):
+            ends = ((i, j), (i - 1, (j + 1) % 3))
+            if all(
+                first[0, a] == second[0, b] and np.array_equal(first[:, a], second[:, b])
+                for a, b in ends
+            ):
+                return [first[:, i], first[:, (i + 1) % 3], first[:, i - 1], second[:, (j + 2) % 3]]
+    return None

@@ -29,8 +29,7 @@ from ..verdict.finding import MeasureError
 from . import third_order
 from .any_order import StreamIntegrator
 from .findings import BOUNDARY_OPEN
-from .third_order import box_center, finite_box, nothing
-from .third_order_kernel import NO_VERTEX
+from .third_order import NO_VERTEX, box_center, finite_box, nothing
 
 THIRD = 3  # orders up to this one have their own kernel
 FACES_PER_BLOCK = 1 << 13  # faces whose intermediate arrays stay in the cache

@@ -197,9 +197,8 @@ def _measure(
     blocks = range(0, len(simplices), block)
     for start in blocks:
         vertices = simplices[start : start + block].T
-        corners = np.ascontiguousarray(
-            points[vertices].transpose(0, 2, 1)
-        )  # (n corners, n coordinates, k)
+        # (n corners, n coordinates, k)
+        corners = np.ascontiguousarray(points[vertices].transpose(0, 2, 1))
         edges = np.ldexp(corners[1:] - corners[:1], -exponent)
         corners = np.ldexp(corners - center[:, None], -exponent)
         weight, weight_size = _weights(corners, edges, enclosed)

@@ -1,85 +1,88 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Volume and area moments of triangles and quads, to third order, with rigorous bounds of their
-errors.
+errors: of one mesh of any size, and of stacks of small ones.
 
 The divergence theorem turns a body into cones from a reference point over its faces. Over the cone
 on a triangle a, b, c with determinant w = a·((b-a) x (c-a)) a monomial f of degree n integrates to
 w / (2n + 6) · E[f], where E[f] is its mean over the triangle; over the triangle itself to half its
-doubled area times E[f] (Sheynin and Tuzikov 2001, put so that triangles which share an edge share
-work). Third moments follow from lower ones about the middle of an edge, except for the third
-moments about that middle: for a triangle with edge e, and f from the middle to the third corner,
-they are
+doubled area times E[f] (Sheynin and Tuzikov 2001). With q = a + c, Z = w (q + 2 b) and
+H = w (a a' + c c' + 2 b b'),
 
-    E[x x' x''] = f f' f'' / 10 + (f e' e'' + e f' e'' + e e' f'') / 120,
+    24 ∫ x = w (a + b + c),   120 ∫ x x' = H + (q Z' + Z q') / 2,
+    288 ∫ x x' x'' = q H + the same for the other two orders of the indices,
 
-of the order of an edge cubed: unless `exact`, large meshes leave them out and add their bound to
-`rounding_error`.
+but for the third moments about the middle q / 2 of the edge a, c. With e = c - a and f = 2 b - q
+these are w / 2880 (f (f f' + e e') + the other two orders), of the order of an edge cubed: unless
+`exact`, large meshes leave them out and add their bound to `rounding_error`. No sum cancels if all
+weights are positive.
 
 Edges are taken before the reference point is subtracted, so that a determinant's error is relative
 to the product of its edges. With u = 2^-53, edges e and e' and vertices within `reach` of the
 reference point, a determinant is off by at most 9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y|
-bounds |normal_x|. Bodies of few triangles are for `third_order_small`.
+bounds |normal_x|. Triangles are summed in segments, each with a bound of its edges: a small body is
+one segment, a large one has many, in blocks whose arrays stay in the cache.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import replace
 from math import isfinite
-from operator import itemgetter
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.planarity import PlanarityAccumulator
-from ..mesh.surface import NO_QUADS, Surface
-from ..moments.exponents import monomial_count
-from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U
-from ..numerics.arrays import indices_in_range
+from ..mesh.surface import Surface, has_flipped_corners
+from ..moments.exponents import monomial_count, monomials
+from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, unchecked_moments
+from ..numerics.arrays import batches, indices_in_range
+from ..numerics.vectors import cross
 from ..verdict.tolerances import check_size
-from .third_order_kernel import (
-    NO_VERTEX,
-    TRIPLES,
-    BlockAccumulator,
-    BlockResult,
-    BlockSums,
-    combine_blocks,
-    scratch_size,
-)
-from .third_order_small import (
-    AREA_FACTORS,
-    AXIS_PAIRS,
-    CONE_DIVISORS,
-    DEGREE,
-    error_bounds,
-    small_moments,
-)
 
-MAX_TRIANGLES_PER_BLOCK = (
-    65536  # triangles at most: by then calls cost little, and more would leave the cache
-)
-SCRATCH_BYTES = (
-    16,
-    6_000_000,
-)  # limit of all threads' scratch together: bytes for each triangle, and a constant
 # Up to this number of triangles the third order is always exact, which takes half as long again.
 MAX_TRIANGLES_EXACT_THIRD = 100_000
-MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small_moments` is faster
-MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs more than it saves
+MAX_SMALL_TRIANGLES = 1024  # triangles of a body in a stack, and of a segment of a large mesh
+SLICES = 16  # parts of a whole segment, whose products are added up
+TRIANGLES_PER_BLOCK = 8192  # triangles whose products stay in the cache
 # Triangles that are worth a thread: with fewer, calls are short, and wait for the interpreter.
 MIN_TRIANGLES_PER_THREAD = 250_000
 # Reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow
 # or vanish.
 MAX_UNSCALED_REACH = 2.0**100
-DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # divide the sums of `BlockSums`
+NO_VERTEX = "no such vertex"
+EXPONENTS = monomials(3)
+DEGREE = EXPONENTS.sum(axis=1)
+# Factors of each monomial, as indices of 1, x, y, z.
+MONOMIAL_FACTORS = np.sort(
+    [[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS]
+)
+DIVISORS = np.array([6.0, 24.0, 120.0, 288.0])[DEGREE]  # divide the sums below
+# errors of the products of weights and nodes, in units of rounding
+PRODUCT_ROUNDINGS = 8.0 * DEGREE
+# the third moments about the middles come to as much again at most
+THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)
+CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
+AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
+AXIS_PAIRS = (1, 2), (2, 0), (0, 1)
+TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
+PAIR_INDEX = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
+# Indices, in a table of x, y, z times xx, xy, xz, yy, yz, zz, x, y, z, of the terms of the
+# symmetric products: two of each xx, xy, ... and three of each xxx, xxy, ...
+SQUARE = np.array([[9 * i + 6 + j, 9 * j + 6 + i] for i in range(3) for j in range(i, 3)]).T
+CUBE = np.array(
+    [
+        [9 * i + PAIR_INDEX[j, k], 9 * j + PAIR_INDEX[i, k], 9 * k + PAIR_INDEX[i, j]]
+        for i, j, k in TRIPLES
+    ]
+).T
+LOCAL_CUBE = CUBE - CUBE // 9 * 3  # in a table without x, y, z
 
-# Faces measured together: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles with rows
-# that may be halves of one quad, with the surface's first row of each array; or, without rows, (4,
-# k) corners of turned quads.
-_Block = tuple[list[int], list[NDArray]]
+# Sums of s segments: (s, 20) Σ w f, which `DIVISORS` turn into moments; the same with doubled
+# areas, or (s, 0); (s, 3) largest components of b-a and of c-a; (s, 2) Σ |w| and Σ doubled area.
+_Sums = tuple[NDArray[np.float64], ...]
 
 
 def integrate(
@@ -110,11 +113,10 @@ def integrate(
         return _measure_rescaled(
             surface, int(np.log2(largest)), threads, about, area, area_moments, exact
         )
-    exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
+    for faces in (surface.triangles, surface.quads):
+        if not indices_in_range(faces, len(points)):
+            raise ValueError(NO_VERTEX)
     if count <= MAX_SMALL_TRIANGLES:
-        for faces in (surface.triangles, surface.quads):
-            if not indices_in_range(faces, len(points)):
-                raise ValueError(NO_VERTEX)
         volume, areas, cones = small_moments(
             points,
             surface.all_triangles()[0],
@@ -128,26 +130,264 @@ def integrate(
         if planarity is not None:
             planarity.cones = float(cones[0, 0]), float(cones[0, 1])
         return volume.at(0), areas.at(0)
-    # Two threads have a block each: the sums are the same with one, and with more where there is
-    # room for more.
-    room = SCRATCH_BYTES[0] * count + SCRATCH_BYTES[1]
-    each = 8 * scratch_size(3, area, exact)
-    size = max(2, min(MAX_TRIANGLES_PER_BLOCK, room // (2 * each), count) // 2 * 2)
-    threads = max(1, min(threads, count // MIN_TRIANGLES_PER_THREAD, room // (each * size)))
-    job = _Integration(
-        points,
+    exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
+    coordinates = np.ascontiguousarray(points.T)
+    centers = center[None]
+
+    def sum_block(block: tuple[int, NDArray]) -> _Sums:
+        start, faces = block
+        corners = coordinates.take(faces.T, axis=1)
+        is_quad = len(corners[0]) == 4
+        if is_quad:
+            flipped = np.flatnonzero(has_flipped_corners(*corners.swapaxes(0, 1)))
+            corners[:, :, flipped] = np.roll(corners[:, :, flipped], -1, axis=1)
+            corners = corners[:, [[0, 0], [1, 2], [2, 3]]].reshape(3, 3, -1)
+        corners = corners.astype(np.float64, copy=False)
+
+        def observe(edges: NDArray, normals: NDArray, lengths: NDArray) -> None:
+            if planarity is None:
+                return
+            if is_quad:
+                k = len(faces)
+                normal = normals[:, :k] + normals[:, k:]
+                tetrahedra = np.abs(np.add.reduce(normals[:, :k] * edges[:, 1, k:]))
+                planarity.add_quads(start, np.sqrt(np.add.reduce(normal * normal)), tetrahedra)
+            else:
+                planarity.add_triangles(start, lengths)
+
+        widths = _segment_counts(corners.shape[2])
+        return _segment_sums(corners, widths, centers, area, area_moments, exact, observe)
+
+    blocks = [
+        (start, faces[start : start + size])
+        for faces, size in (
+            (surface.triangles, TRIANGLES_PER_BLOCK),
+            (surface.quads, TRIANGLES_PER_BLOCK // 2),
+        )
+        for start in range(0, len(faces), size)
+    ]
+    threads = min(threads, count // MIN_TRIANGLES_PER_THREAD)
+    if threads > 1:
+        with ThreadPoolExecutor(threads) as pool:
+            sums = list(pool.map(sum_block, blocks))
+    else:
+        sums = [sum_block(block) for block in blocks]
+    widths = np.concatenate(
+        [_segment_counts(len(faces) * (faces.shape[1] - 2)) for _, faces in blocks]
+    )
+    volume, areas, cones = _moments(
+        sums,
+        widths,
+        np.zeros(1, np.intp),
+        centers,
+        reach[None],
+        surface.coordinate_error[None],
+        area=area,
+        area_moments=area_moments,
+        exact=exact,
+    )
+    if planarity is not None:
+        planarity.cones = float(cones[0, 0]), float(cones[0, 1])
+    return volume.at(0), areas.at(0)
+
+
+def small_moments(
+    points: NDArray,
+    triangles: NDArray[np.integer],
+    counts: NDArray[np.integer],
+    center: NDArray[np.float64],
+    reach: NDArray[np.float64],
+    half_ulp: NDArray[np.float64],
+    *,
+    area: bool,
+    area_moments: bool,
+) -> tuple[Moments, Moments, NDArray[np.float64]]:
+    """Return stacked volumes and areas of n bodies, and (n, 2) sums of the cones over faces,
+    positive and signed.
+
+    Triangles are sorted by body, at least one each. reach: (n, 3) largest distances of points from
+    `center`. half_ulp: (n, 3) their shifts by storage. Without `area` the areas are zero, and the
+    `input_error` is larger. A body's sums are the same to the bit for any neighbors.
+    """
+    coordinates = np.ascontiguousarray(points.T)
+    ends = np.cumsum(counts)
+    sums = []
+    for part in batches(counts, TRIANGLES_PER_BLOCK):
+        rows = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]]
+        corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
+        sums.append(_segment_sums(corners, counts[part], center[part], area, area_moments, True))
+    return _moments(
+        sums,
+        counts,
+        np.arange(len(counts)),
         center,
         reach,
-        surface.coordinate_error,
-        count,
-        area,
-        area_moments,
-        exact,
-        planarity,
-        size,
-        threads,
+        half_ulp,
+        area=area,
+        area_moments=area_moments,
+        exact=True,
     )
-    return job.moments(combine_blocks(job.block_sums(job.blocks(surface))))
+
+
+def _products(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+    """Return (6, t) products xx, xy, xz, yy, yz, zz of (3, t) vectors."""
+    return np.concatenate([first[0] * second, first[1] * second[1:], first[2:] * second[2:]])
+
+
+def _segment_counts(count: int) -> NDArray[np.intp]:
+    """Return the number of triangles in each segment of a block of `count` triangles."""
+    starts = np.arange(0, count, MAX_SMALL_TRIANGLES)
+    return np.minimum(count - starts, MAX_SMALL_TRIANGLES)
+
+
+def _segment_sums(
+    corners: NDArray,
+    counts: NDArray[np.integer],
+    center: NDArray,
+    area: bool,
+    area_moments: bool,
+    exact: bool,
+    observe: Callable[[NDArray, NDArray, NDArray], None] | None = None,
+) -> _Sums:
+    """Return the sums of s segments with `counts` triangles. corners: (3, 3, t) x, y, z of a, b, c.
+
+    center: (1 or s, 3). observe: called with (3, 2, t) edges b-a and c-a, (3, t) normals and (t,)
+    their lengths.
+    """
+    starts = np.cumsum(counts) - counts
+    edges = corners[:, 1:] - corners[:, :1]
+    normals = np.array(cross(edges[:, 0], edges[:, 1]))
+    middle = center.T if len(center) == 1 else np.repeat(center.T, counts, axis=1)
+    nodes = corners - middle[:, None]
+    det = np.einsum("it,it->t", normals, nodes[:, 0])
+    sizes = np.zeros((2, len(det)))
+    np.abs(det, sizes[0])
+    if area:
+        np.sqrt(np.einsum("it,it->t", normals, normals), sizes[1])
+    if observe is not None:
+        observe(edges, normals, sizes[1])
+    a = nodes[:, 0]
+    b = nodes[:, 1]
+    c = nodes[:, 2]
+    q = a + c
+    local = tips = None
+    if exact:
+        tips = 2.0 * b - q
+        base = edges[:, 1]
+        local = _products(tips, tips) + _products(base, base)
+
+    is_even = len(center) == 1 < len(counts) and counts[-1] == MAX_SMALL_TRIANGLES
+
+    def scalar_products(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+        """Return the (m n, s) scalar products of m rows with n in each segment."""
+        count = len(first) * len(second)
+        if not is_even:
+            products = (first[:, None] * second).reshape(count, -1)
+            return np.add.reduceat(products, starts, axis=1)
+        # einsum adds slices in one pass, into rows that stay in the cache.
+        shape = -1, len(counts), SLICES, int(counts[0]) // SLICES
+        first = first.reshape(shape)
+        second = second.reshape(shape)
+        return np.add.reduce(np.einsum("msjt,nsjt->mnst", first, second), axis=3).reshape(count, -1)
+
+    def weighted_sums(weight: NDArray) -> NDArray[np.float64]:
+        heavy = nodes * weight
+        heavy[:, 1] *= 2.0
+        table = np.empty((9, len(weight)))  # H and Z
+        np.einsum("ct,dct->dt", heavy[0], nodes, out=table[:3])
+        np.einsum("ct,dct->dt", heavy[1], nodes[1:], out=table[3:5])
+        np.einsum("ct,ct->t", heavy[2], nodes[2], out=table[5])
+        of_q = heavy[:, 0] + heavy[:, 2]
+        np.add(of_q, heavy[:, 1], table[6:])
+        products = scalar_products(q, table)
+        third = np.add.reduce(products.take(CUBE, 0))
+        if tips is not None:
+            of_tips = scalar_products(tips, weight * local)
+            third += 0.1 * np.add.reduce(of_tips.take(LOCAL_CUBE, 0))
+        first = 0.5 * np.add.reduceat(of_q + table[6:], starts, axis=1)
+        second = np.add.reduceat(table[:6], starts, axis=1)
+        second += 0.5 * np.add.reduce(products.take(SQUARE, 0))
+        total = np.add.reduceat(weight, starts)[None]
+        return np.concatenate([total, first, second, third]).T
+
+    largest = np.maximum.reduceat(np.abs(edges), starts, axis=2)
+    return (
+        weighted_sums(det),
+        weighted_sums(sizes[1]) if area_moments else np.empty((len(counts), 0)),
+        largest[:, 0].T,
+        largest[:, 1].T,
+        np.add.reduceat(sizes, starts, axis=1).T,
+    )
+
+
+def _moments(
+    blocks: Sequence[_Sums],
+    widths: NDArray[np.integer],
+    starts: NDArray[np.intp],
+    center: NDArray[np.float64],
+    reach: NDArray[np.float64],
+    half_ulp: NDArray[np.float64],
+    *,
+    area: bool,
+    area_moments: bool,
+    exact: bool,
+) -> tuple[Moments, Moments, NDArray[np.float64]]:
+    """Return the stacked volumes, areas and sums of cones of n bodies from the sums of their
+    segments, `widths` triangles each; `starts` are the bodies' first segments.
+    """
+    of_volume, of_area, side, base, sizes = (
+        blocks[0] if len(blocks) == 1 else map(np.concatenate, zip(*blocks))
+    )
+
+    def total(values: NDArray) -> NDArray[np.float64]:
+        if len(starts) == len(values):
+            return values
+        return np.add.reduceat(np.ascontiguousarray(values.T), starts, axis=1).T
+
+    number = widths[:, None]
+    tau = total(
+        number
+        * np.array([side[:, i] * base[:, j] + side[:, j] * base[:, i] for i, j in AXIS_PAIRS]).T
+    )
+    lengths = np.sqrt(np.add.reduce(side * side, axis=1)) + np.sqrt(
+        np.add.reduce(base * base, axis=1)
+    )
+    edges = total(lengths[:, None] * number)  # bound the sums at the triangles' first corners
+    counts = total(number)
+    bounds = total(sizes)
+    rounding, inputs = error_bounds(
+        reach,
+        half_ulp,
+        tau,
+        edges,
+        bounds,
+        counts,
+        np.minimum(3.0 * counts, 2.0 * PAIRWISE_SUM_ROUNDINGS),
+        area,
+    )
+    if not exact:  # then add the bound of the omitted third order
+        f = (side + base / 2.0).T
+        e = base.T
+        rest = np.array(
+            [
+                f[i] * f[j] * f[k] / 10.0
+                + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
+                for i, j, k in TRIPLES
+            ]
+        ).T
+        for which in range(2):
+            rounding[which, :, 10:] += (1.0 + 1e-9) * total(rest * sizes[:, which, None])
+    sums = total(of_volume)
+    raw = sums / DIVISORS
+    cones = np.array([bounds[:, 0], sums[:, 0]]).T
+    error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
+    volume = unchecked_moments(raw, center, Measure.VOLUME, error, inputs[0])
+    if not area:
+        return volume, Moments(np.zeros((len(starts), 1)), center, Measure.AREA), cones
+    raw = total(of_area) / (DIVISORS / AREA_FACTORS) if area_moments else bounds[:, 1:] / 2.0
+    kept = raw.shape[1]
+    error = rounding[1, :, :kept] / 2.0 + 8.0 * U * np.abs(raw)
+    return volume, unchecked_moments(raw, center, Measure.AREA, error, inputs[1, :, :kept]), cones
 
 
 def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:
@@ -212,196 +452,52 @@ def _measure_rescaled(
     return results[0], results[1]
 
 
-@dataclass(frozen=True, eq=False)
-class _Integration:
-    """The integration over a surface in blocks of faces, by several threads.
+def error_bounds(
+    reach: NDArray,
+    half_ulp: NDArray,
+    tau: NDArray,
+    edges: NDArray,
+    sizes: NDArray,
+    counts: NDArray,
+    sum_roundings: NDArray | float,
+    area: bool,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the errors of Σ w E[f] and `input_error`, (2, n, 20), for determinants and doubled
+    areas as weights w.
 
-    points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count: triangles; size:
-    triangles in a block.
+    tau: (n, 3) the sums of τ (see `third_order`). edges: (n, 1) the sum of two edges of each
+    triangle. sizes: (n, 2) Σ |w|. counts: (n, 1) triangles. sum_roundings: of the sums, in units u.
     """
-
-    points: NDArray
-    center: NDArray[np.float64]
-    reach: NDArray[np.float64]
-    half_ulp: NDArray[np.float64]
-    count: int
-    area: bool
-    area_moments: bool
-    exact: bool
-    planarity: PlanarityAccumulator | None
-    size: int
-    threads: int
-
-    def blocks(self, surface: Surface) -> list[_Block]:
-        """Return the faces in as few blocks as the memory allows, for any number of threads."""
-        triangles = surface.triangles
-        half = len(surface.triangles) // 2
-        size = self.size
-        if _quad_corners_of(triangles[:1], triangles[half : half + 1]) is None:
-            half = 0
-        whole = (
-            ((0, half), (triangles[:half], triangles[half : 2 * half]), size // 2),
-            ((2 * half,), (triangles[2 * half :],), size),
-            ((0,), (surface.quads,), size // 2),
-        )
-        return [
-            ([start + i for start in starts], [array[i : i + step] for array in arrays])
-            for starts, arrays, step in whole
-            for i in range(0, len(arrays[0]), step)
-        ]
-
-    def block_sums(self, blocks: list[_Block]) -> list[BlockResult]:
-        """Return the sums of the blocks, computed by several threads, in the order of the blocks,
-        turned quads last.
-        """
-        queue = iter(enumerate(blocks))
-        threads = min(self.threads, len(blocks))
-        if threads == 1:
-            parts = self._run_queue(queue)
-        else:
-            with ThreadPoolExecutor(threads) as pool:
-                parts = [
-                    part
-                    for of_thread in pool.map(self._run_queue, [queue] * threads)
-                    for part in of_thread
-                ]
-        parts.sort(key=itemgetter(0))
-        results = [block for _, of_thread, _ in parts for block in of_thread]
-        flipped = np.concatenate(
-            [NO_QUADS.T, *(block for *_, of_thread in parts for block in of_thread)], axis=1
-        )
-        step = self.size // 2
-        if flipped.size:
-            results += self.block_sums(
-                [([], [flipped[:, i : i + step]]) for i in range(0, flipped.shape[1], step)]
-            )
-        return results
-
-    def _run_queue(
-        self, queue: Iterator[tuple[int, _Block]]
-    ) -> list[tuple[int, list[BlockResult], list[NDArray]]]:
-        """Return for each block taken from the queue: its number, its sums, and quads that were
-        left out.
-        """
-        faces = BlockAccumulator(
-            self.points,
-            self.center,
-            area=self.area,
-            area_moments=self.area_moments,
-            exact=self.exact,
-        )
-        parts = []
-        for number, block in queue:
-            faces.results, faces.flipped = [], []
-            self._add(faces, *block)
-            parts.append((number, faces.results, faces.flipped))
-        return parts
-
-    def _add(self, faces: BlockAccumulator, starts: list[int], arrays: list[NDArray]) -> None:
-        first = arrays[0]
-        halves = None
-        planarity = self.planarity
-        if not starts:
-            faces.add_faces(first)
-            return
-        if first.shape[1] == 4:
-            faces.add_faces(
-                first.T, quads=True, observe=planarity and partial(planarity.add_quads, *starts)
-            )
-            return
-        if len(first) >= MIN_TRIANGLES_TO_PAIR:
-            halves = quad_corners(first) if len(arrays) == 1 else _quad_corners_of(*arrays)
-        if halves:
-            planarity_rows = (starts, 1) if len(arrays) == 2 else ([starts[0], starts[0] + 1], 2)
-            faces.add_faces(
-                halves, observe=planarity and partial(planarity.add_triangles, *planarity_rows)
-            )
-            return
-        for start, part in zip(starts, arrays):
-            faces.add_faces(
-                part.T, observe=planarity and partial(planarity.add_triangles, [start], 1)
-            )
-
-    def moments(self, sums: BlockSums) -> tuple[Moments, Moments]:
-        """Return volume and area, with their bounds."""
-        sizes, rounding, inputs = _error_bounds(self, sums)
-        raw = sums.sums / DIVISORS
-        if self.planarity is not None:
-            self.planarity.cones = sizes[0], float(sums.sums[0])
-        error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
-        volume = Moments(raw, self.center, Measure.VOLUME, error, inputs[0])
-        if not self.area:
-            return volume, Moments(np.zeros(1), self.center, Measure.AREA)
-        raw = (
-            sums.areas / (DIVISORS / AREA_FACTORS)
-            if self.area_moments
-            else np.array([sizes[1] / 2.0])
-        )
-        count = len(raw)
-        error = rounding[1, :count] / 2.0 + 8.0 * U * np.abs(raw)
-        return volume, Moments(raw, self.center, Measure.AREA, error, inputs[1, :count])
-
-
-def _error_bounds(
-    job: _Integration, sums: BlockSums
-) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
-    """Return the sums of |determinants| and doubled areas; (2, 20) errors of Σ w E[f]; (2, 20)
-    `input_error`.
-    """
-    sizes = np.add.reduce(sums.sizes, axis=1)
-    count = np.array([[np.add.reduce(sums.counts)]])
-    # einsum instead of a matrix product, after which the threads of some BLAS keep a core busy for
-    # a while.
-    products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts)
-    tau = np.array([[products[i, j] + products[j, i] for i, j in AXIS_PAIRS]])
-    lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
-    edges = np.array(
-        [[np.add.reduce(lengths * sums.counts)]]
-    )  # bounds their sum, at the triangles' first corners
-    roundings = PAIRWISE_SUM_ROUNDINGS + sums.blocks
-    bounds = error_bounds(
-        job.reach[None],
-        job.half_ulp[None],
-        tau,
-        edges,
-        sizes[None],
-        count,
-        float(roundings),
-        job.area,
+    moved_reach = reach + half_ulp
+    powers = monomial_bounds(reach)
+    displaced = monomial_bounds(moved_reach)
+    weight = (
+        9.0
+        * U
+        * np.array([np.add.reduce(reach * tau, axis=1), np.add.reduce(tau, axis=1)])[:, :, None]
     )
-    rounding, inputs = bounds[0][:, 0], bounds[1][:, 0]
-    if not job.exact:  # then add the bound of the omitted third order
-        e = sums.base
-        f = sums.side + sums.base / 2.0
-        rest = [
-            f[i] * f[j] * f[k] / 10.0
-            + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
-            for i, j, k in TRIPLES
-        ]
-        for which in range(2):
-            rounding[which, 10:] += (1.0 + 1e-9) * np.add.reduce(rest * sums.sizes[which], axis=1)
-    return sizes.tolist(), rounding, inputs
+    size = sizes.T[:, :, None] * (1.0 + 1e-9)
+    # Then come their products with the nodes, the sums, and the loss by underflow.
+    steps = PRODUCT_ROUNDINGS + sum_roundings
+    rounding = (
+        (weight + 1e-290 * counts + (U * (size + weight)) * steps) * powers * THIRD_ORDER_SHARE
+    )
+    inputs = np.zeros((2, len(reach), 20))
+    if half_ulp.any():
+        step = np.sqrt(np.add.reduce(half_ulp * half_ulp, axis=1))[:, None]
+        double = size[1] if area else np.sqrt(np.add.reduce(tau * tau, axis=1))[:, None]
+        # A closed surface sweeps this volume if float32 moves its points.
+        swept = double / 2.0 + step * edges + 2.0 * step * step * counts
+        tilted = step * (edges + 2.0 * step * counts)
+        # 1 for an axis without extent
+        share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)
+        inputs[0] = step * swept * displaced
+        inputs[1] = displaced * (tilted + np.add.reduce(share[:, None] * EXPONENTS, axis=2) * swept)
+    return rounding, inputs
 
 
-def quad_corners(triangles: NDArray) -> list[NDArray] | None:
-    """Return (k/2,) corners of quads, if triangles 2i and 2i+1 are always halves of a quad; else
-    None.
-    """
-    return _quad_corners_of(triangles[0::2], triangles[1::2])
-
-
-def _quad_corners_of(first: NDArray, second: NDArray) -> list[NDArray] | None:
-    """Return the four corners of k quads, (k,) each, if the i-th triangles are always halves of a
-    quad; else None.
-    """
-    if not len(second) or len(first) != len(second):
-        return None
-    for i in range(3):
-        for j in range(3):
-            ends = ((i, j), (i - 1, (j + 1) % 3))
-            if all(
-                first[0, a] == second[0, b] and np.array_equal(first[:, a], second[:, b])
-                for a, b in ends
-            ):
-                return [first[:, i], first[:, (i + 1) % 3], first[:, i - 1], second[:, (j + 2) % 3]]
-    return None
+def monomial_bounds(reaches: NDArray) -> NDArray[np.float64]:
+    """Return the (k, 20) largest values of the monomials within (k, 3) reaches."""
+    factors = np.ones((len(reaches), 4))
+    factors[:, 1:] = reaches
+    return np.multiply.reduce(factors.take(MONOMIAL_FACTORS, axis=1), axis=2)

@@ -13,10 +13,9 @@ from ..numerics.rotations import quaternion, rotation_matrix
 from .motion import continuous
 from .spin import LAST, NODES, node_weights
 
-LOCKED = 1e-3  # cosine of the middle angle, below which the outer two angles cannot be told apart
-OFF = 0.003  # of the angular velocity: a larger deviation between keys divides a frame
+LOCKED = 1e-5  # cosine of the middle angle, below which the outer two angles cannot be told apart
+OFF = 0.003  # relative to the angular velocity: a larger deviation between keys divides a frame
 LEAST_ANGLE = 1e-3  # rad a frame, below which the velocity is not compared
-MOST_PIECES = 32
 
 
 def rotation_values(turns: NDArray, mode: str, first: NDArray) -> NDArray[np.float64]:
@@ -90,41 +89,41 @@ def rotations(values: NDArray, mode: str) -> NDArray[np.float64]:
     return total
 
 
-def count_pieces(quaternions: NDArray, mode: str, first: NDArray) -> NDArray[np.intp]:
-    """Return the (f,) numbers of equal pieces of frames, in each of which cubics follow a rotation.
+def divide_frames(
+    quaternions: NDArray, mode: str, first: NDArray, shortest: float
+) -> NDArray[np.float64]:
+    """Return (m + 1,) places in frames, between which cubics follow a rotation.
 
-    quaternions: (LAST f + 1, 4), continuous. A frame is divided further while the angular velocity
-    would be off: close to a gimbal lock, or to the rest position of an axis and angle.
+    quaternions: (LAST f + 1, 4), continuous. A piece of a frame is divided while the angular
+    velocity would be off: close to a gimbal lock, or to the rest position of an axis and angle.
+    Pieces are no shorter than `shortest`.
     """
-    counts = np.ones((len(quaternions) - 1) // LAST, np.intp)
     ends = quaternions[::LAST]
     cosines = np.abs((ends[1:] * ends[:-1]).sum(axis=1)).clip(max=1.0)
     limits = np.maximum(2.0 * np.arccos(cosines), LEAST_ANGLE) * OFF / 4.0
+    places = np.arange(len(ends)).astype(np.float64)
     while True:
-        wanted = rotation_matrix(in_pieces(quaternions, counts))
+        wanted = rotation_matrix(in_pieces(quaternions, places))
         values = rotation_values(wanted, mode, first)
         right, left = handle_values(values)
         middle = (values[:-1:LAST] + 3.0 * (right + left) + values[LAST::LAST]) / 8.0
-        between = rotations(middle, mode) - wanted[LAST // 2 :: LAST]
-        off = np.maximum.reduceat(
-            np.linalg.norm(between, axis=(1, 2)) / np.sqrt(2.0), np.cumsum(counts) - counts
-        )
+        off = np.linalg.norm(rotations(middle, mode) - wanted[LAST // 2 :: LAST], axis=(1, 2))
+        lengths = np.diff(places)
         # The rate is off by 4 times the value in the middle of a piece.
-        rough = (off * counts > limits) & (counts < MOST_PIECES)
+        rough = off / np.sqrt(2.0) > limits[places[:-1].astype(int)] * lengths
+        rough &= lengths > 2.0 * shortest
         if not rough.any():
-            return counts
-        counts[rough] *= 2
+            return places
+        places = np.sort(np.append(places, (places[:-1] + lengths / 2.0)[rough]))
 
 
-def in_pieces(values: NDArray, counts: NDArray) -> NDArray[np.float64]:
-    """Return values (LAST f + 1, ...) at the nodes of frames at those of `counts` pieces a frame."""
-    rows = []
-    for frame, count in enumerate(counts.tolist()):
-        places = ((np.arange(count)[:, None] + NODES[:-1]) / count).ravel()
-        rows.append(
-            np.einsum("mn,n...->m...", node_weights(places), values[LAST * frame :][: LAST + 1])
-        )
-    return np.concatenate([*rows, values[-1:]])
+def in_pieces(values: NDArray, places: NDArray) -> NDArray[np.float64]:
+    """Return values (LAST f + 1, ...) at the nodes of frames at those of pieces between places."""
+    times = (places[:-1, None] + np.diff(places)[:, None] * NODES[:-1]).ravel()
+    frames = np.repeat(places[:-1].astype(int), LAST)
+    near = values[LAST * frames[:, None] + np.arange(len(NODES))]
+    inner = np.einsum("mn,mn...->m...", node_weights(times - frames), near)
+    return np.concatenate([inner, values[-1:]])
 
 
 def handle_values(values: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -19,12 +19,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.rotations import polar_rotation, quaternion, rotation_matrix
 
-Flight = tuple[
-    int, int
-]  # indices of the last frame on the ground, or of frame 0, and of the next frame on the ground
-Span = tuple[
-    int, int, float, float
-]  # indices of the first and last frame; linear and angular momentum from nothing
+# indices of the last frame on the ground, or of frame 0, and of the next frame on the ground
+Flight = tuple[int, int]
+# indices of the first and last frame; linear and angular momentum from nothing
+Span = tuple[int, int, float, float]
 
 # of the polynomial through the frames around a velocity
 NODES = 9
@@ -33,7 +31,9 @@ DEGREE = 8
 CLOSE = 0.02
 CLOSE_DEGREE = 5
 AVERAGED = 3  # velocities between frames that give the velocity at a frame
-UNEXPLAINED = 0.2  # of the weight: more force than that without a contact comes from nothing
+UNEXPLAINED = (
+    0.2  # relative to the weight: more force than that without a contact comes from nothing
+)
 SMOOTHED = 0.1  # seconds over which noise of captured motion averages out
 
 
@@ -196,7 +196,7 @@ def zero_moment_points(
 def ballistic_arc(
     start: NDArray, end: NDArray, shares: NDArray, time: float, gravity: ArrayLike
 ) -> NDArray[np.float64]:
-    """Return the (n, 3) places of a free fall from one place to another at (n,) shares of its time."""
+    """Return (n, 3) places of a free fall between two places, at (n,) shares of its time."""
     share = shares[:, None]
     fall = np.asarray(gravity, np.float64) * (0.5 * time**2)
     return start + share * (end - start) - share * (1.0 - share) * fall
@@ -214,7 +214,7 @@ def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
     )
 
 
-def continuous(quaternions: NDArray) -> NDArray[np.float64]:
+def continuous(quaternions: NDArray) -> NDArray:
     """Return (s, 4) quaternions, each with the sign that is nearer to the previous one."""
     signs = np.where((quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
     return np.concatenate([quaternions[:1], quaternions[1:] * np.cumprod(signs)[:, None]])

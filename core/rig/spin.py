@@ -32,7 +32,7 @@ RATE = 2.0 * (np.arange(len(NODES)) * PLACES[:, None] ** (np.arange(len(NODES)) 
 MEAN = (np.arange(1, len(NODES) + 1) % 2 / np.arange(1.0, len(NODES) + 1)) @ _FIT
 CONVERGED = 1e-6  # rad: change of any rotation when the steps are halved
 MAX_HALVINGS = 7
-SPINLESS = 0.1  # of the parts' momenta: a smaller total is compared with theirs
+SPINLESS = 0.1  # relative to the parts' momenta: a smaller total is compared with theirs
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,13 +115,15 @@ class CarriedParts:
 
         Steps are halved until no rotation changes by more than 1e-6.
         """
-        before = self._integrate(kept, 1)
+        turns = self._integrate(kept, 1)
+        change = np.inf
         for halving in range(1, MAX_HALVINGS + 1):
-            after = self._integrate(kept, 2**halving)
-            if np.abs(after - before).max() <= CONVERGED:
+            if change <= CONVERGED:
                 break
-            before = after
-        return after
+            before = turns
+            turns = self._integrate(kept, 2**halving)
+            change = float(np.abs(turns - before).max())
+        return turns
 
     def _integrate(self, kept: NDArray, steps: int) -> NDArray[np.float64]:
         """Return the rotations by this number of steps from node to node."""

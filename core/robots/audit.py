@@ -177,9 +177,8 @@ class Auditor:
         if not link.shapes and not link.inertial.mass and not link.inertial.tensor.any():
             return LinkAudit(link, (*entries, Entry(finding(INERTIAL_OF_FRAME), place)))
         pieces, unread = self._pieces(link.shapes)
-        incomplete = bool(
-            unread or entries
-        )  # entries of the reader: about shapes, as there is an inertial
+        # entries of the reader: about shapes, as there is an inertial
+        incomplete = bool(unread or entries)
         entries += unread
         found = _judge(link, link.inertial, pieces, incomplete)
         if any(piece.upright is not None for several in pieces.values() for _, piece in several):
@@ -291,9 +290,8 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
     reference = references[0]
     geometry = reference.uniform(stated.mass)
     if left:
-        entries = [
-            one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM
-        ]  # It adds nothing to errors.
+        # It adds nothing to errors.
+        entries = [one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM]
         density = stated.mass / reference.volume
         # Geometry that cannot hold the mass, in kg or another unit, shows nothing about its place.
         unusual = diagnose_density(geometry, reference)

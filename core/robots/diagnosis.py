@@ -44,20 +44,23 @@ DIFFERS = 1e-2
 ROUNDING = 1e-9  # Relative differences below are none, and do not choose between changes.
 INCH, POUND = 0.0254, 0.45359237
 LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, INCH, 1.0 / INCH)
+# lb·in², lb·ft², oz·in²
 IMPERIAL_INERTIAS = (
     POUND * INCH**2,
     POUND * (12.0 * INCH) ** 2,
     POUND / 16.0 * INCH**2,
-)  # lb·in², lb·ft², oz·in²
+)
 INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, INCH**2, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
+# kg/m³, possible range of a robot: from foam to above the heaviest metal.
 DENSITIES = (
     10.0,
     30_000.0,
-)  # kg/m³, possible range of a robot: from foam to above the heaviest metal.
+)
+# Typical range; a change that only the density shows must lead into it.
 USUAL_DENSITIES = (
     100.0,
     12_000.0,
-)  # Typical range; a change that only the density shows must lead into it.
+)
 AXES = np.array(list(permutations(range(3))))[1:]
 PRODUCT_NAMES = ("xy", "xz", "yz")
 # Parts of an inertial, as the findings name them.
@@ -254,9 +257,8 @@ def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference
     factor = found.finding.values["factor"]
     density = stated.mass / reference.volume
     other = density * factor**3  # were the mesh scaled by 1/factor
-    if (
-        DENSITIES[0] <= other <= DENSITIES[1]
-    ):  # Both cannot be in the range: a cube of a factor exceeds it.
+    # Both cannot be in the range: a cube of a factor exceeds it.
+    if DENSITIES[0] <= other <= DENSITIES[1]:
         return Diagnosis(
             _finding(AUDIT_UNIT, {"part": "lengths of the mesh", "factor": 1.0 / factor}),
             is_of_geometry=True,
@@ -347,9 +349,8 @@ def _pounds(stated: StatedInertial) -> Iterator[Change]:
     for factor in IMPERIAL_INERTIAS:
         tensor = stated.along_link(stated.inertia * factor)
         yield AUDIT_UNIT, {"part": "inertia", "factor": factor}, tensor
-        if (
-            factor == IMPERIAL_INERTIAS[0]
-        ):  # It comes with a mass in pounds, and often with a center in inches.
+        # It comes with a mass in pounds, and often with a center in inches.
+        if factor == IMPERIAL_INERTIAS[0]:
             yield AUDIT_UNIT, {"part": IMPERIAL, "factor": factor}, replace(tensor, mass=mass)
             whole = replace(tensor, mass=mass, center=stated.center * INCH)
             yield AUDIT_UNIT, {"part": WHOLE_IMPERIAL, "factor": factor}, whole
@@ -452,9 +453,8 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
         yield AUDIT_ORDER, {"part": "diagonal of the inertia", "order": axes}, changed
         changed = stated.along_link(diagonal + (swapped - other_diagonal))
         yield AUDIT_ORDER, {"part": PRODUCTS, "order": pairs}, changed
-    for axis, way in product(
-        range(3), (1.0, -1.0)
-    ):  # A quarter turn, such as y up instead of z up.
+    # A quarter turn, such as y up instead of z up.
+    for axis, way in product(range(3), (1.0, -1.0)):
         along = np.eye(3)[axis]
         tensor, _, both = _mapped(
             stated, np.outer(along, along) + way * np.cross(along, np.eye(3)).T

@@ -279,9 +279,8 @@ class Robot:
         if joint is None:
             return link.pose
         outer = self.link(joint.parent).pose
-        return (
-            Pose() if outer is link.pose else outer.inverse() @ link.pose
-        )  # Equal frames without rounding.
+        # Equal frames without rounding.
+        return Pose() if outer is link.pose else outer.inverse() @ link.pose
 
     def with_fixed_roots(self) -> Robot:
         """Return the robot with all its roots fixed to the world."""

@@ -66,14 +66,17 @@ def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
 
 def equal_inertia_shape(inertial: Inertial, kind: str) -> Shape:
     """Return the "box", "ellipsoid" or "capsule" with a link's mass, center and inertia, in the
-    link's frame.
+    link's frame; for a capsule without length, the sphere.
     """
     mass = inertial.mass
     moments = inertial.moments
     axes = inertial.axes
     if kind == "capsule":
         along_z = axes[:, [1, 2, 0]]  # the long axis last, and still a rotation
-        return Shape("capsule", capsule_size(mass, moments), Pose(inertial.center, along_z))
+        radius, length = capsule_size(mass, moments)
+        if not length > 0.0:  # no format has a capsule without length
+            return Shape("sphere", (radius,), Pose(inertial.center))
+        return Shape("capsule", (radius, length), Pose(inertial.center, along_z))
     size = box_sides(mass, moments) if kind == "box" else ellipsoid_axes(mass, moments)
     return Shape(kind, tuple(size.tolist()), Pose(inertial.center, axes))
 

@@ -68,13 +68,14 @@ TIMES = {
     "ns",
     "hz",
 }
+# The samples along other axes are no places.
 SPACE_KINDS = {
     "domain",
     "space",
     "stub",
     "none",
     "???",
-}  # The samples along other axes are no places.
+}
 SAME_EXTENT_RTOL = (
     1e-3  # of a spacing times the count of samples, and the difference of axis maximum and minimum
 )
@@ -294,11 +295,12 @@ def _sample_matrix(
         matrix[:3, :3] = np.diag([1.0, 1.0, 1.0] if spacings is None else spacings)
     if units is not None and unit is None:
         if "space directions" in fields and field == "units":
+            # Units of the axes do not tell those of their directions' coordinates.
             return (
                 matrix,
                 placed,
                 None,
-            )  # Units of the axes do not tell those of their directions' coordinates.
+            )
         matrix[:3] = matrix[:3] * units[:, None]
         unit = 1.0
     return matrix, placed, unit

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+# No suffix ends with another one.
 SUFFIXES = (
     ".npy",
     ".npz",
@@ -17,7 +18,7 @@ SUFFIXES = (
     ".nii",
     ".nii.gz",
     ".raw",
-)  # No suffix ends with another one.
+)
 SAMPLE_TYPES = (
     *("uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64"),
     *("float32", "float64"),

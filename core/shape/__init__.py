@@ -11,4 +11,5 @@ __getattr__, __dir__, __all__ = lazy_names(
     signature="signatures",
     similarity="signatures",
     symmetry="symmetries",
+    unique_frame="unique_frames",
 )

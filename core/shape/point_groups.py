@@ -27,17 +27,15 @@ from .symmetries import Symmetry, axis_rotation
 MAX_CORNERS = 4096  # farthest corners that are compared with each other
 MAX_CANDIDATES = 1 << 17
 PAIRS_PER_BLOCK = 1 << 22  # pairs of corners compared at once
-SKEW = np.array(
-    [0.5377, 0.6213, 0.5699]
-)  # corners are sorted along this direction, across no usual edge
+# corners are sorted along this direction, across no usual edge
+SKEW = np.array([0.5377, 0.6213, 0.5699])
 MAX_TRIES = 64  # corners of nearly equal height along it that are compared
 FIRST_IMAGES = 12  # images of so many corners refute most candidates
 FIRST_SAMPLES = 64  # so many corners refute most of the other candidates
 SAMPLES = 128  # corners, farthest corners and triangles that are compared if the tolerance is large
 MAX_BETWEEN = 2048  # triangles between other corners that are compared; of more, evenly many
-BETWEEN = np.array(
-    [[0.5, 0.5, 0.0], [0.7, 0.3, 0.0], [0.3, 0.3, 0.4]]
-)  # weights of corners that give points between
+# weights of corners that give points between
+BETWEEN = np.array([[0.5, 0.5, 0.0], [0.7, 0.3, 0.0], [0.3, 0.3, 0.4]])
 CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
 
 

@@ -24,13 +24,13 @@ from itertools import count
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.canonical_frame import EquivalentFrames
-from ..inertia.principal_frames import equivalent_frames, undetermined_axes
 from ..inertia.third_moment_frames import HALF_TURN_SIGNS, complete_free_axes
 from ..moments.images import invert_through_point
 from ..moments.moments import Moments
 from ..numerics.arrays import distinct_arrays
+from .canonical_frame import EquivalentFrames
 from .symmetries import Symmetry
+from .unique_frames import equivalent_frames, undetermined_axes
 from .zernike import degrees
 
 # relative to the size: residuals nearer than this are equal, and the smallest turn is taken
@@ -49,9 +49,8 @@ MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
 FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
 
 Distance = Callable[[NDArray], NDArray]
-Holds = Callable[
-    [NDArray], bool
-]  # True if a (3, 3) map, in the plane's axes, takes the shape to itself
+# True if a (3, 3) map, in the plane's axes, takes the shape to itself
+Holds = Callable[[NDArray], bool]
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,13 +18,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.axial_harmonics import MAX_TILT, AxialHarmonics, axis_last, turn_by_harmonics
-from ..inertia.canonical_frame import NOISE_LEVEL
-from ..inertia.principal_frames import equivalent_frames
+from ..inertia.third_moment_frames import NOISE_LEVEL
 from ..moments.images import invert_through_point
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type
 from ..numerics.arrays import distinct_arrays
+from .axial_harmonics import MAX_TILT, AxialHarmonics, axis_last, turn_by_harmonics
+from .unique_frames import equivalent_frames
 
 EQUAL_OPERATION_ATOL = 1e-4  # matrices of one operation, known to noise, are equal to this
 

@@ -128,9 +128,8 @@ def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
     """
     exact = ceil((order + 2) / 2)
     needed = np.full(len(size), exact)
-    phase = (
-        (order + 2.0) * size / 2.0
-    )  # a polynomial of degree n on the ball turns by at most about n radians
+    # a polynomial of degree n on the ball turns by at most about n radians
+    phase = (order + 2.0) * size / 2.0
     for g in range(exact - 1, 0, -1):
         # Gauss's rule: the error of e^(ix) over [-phase/2, phase/2] is (phase/2)^2g / (2g)! in
         # size.

@@ -232,9 +232,8 @@ def find_loops(
     joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))
     complete = np.bincount(of_side, joined != 2) == 0
     origin = np.empty((number, 3))
-    origin[of_side[::-1]] = begin[
-        ::-1
-    ]  # about the loop's first vertex: a coordinate that all share stays exact
+    # about the loop's first vertex: a coordinate that all share stays exact
+    origin[of_side[::-1]] = begin[::-1]
     a, b = begin - origin[of_side], end - origin[of_side]
     length = lengths(b - a)[:, 0]
     perimeter = np.asarray(np.bincount(of_side, length), np.float64)

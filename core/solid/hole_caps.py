@@ -305,9 +305,8 @@ def wall_links(
         np.concatenate([pairs[0] // 3, layers[:, 0] // 3]),
         np.concatenate([pairs[1] // 3, layers[:, 1] // 3]),
     )
-    for columns in np.array(
-        [[0, 1], [2, 3]]
-    ):  # A column keeps its body and its layer along the whole border.
+    # A column keeps its body and its layer along the whole border.
+    for columns in np.array([[0, 1], [2, 3]]):
         swap = np.diff(part[border[:, columns] // 3])[:, 0] < 0
         border[np.ix_(swap, columns)] = border[np.ix_(swap, columns[::-1])]
     # A wall is between two bodies only, the same along its border.
@@ -342,9 +341,8 @@ def _layer_links(
     `_layers`.
     """
     crossed = wall[within[:, 1] // 3] != wall[within[:, 3] // 3]
-    within = np.where(
-        crossed[:, None], within[:, [0, 1, 3, 2]], within
-    )  # Corners of one face, then the other, twice.
+    # Corners of one face, then the other, twice.
+    within = np.where(crossed[:, None], within[:, [0, 1, 3, 2]], within)
     up = edges.upward[within]
     straight = (up[:, 0] != up[:, 1]).astype(int) + (up[:, 2] != up[:, 3])
     across = (up[:, 0] != up[:, 3]).astype(int) + (up[:, 2] != up[:, 1])

@@ -30,16 +30,18 @@ MAX_COMPONENT_PAIRS = 100_000
 # Points under the skin of a component of few faces, tested for being surrounded twice.
 MAX_OVERLAP_SAMPLES = 4096
 FIRST_SAMPLES = 8  # The first of so many samples decides for most pairs that intersect.
+# points under the skin for one pair: at most, at least; and for all pairs together
 SAMPLES_PER_PAIR = (
     256,
     8,
     50_000,
-)  # points under the skin for one pair: at most, at least; and for all pairs together
+)
+# Limits, as above, of the triangles with edges tested for reaching out.
 BREAKTHROUGH_TRIANGLES = (
     4096,
     8,
     20_000,
-)  # Limits, as above, of the triangles with edges tested for reaching out.
+)
 MAX_STEPS_PER_EDGE = 16
 
 
@@ -136,9 +138,8 @@ def _breakthrough(
         pair = np.repeat(np.arange(len(pairs)), number)
         triangle = components.start[of][pair] + segment_ranges(number) * size[pair] // number[pair]
         corners = [tree.vertex_columns[:, vertex].T for vertex in components.triangles[triangle].T]
-        steps = int(
-            np.clip(together // len(pair), 1, MAX_STEPS_PER_EDGE)
-        )  # few triangles may be long
+        # few triangles may be long
+        steps = int(np.clip(together // len(pair), 1, MAX_STEPS_PER_EDGE))
         place = np.concatenate(
             [
                 corners[i] + k / steps * (corners[i - 1] - corners[i])
@@ -277,9 +278,8 @@ def _classify_by_samples(
     number = max(least, min(together // len(small), most))
     samples = np.arange(number)
     counts = np.zeros((2, len(small)), np.intp)
-    needs_all = (
-        components.volume[small] * components.volume[large] < 0.0
-    )  # the larger count decides
+    # the larger count decides
+    needs_all = components.volume[small] * components.volume[large] < 0.0
     is_first = samples % FIRST_SAMPLES == 0 if number > least else samples >= 0
     for chosen in (samples[is_first], samples[~is_first]):
         # Pairs with samples inside and outside intersect, whatever further samples say.

@@ -245,9 +245,8 @@ def _oriented_surface(
         quads = surface.quads.copy()
         triangles = surface.triangles.copy()
         flipped_rows = flipped[len(triangles) :: 2]
-        quads[flipped_rows] = quads[flipped_rows][
-            :, [0, 3, 2, 1]
-        ]  # the first corner stays, and with it the diagonal
+        # the first corner stays, and with it the diagonal
+        quads[flipped_rows] = quads[flipped_rows][:, [0, 3, 2, 1]]
         flipped_rows = flipped[: len(triangles)]
         triangles[flipped_rows] = triangles[flipped_rows][:, ::-1]
         return replace(surface, quads=quads, triangles=triangles)

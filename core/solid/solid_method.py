@@ -187,9 +187,8 @@ def judge(
     else:
         procedure = Procedure.REORIENTED if len(flipped) or len(inverted) else Procedure.EXACT
     findings: list[Finding] = []
-    step = 2.0 * float(
-        np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0)))
-    )  # one ulp of float32
+    # one ulp of float32
+    step = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))
     if mesh.max_displacement > step:  # less is how the same place is written twice
         slight = mesh.max_displacement * given.area.total < NEGLIGIBLE * abs(volume.total)
         findings.append(

@@ -24,11 +24,9 @@ from ..mesh.scan_lines import LineGrids, find_crossings, line_counts
 from ..mesh.surface import Surface
 from ..mesh.surface_stack import Connections, SurfaceStack, TriangleStack
 from ..mesh.welding import may_have_neighbor
-from ..moments.moments import Moments, U, stack_moments, sum_moments
-from ..numerics.arrays import NEXT_AXIS, PREVIOUS_AXIS, segment_starts
-from ..polyhedron.any_order import extend_small_moments
-from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
-from ..polyhedron.third_order_small import small_moments
+from ..moments.moments import Moments, U, sum_moments
+from ..numerics.arrays import NEXT_AXIS, PREVIOUS_AXIS
+from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, small_moments
 from ..verdict.finding import Finding
 from ..verdict.health import DefectiveElements, Intersection, MeshHealth
 from ..verdict.tolerances import WELDING_RTOL
@@ -36,7 +34,7 @@ from .boundary_loops import OwnedLoops, has_distinct_vertices, side_ends
 from .closedness import SUM_ROUNDING, GivenIntegrals, prove_closed, same_sign
 from .orientation import zero_volume
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
-from .solid_method import SolidIntegrals, cap_finding, shape_findings
+from .solid_method import cap_finding, shape_findings
 
 MAX_COMPONENTS = 16  # Limit for one body: all pairs are compared.
 # times the volume that counts as none: bodies with smaller components are measured one by one
@@ -110,45 +108,6 @@ class SolidStack:
     def _cap_share(self, i: int) -> float:
         return float(self.caps.counts[i, 2] / self.area.raw[i, 0])
 
-    def to_order(self, rows: NDArray[np.intp], order: int) -> Moments:
-        """Return the volume moments of the bodies `rows`, ascending, to a higher order than
-        third.
-        """
-        stack = self.caps.triangles.some(rows)
-        return _extend(self.volume.at(rows), order, stack, stack.coordinate_error)
-
-
-def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Moments:
-    """Return volumes, to an order above third, of single solids of at most MAX_SMALL_TRIANGLES
-    triangles each.
-    """
-    surfaces = [solid.repaired_surface for solid in solids]
-    triangles = [surface.all_triangles()[0] for surface in surfaces]
-    point_counts = np.array([len(surface.points) for surface in surfaces])
-    stack = TriangleStack(
-        np.concatenate([surface.points.astype(np.float64) for surface in surfaces]),
-        np.concatenate(
-            [rows + start for rows, start in zip(triangles, segment_starts(point_counts).tolist())]
-        ),
-        point_counts,
-        np.array([len(rows) for rows in triangles]),
-    )
-    error = np.array([surface.coordinate_error for surface in surfaces])
-    return _extend(stack_moments([solid.volume for solid in solids]), order, stack, error)
-
-
-def _extend(
-    volume: Moments, order: int, stack: TriangleStack, error: NDArray[np.float64]
-) -> Moments:
-    """Return the volume moments of the stack's bodies to an order. error: (n, 3) shifts of the
-    points by storing.
-    """
-    low, high = stack.box
-    reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + error
-    return extend_small_moments(
-        volume, order, stack.points, stack.triangles, stack.triangle_counts, reach
-    )
-
 
 def can_be_stacked(surfaces: Sequence[Surface]) -> list[bool]:
     """Return which surfaces `measure_stack` can measure."""
@@ -178,9 +137,8 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     size = np.sqrt(np.add.reduce((high - low) ** 2, axis=1))
     farthest = reach.max(axis=1)
     is_integrated = stack.uses_all_points()
-    is_integrated &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (
-        farthest < MAX_UNSCALED_REACH
-    )  # float32: none too large
+    # float32: none too large
+    is_integrated &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH)
     usable = is_integrated & (links.component_counts <= MAX_COMPONENTS) & ~planarity.has_degenerate
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
     tolerance = np.maximum(WELDING_RTOL * size, 4.0 * error)
@@ -210,9 +168,8 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         if not is_proven[is_measured & ~capped].all():
             is_proven |= ~capped & _are_stars(triangles, volume.about)
         is_star &= is_proven
-    rows = np.flatnonzero(
-        is_measured & ~is_star
-    )  # A star is a body, and does not go through itself.
+    # A star is a body, and does not go through itself.
+    rows = np.flatnonzero(is_measured & ~is_star)
     if len(rows):
         is_measured[rows] = are_physical(volume.at(rows), low[rows], high[rows], size[rows])
     several = np.flatnonzero(is_measured & (links.component_counts > 1))
@@ -262,9 +219,8 @@ def _stand_apart(
     """
     chosen = stack.owned(rows)[1]
     part = _renumbered(part[chosen])
-    body = np.repeat(
-        np.arange(len(rows)), counts[rows]
-    )  # The body of each part; parts are numbered body by body.
+    # The body of each part; parts are numbered body by body.
+    body = np.repeat(np.arange(len(rows)), counts[rows])
     parts = sort_components(stack.points, stack.triangles[chosen], part, len(body))
     of_all = rows[body]
     low = parts.low
@@ -293,9 +249,8 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
     cones = np.add.reduce(corners[:, 0] * (after[:, 1] * before[:, 2] - before[:, 1] * after[:, 2]))
     la, lb, lc = np.sqrt(np.add.reduce(corners * corners))
     ab, bc, ca = np.add.reduce(corners * corners.take(NEXT_AXIS, 1))
-    with np.errstate(
-        over="ignore", invalid="ignore"
-    ):  # beyond the range of float32 a body counts as no star
+    # beyond the range of float32 a body counts as no star
+    with np.errstate(over="ignore", invalid="ignore"):
         halves = np.arctan2(cones, la * lb * lc + ab * lc + bc * la + ca * lb)
     total, signed, angle = np.add.reduceat(
         np.array([np.abs(cones), cones, halves]), stack.first_triangle, axis=1

@@ -181,9 +181,8 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     mesh = mesh.with_report(duplicate_faces=len(copies), elements={"duplicate_faces": copies})
 
     vector = normals(mesh.points, mesh.triangles)
-    vector = np.stack(
-        [np.bincount(face, vector[:, k]) for k in range(3)], axis=1
-    )  # Sum over each face.
+    # Sum over each face.
+    vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)
     agree = np.sign(np.einsum("ij,ij->i", vector[face], vector[group])) * np.linalg.norm(
         vector[face], axis=1
     )

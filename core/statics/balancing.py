@@ -41,9 +41,8 @@ from .gradient import area_gradient, volume_gradient
 
 MAX_NEWTON_STEPS = 100  # Limit for Newton's method; it takes a few.
 MAX_STEP_HALVINGS = 20  # Limit for one step, until the center comes nearer.
-REACHED_TOLERANCE = (
-    64.0 * U
-)  # Rounding relative to the body's size and the distances of it and its target.
+# Rounding relative to the body's size and the distances of it and its target.
+REACHED_TOLERANCE = 64.0 * U
 MIN_RELATIVE_EFFECT = 1e-12  # Relative to the effect of the most effective direction.
 SLIVER_RTOL = 1e-9  # Relative to the longest side squared: smaller triangles have no normal.
 

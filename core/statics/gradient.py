@@ -6,9 +6,11 @@ A vertex that moves by δ carries its surface with it by λ δ, λ its barycentr
 flow through the surface is the change of the body (Reynolds): with N = (b-a) × (c-a) of each
 triangle around the vertex v,
 
-    ∂/∂v ∫ f dV = Σ N ∫ f λ_v,   the integral over the unit triangle: f = 1: 1/6;   x: (s + x_v) /
-                                 24,   s = Σ x;
-    xy: (s_x s_y + Σ xy + s_x y_v + x_v s_y + 2 x_v y_v) / 120.
+    ∂/∂v ∫ f dV = Σ N ∫ f λ_v,
+
+the integral over the unit triangle, with s = Σ x,
+
+    f = 1: 1/6;   x: (s + x_v) / 24;   xy: (s_x s_y + Σ xy + s_x y_v + x_v s_y + 2 x_v y_v) / 120.
 
 It holds for closed surfaces; of the sum over cones it is the derivative there, and needs no
 reference point. An area's moment is |N| m, m the mean of f over the triangle times 1/2; ∂|N|/∂a =

@@ -67,9 +67,8 @@ def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
             if sum(powers) <= DEGREE
         ]
     )
-    nodes = (
-        exponents / DEGREE
-    )  # the lattice of a simplex, on which a polynomial of this degree is unique
+    # the lattice of a simplex, on which a polynomial of this degree is unique
+    nodes = exponents / DEGREE
     samples = np.empty((len(nodes), 4))
     for place, values in enumerate(nodes):
         mixed = points + np.tensordot(values, offsets, axes=1)

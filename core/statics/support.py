@@ -39,9 +39,8 @@ from .findings import CENTER_OUTSIDE_HULL, NO_STABLE_POSE
 # Relative to the body's extent: points up to this height above the lowest one touch the ground.
 CONTACT_RTOL = 1e-6
 NEAR = 0.1  # Relative to the polygon's extent: the foot is near the edge.
-ON_EDGE = 4.0 * float(
-    np.finfo(np.float64).eps
-)  # Relative to the corners' distances: zero after rounding.
+# Relative to the corners' distances: zero after rounding.
+ON_EDGE = 4.0 * float(np.finfo(np.float64).eps)
 # Relative to the body's extent: nearer corners are in a plane, smaller margins count as none.
 PLANE_RTOL = 1e-6
 ALIKE_COSINE = 0.5  # For normals: across the edge of a face they mostly differ by more.

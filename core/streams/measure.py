@@ -104,9 +104,8 @@ class _Stream:
                 self._progress(faces)
             low, high = piece.box
             reach = np.maximum(high - self.center, self.center - low).max()
-            if (
-                not reach <= MAX_REACH_RATIO * self.reach
-            ):  # Also if it is NaN, which the box of all faces refuses.
+            # Also if it is NaN, which the box of all faces refuses.
+            if not reach <= MAX_REACH_RATIO * self.reach:
                 raise _FarPiece
             self.boundary.add(piece.points.reshape(-1, 3, 3) if self._mesh.is_loose else piece)
             self.face_count += faces

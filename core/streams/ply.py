@@ -59,9 +59,8 @@ from .ply_rows import (
 MAX_SPREAD = (
     4  # Up to so many vertices per corner between a block's first and last, they are not copied.
 )
-LENGTHS = range(
-    9
-)  # lists that are checked together; rows with longer ones are checked word by word
+# lists that are checked together; rows with longer ones are checked word by word
+LENGTHS = range(9)
 # For fewer rows or more properties an expression does not pay.
 FEW_ROWS = 16
 MANY_PROPERTIES = 100
@@ -201,9 +200,8 @@ class PlyFile:
     def _fill_points(
         self, points: NDArray[np.floating], rows: NDArray[np.intp], columns: list[NDArray]
     ) -> None:
-        with np.errstate(
-            over="ignore", invalid="ignore"
-        ):  # Such points become infinite, and are refused.
+        # Such points become infinite, and are refused.
+        with np.errstate(over="ignore", invalid="ignore"):
             for axis, column in enumerate(self._axes):
                 points[rows, axis] = columns[column]
 

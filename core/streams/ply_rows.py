@@ -23,9 +23,8 @@ SINGLE_ROWS = 1 << 14  # rows of unequal lengths that are sorted by them
 MAX_LIST = 1 << 26  # numbers of a face: a larger count is damage, and would be read into memory
 NUMBERS = np.dtype(np.float64)  # type of the numbers of a text
 _DECIMAL = b"0123456789.eE+- \t\r\n\v\f"
-_NOT_A_NUMBER = re.compile(
-    rb"(?<!\S)[+-]?(?:nan\(\w*\)|1\.#\w+)", re.IGNORECASE
-)  # C's forms, unknown to numpy
+# C's forms, unknown to numpy
+_NOT_A_NUMBER = re.compile(rb"(?<!\S)[+-]?(?:nan\(\w*\)|1\.#\w+)", re.IGNORECASE)
 
 # The numbers of rows, and their columns: (n,) numbers or (n, k) lists.
 Block = tuple[NDArray[np.intp], list[NDArray]]

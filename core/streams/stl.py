@@ -58,7 +58,8 @@ SOLID = re.compile(rb"(?<!\S)(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+"
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
 _FACET_NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
 _FACETS = re.compile(
-    rb"(?:\s*+(?:%b(?!\S)|facet\s++normal%b\s++outer\s++loop(?:\s++vertex%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+"
+    rb"(?:\s*+(?:%b(?!\S)|facet\s++normal%b\s++outer\s++loop"
+    rb"(?:\s++vertex%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+"
     % (SOLID.pattern, _FACET_NORMAL, _CORNER),
     re.IGNORECASE,
 )
@@ -162,9 +163,8 @@ class StlFile:
             check_stl_text(map_file(self._path))
             self._is_checked = True
         text = SOLID.sub(b"", text) if has_solids else text
-        corners = _plain_corners(
-            _NORMAL.sub(b"normal 0 0 0 out", text)
-        )  # a normal that is no number
+        # a normal that is no number
+        corners = _plain_corners(_NORMAL.sub(b"normal 0 0 0 out", text))
         if corners is None:
             raise FileError(STL_CUT_SHORT, end=BY_WORD)
         return corners

@@ -51,11 +51,12 @@ UNITS = {
     "foot": 0.3048,
     "meter": 1.0,
 }
+# read here, or without effect on the shape
 _KNOWN = (
     "core/2015/02",
     "material/2015/02",
     "production/2015/06",
-)  # read here, or without effect on the shape
+)
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
 _DAMAGE = (
     *(zipfile.BadZipFile, zlib.error, EOFError, expat.ExpatError),

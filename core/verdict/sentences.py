@@ -7,8 +7,8 @@ A template is a `str.format` template over the finding's values. `plural` is tak
 
     {share:percent}      a fraction, as 12.3%                {samples:size}   integers, as 2 x 3 x 4
     {thickness:length}   meters, as the scene shows them     {point:point}    three lengths
-    {names}              a list, the first 8: “A”, “B”, and 3 more    {side:word}     a word of
-                         ours, to be translated
+    {side:word}          a word of ours, to be translated
+    {names}              a list, the first 8: “A”, “B”, and 3 more
     {cause}, {causes}    another finding, or several ({"code", "values"}): their messages
     {elements}           its mesh elements (`Finding.elements`, `count` in all): 3, 5, 9, or 3 of
                          “Cube”

@@ -198,9 +198,8 @@ def _smooth_in_plane(
     free = free[used]
     count = len(used)
     corners = points[used][triangles]
-    sides = corners - np.roll(
-        corners, -1, axis=1
-    )  # from corner k to k + 1, across from corner k + 2
+    # from corner k to k + 1, across from corner k + 2
+    sides = corners - np.roll(corners, -1, axis=1)
     double = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
     weight = (
         -np.einsum("mki,mki->mk", np.roll(sides, -1, axis=1), np.roll(sides, -2, axis=1))

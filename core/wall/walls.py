@@ -260,9 +260,8 @@ def offset_solid(surface: Surface) -> OffsetSolid:
         slide = directions.tangential_error[:, part].max(axis=2)
         lift = directions.normal_error[:, part].max(axis=2)
         if stored:
-            lift[1] += np.where(
-                known, 0.0, 1.0 + prisms.far
-            )  # such a triangle should have moved by one
+            # such a triangle should have moved by one
+            lift[1] += np.where(known, 0.0, 1.0 + prisms.far)
         bounds += prisms.bounds(slide, lift, stored)
         swept[0] += prisms.swept(slide[0] + slid, lift[0] + slid, rounded)
         swept[1] += prisms.swept(slide[1], lift[1], stored)

@@ -149,7 +149,7 @@ def _moments(context: Context) -> Copied | str:
     return text, reports.phrase("Copied {count} moments", count=text.count("\n") - 2)
 
 
-# What is copied: its name, its tooltip, and the function that returns it or the reason why there is
+# Copied texts: the name, its tooltip, and the function that returns it or the reason why there is
 # nothing to copy.
 COPIES = {
     "REPORT": (

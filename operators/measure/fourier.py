@@ -19,7 +19,7 @@ from bpy.types import Context, Event, Operator
 from ... import core
 from ...blender import bodies, settings, write
 from ...blender.read.visibility import measurable
-from ...blender.session.selected import subject
+from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.numerics.float32 import shortest_decimal
@@ -99,7 +99,7 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         return True
 
     def invoke(self, context: Context, event: Event) -> set[str]:
-        obj = subject(context)
+        obj = require_subject(context)
         if (
             not self.properties.is_property_set("of")
             and obj.body_moments.kind == "SOLID"
@@ -130,7 +130,7 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         return selection.reporting(self, self._run, context, in_window)
 
     def _begin(self, context: Context) -> float:
-        obj = subject(context)
+        obj = require_subject(context)
         depsgraph = context.evaluated_depsgraph_get()
         self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
         if not self._path.parent.is_dir():

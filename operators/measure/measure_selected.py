@@ -226,9 +226,8 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
-        selected = (
-            context.view_layer.objects.selected
-        )  # Measure stored results on the meshes of a posed armature, too
+        # Measure stored results on the meshes of a posed armature, too
+        selected = context.view_layer.objects.selected
         objects = [
             obj
             for obj in dict.fromkeys((*selected, *armatures.subjects(selected)))

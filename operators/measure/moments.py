@@ -15,7 +15,7 @@ from mathutils import Vector
 from ...blender import bodies
 from ...blender.read.visibility import SECTION_TYPES, measurable
 from ...blender.session import stored
-from ...blender.session.selected import subject
+from ...blender.session.selected import require_subject, subject
 from ...blender.write import properties, reports
 from ...core.inertia.plain_body import tensor_rows
 from ...core.verdict.finding import MeasureError, Severity
@@ -47,7 +47,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
-        obj = subject(context)
+        obj = require_subject(context)
         order: int = context.scene.body_moments.moments_order
         try:
             computed, findings = stored.compute_moments(context, obj, order)
@@ -150,9 +150,8 @@ class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
             stored.reference.store(obj, context.scene)
             properties.retrigger_drivers(obj)
 
-        with stored.assembly.kept_up_to_date(
-            context
-        ):  # the results are bound to their places, and stay the same
+        # the results are bound to their places, and stay the same
+        with stored.assembly.kept_up_to_date(context):
             changed, failures = selection.apply_to_all(objects, store)
         texts = (
             "Stored the inertia of {count} object about the reference",

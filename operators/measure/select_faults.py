@@ -129,9 +129,8 @@ def _show_defects(context: Context, faults: dict[Object, dict[str, Any]]) -> Non
         context.view_layer.objects.active = next(iter(faults))
     dimensions = {indices.ndim for elements in faults.values() for indices in elements.values()}
     context.tool_settings.mesh_select_mode = (False, 2 in dimensions, 1 in dimensions)
-    bpy.ops.ed.undo_push(
-        message="Measure"
-    )  # the undo step of Edit Mode that follows holds meshes only
+    # the undo step of Edit Mode that follows holds meshes only
+    bpy.ops.ed.undo_push(message="Measure")
     bpy.ops.object.mode_set(mode="EDIT")
     for obj, elements in faults.items():
         scene.select_elements(obj, elements)

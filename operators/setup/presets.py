@@ -161,9 +161,8 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     preset_menu = PRESET_PANEL
     preset_subdir = PRESET_FOLDER
     preset_defines = ["settings = bpy.context.object.body_moments"]
-    preset_values = [
-        "settings." + name for name in COPIED_PROPERTIES if name != "density_volume"
-    ]  # an object
+    # an object
+    preset_values = ["settings." + name for name in COPIED_PROPERTIES if name != "density_volume"]
 
     def execute(self, context: Context) -> set[str]:
         chosen = objects_with_settings(chosen_objects(context))

@@ -12,7 +12,7 @@ from ...blender import bodies, scene
 from ...blender.read.visibility import measurable
 from ...blender.scene.changes import require_storable_data
 from ...blender.session import displayed
-from ...blender.session.selected import subject
+from ...blender.session.selected import require_subject, subject
 from ...blender.session.stored import outcome
 from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
 from ...blender.settings.preferences import copy_defaults
@@ -58,7 +58,7 @@ class _OnSubject:
         return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
-        obj = subject(context)
+        obj = require_subject(context)
         try:
             return self._change(context, obj)
         except MeasureError as refusal:

@@ -70,11 +70,16 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
         description="What the physics engine takes as center of mass and principal axes",
         items=(
             (
+                "ORIGIN",
+                "Origin",
+                "Origin at the center of mass; the axes stay, and a scale that mirrors or shears "
+                "is applied, with colliders any scale",
+            ),
+            (
                 "AXES",
                 "Principal Axes",
                 "Origin at the center of mass, axes along the principal axes, unit scale",
             ),
-            ("ORIGIN", "Origin", "Origin at the center of mass; the axes stay"),
             ("KEEP", "Keep", "Leave origin and axes as they are"),
         ),
     )
@@ -118,15 +123,17 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
             context, objects, self.type, self.shape, self.frame, self.compounds
         )
         self.comparison = _compare_masses(context, made)
-        texts = (
-            "{count} rigid body of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
-            "{count} rigid bodies of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
-        )
-        count = len(made.measured)
+        count = len(made.measured) + len(made.floors)
         mass = float(sum(one.target.mass for one in made.measured.values()))
         done = reports.phrase(
-            *texts, count=count, mass=mass, calculated=float(sum(made.calculated.values()))
+            "{count} rigid body of {mass:.7g} kg",
+            "{count} rigid bodies of {mass:.7g} kg",
+            count=count,
+            mass=mass,
         )
+        if made.calculated and all(made.calculated.values()):
+            text = "; Calculate Mass would say {calculated:.7g} kg"
+            done += reports.phrase(text, calculated=float(sum(made.calculated.values())))
         findings = [
             one.target.finding.of_sources([obj.name])
             for obj, one in made.measured.items()
@@ -145,9 +152,11 @@ def _compare_masses(context: Context, made: "RigidBodies") -> str:
     units = Units.from_settings(context.scene.unit_settings)
     lines = []
     for obj, one in list(made.measured.items())[:SHOWN]:
-        template = localized("{:s}: {:s}; Calculate Mass: {:s}")
-        masses = (units.text("mass", one.target.mass), units.text("mass", made.calculated[obj]))
-        lines.append(template.format(obj.name, *masses))
+        line = "{:s}: {:s}".format(obj.name, units.text("mass", one.target.mass))
+        if made.calculated[obj] > 0.0:  # of a compound, Blender weighs nothing
+            calculated = units.text("mass", made.calculated[obj])
+            line += localized("; Calculate Mass: {:s}").format(calculated)
+        lines.append(line)
     if len(made.measured) > SHOWN:
         lines.append(localized("And {:d} more").format(len(made.measured) - SHOWN))
     return "\n".join(lines)

@@ -18,6 +18,7 @@ from bpy.types import Context, Event, Operator, PropertyGroup, Scene
 
 from ...blender import session
 from ...blender.read.visibility import measurable_objects
+from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
 from ...core.verdict.finding import Finding, MeasureError, system_reason
 from .. import selection
@@ -79,7 +80,7 @@ class _SearchMixin:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if context.object is None:
+        if subject(context) is None:
             return reports.unavailable(cls, "Make an object active to compare with")
         return selection.poll_object_mode(cls, context)
 
@@ -90,7 +91,7 @@ class _SearchMixin:
         similarity.
         """
         search = context.scene.body_moments_search
-        search.wanted = context.object.name
+        search.wanted = require_subject(context).name
         search.looked_at = looked_at
         search.found.clear()
         for match in matches[:MAX_LISTED_BODIES]:
@@ -134,14 +135,15 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
     scaled: SCALED
 
     def _begin(self, context: Context) -> int:
+        wanted = require_subject(context)
         self._others = [
             obj
             for obj in measurable_objects(context.view_layer)
-            if obj != context.object and obj.visible_get()
+            if obj != wanted and obj.visible_get()
         ]
         self._failures: list[Finding] = []
-        self._search = session.SimilarSearch(context.object, context.evaluated_depsgraph_get())
-        self._steps = self._compare(context.object.name)
+        self._search = session.SimilarSearch(wanted, context.evaluated_depsgraph_get())
+        self._steps = self._compare(wanted.name)
         return len(self._others)
 
     def _compare(self, name: str) -> Generator[float, None, None]:
@@ -165,7 +167,8 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
                 "scaled_mirror": self.mirrored and self.scaled,
             }
             picked = {match.obj for match in matches if chosen.get(match.verdict)}
-            selection.select_only(context, {*picked, context.object}, context.object)
+            wanted = require_subject(context)
+            selection.select_only(context, {*picked, wanted}, wanted)
         return self.store_and_report(context, matches, "", self._failures)
 
 
@@ -191,14 +194,14 @@ class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
 
     def execute(self, context: Context) -> set[str]:
         path = Path(bpy.path.abspath(self.filepath))
-        search = session.SimilarSearch(context.object, context.evaluated_depsgraph_get())
+        search = session.SimilarSearch(require_subject(context), context.evaluated_depsgraph_get())
         try:
             matches, missing = search.find_in_library(path, self.scaled, self.mirrored)
         except OSError as error:
             text = "{file} cannot be read: {error}"
             return selection.refuse(self, text, file=path.name, error=system_reason(error))
         except MeasureError as error:
-            return selection.refuse(self, error.about(context.object.name))
+            return selection.refuse(self, error.about(require_subject(context).name))
         return self.store_and_report(context, matches, path.name, missing)
 
 

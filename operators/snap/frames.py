@@ -20,6 +20,7 @@ from ...blender import bodies, scene, session
 from ...blender.read.visibility import measurable
 from ...blender.scale import meters_per_unit
 from ...blender.scene.findings import OPEN_OBJECT
+from ...blender.session.selected import subject
 from ...blender.write import reports
 from ...core import inertia
 from ...core.verdict.finding import EditRefusedError, MeasureError, Severity
@@ -150,9 +151,8 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
                 context, obj, self.order, self.pivot == "ORIGIN", self.strict
             )
 
-        moved, failures = selection.apply_to_all(
-            objects, align
-        )  # in turn: a child moves with its parent
+        # in turn: a child moves with its parent
+        moved, failures = selection.apply_to_all(objects, align)
         session.remeasure(context, moved)
         done = reports.phrase(
             "Aligned {count} object to the world axes",
@@ -358,7 +358,7 @@ class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
 
     def execute(self, context: Context) -> set[str]:
         group = scene.center_of_mass_group()
-        obj = context.object
+        obj = subject(context)
         if not self.marker or obj is None or not measurable(obj):
             return reports.report(
                 self, reports.phrase("Added the node group “{group}”", group=group.name)

@@ -82,9 +82,10 @@ def disc_triangles(
     pixel of `appearance`.
     """
     sizes = view.pixel_sizes(bodies.centers).max(axis=1)
+    # in pixels
     reach = np.divide(
         bodies.gyration.max(axis=1), sizes, out=np.zeros(len(sizes)), where=sizes > 0.0
-    )  # in pixels
+    )
     away = np.abs(view.pixels(bodies.centers) - view.size / 2.0) - view.size / 2.0
     seen = np.flatnonzero((sizes > 0.0) & (away <= (reach + scale * MARGIN)[:, None]).all(axis=1))
     if not len(seen):

@@ -98,11 +98,12 @@ def _colored(*layers: tuple[Part, NDArray, float]) -> GlyphShape:
 
 def _frame(verdict: int) -> list[NDArray[np.float64]]:
     """Return the polylines around the disc that show the verdict by their form."""
+    # square, triangle, diamond
     polygons = {
         1: (45.0, 4, 1.25),
         2: (90.0, 3, 1.75),
         4: (90.0, 4, 1.3),
-    }  # square, triangle, diamond
+    }
     if verdict in polygons:
         start, count, size = polygons[verdict]
         angles = np.radians(start + 360.0 / count * np.arange(count + 1))

@@ -29,7 +29,7 @@ FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (
 def gymnast(root=True, scale=(1.0, 1.0, 1.0)):
     """The armature object, in Pose Mode, measured; its boxes are one skin.
 
-    root: whether one bone carries all.
+    root: whether one bone carries all; else there are three roots, and the object does.
     """
     data = bpy.data.armatures.new("Gymnast")
     rig = bpy.data.objects.new("Gymnast", data)
@@ -41,7 +41,9 @@ def gymnast(root=True, scale=(1.0, 1.0, 1.0)):
         bone.head, bone.tail, bone.use_deform = (0, 0, 0.95), (0, 0.1, 1.25), False
     for name, (head, tail, _half, above) in BONES.items():
         bone = data.edit_bones.new(name)
-        bone.head, bone.tail, bone.parent = head, tail, data.edit_bones.get(above)
+        bone.head, bone.tail = head, tail
+        if root or not name.startswith("thigh"):
+            bone.parent = data.edit_bones.get(above)
     bpy.ops.object.mode_set(mode="OBJECT")
     points = [
         (np.add(head, tail)) / 2.0 + CORNERS * half * scale

@@ -19,7 +19,7 @@ pytest.importorskip("bpy")
 
 from tests.command import slurm_controller
 from tests.command.test_process import BLENDER, ROOT, in_blender, process, script
-from tests.soak import commands
+from tools.soak import commands
 
 ENGINES = ROOT / "docs" / "engines"
 OPENJD = shutil.which(
@@ -40,7 +40,7 @@ def job(tmp_path):
     for number in range(COUNT - 1):
         np.save(folder / "scan {}.npy".format(number), np.full((3, 4, 5), number + 1, "u2"))
     shutil.copy(
-        ROOT / "tests" / "soak" / "crash_corpus" / "damaged_block.blend", folder / "killer.blend"
+        ROOT / "tools" / "soak" / "crash_corpus" / "damaged_block.blend", folder / "killer.blend"
     )
     assert (
         script("manifest", folder, "--parts", PARTS, "--output", tmp_path / "a list").returncode
@@ -180,12 +180,13 @@ def test_an_array_under_a_controller_of_slurm(job, slurm):
         lambda: journal.exists() and journal.read_bytes().count(b"\n") == 2, 120.0
     )
     slurm_controller.asked(slurm, "scontrol", "requeue", number + "_3")
+    # not after Slurm's two minutes
     now = (
         "scontrol",
         "update",
         "JobId=" + number + "_3",
         "StartTime=now",
-    )  # not after Slurm's two minutes
+    )
     commands.wait_until(lambda: state(number + "_3") == "PENDING", 60.0)
     slow.unlink()  # Only after the first run has ended, or that run could record the missing file.
     slurm_controller.asked(slurm, *now)

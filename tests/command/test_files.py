@@ -237,10 +237,11 @@ def test_usdz_checksums_are_verified(tmp_path):
     directory = data.index(b"PK\1\2")
     larger = struct.pack("<II", stored.file_size + 99, stored.file_size + 99)
     (tmp_path / "larger.usdz").write_bytes(data[: directory + 20] + larger + data[directory + 28 :])
+    # Old Pythons use other words.
     assert any(
         words in reason(tmp_path / "larger.usdz")
         for words in ("Overlapped", "overlap", "Bad CRC-32")
-    )  # Old Pythons use other words.
+    )
     assert close(measured(tmp_path / "whole.usdz")["volume"], 6.0, rel=1e-6)
 
 

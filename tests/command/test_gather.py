@@ -390,9 +390,8 @@ def test_the_report_sorts_and_filters_in_a_browser(tmp_path):
     shown = subprocess.run(
         [*words, path.as_uri()], capture_output=True, timeout=240, check=True
     ).stdout.decode()
-    assert (
-        "<title>Body Moments</title>" in shown and "4 of 4" in shown
-    )  # its script ran, that of a name did not
+    # its script ran, that of a name did not
+    assert "<title>Body Moments</title>" in shown and "4 of 4" in shown
     text = re.sub(r"<meta http-equiv[^>]*>", "", path.read_text(encoding="utf-8")).replace(
         "</body>", DRIVE + "</body>"
     )

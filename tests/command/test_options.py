@@ -84,6 +84,8 @@ def test_unrendered_objects_and_wire_operands_are_listed():
         cut = body.modifiers.new("Cut", "BOOLEAN")
         cut.object, cut.solver = operand, "FLOAT" if bpy.app.version >= (5, 0) else "FAST"
         operand.location.x += 10.0 + 10.0 * number
+    helper.location.y += 10.0  # no copy stays in place
+    blank.location.y += 20.0
     for kind in ("OBJECT", "COLLECTION"):
         body.modifiers.new("Empty", "BOOLEAN").operand_type = kind
     cutter.display_type, joined.display_type, helper.display_type = "WIRE", "BOUNDS", "WIRE"
@@ -202,7 +204,7 @@ def test_a_density_that_nobody_set_is_a_finding():
     box = files.add_box()
     entry = measured()
     assert codes(entry) == ["density_defaulted"] and entry["density"] == 1000.0
-    files.add_box("Heavy")
+    files.add_box("Heavy", (9.0, 9.0, 9.0))
     whole = document()  # once a file in which nobody asked for a density
     assert [codes(one) for one in (*whole["objects"], whole["total"])] == [
         [],

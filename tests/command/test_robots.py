@@ -178,10 +178,11 @@ def test_meshes_are_written_along_link_axes(tmp_path):
     ]
     named = [mesh.get("filename") for mesh in ElementTree.parse(path).getroot().iter("mesh")]
     assert {tmp_path / name for name in named} == {*(tmp_path / "meshes" / "robot").iterdir()}
+    # These formats embed meshes; in USD one is seen and one collides.
     for name, times in (
         ("usd", 2),
         ("gltf", 1),
-    ):  # These formats embed meshes; in USD one is seen and one collides.
+    ):
         path = tmp_path / name / ("robot." + name)
         path.parent.mkdir()
         text("measure", "--format", name, "--output", str(path))

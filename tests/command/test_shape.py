@@ -79,9 +79,8 @@ def test_turned_prisms_have_one_pose_and_symmetry_group(sides, group, order):
         np.linalg.norm(other[:, None] - laid[0], axis=2).min(axis=1).max() for other in laid[1:]
     ]
     assert max(apart) < 1e-5
-    for entry in (
-        entries[:2] if group != "D6h" else ()
-    ):  # Stored axes stay near the object's own axes.
+    # Stored axes stay near the object's own axes.
+    for entry in entries[:2] if group != "D6h" else ():
         assert abs(abs(entry["principal_axes"][2][0]) - 1.0) < 1e-5
 
 
@@ -141,11 +140,12 @@ def test_similar_tells_copies_mirror_images_and_sizes(tmp_path):
     assert " mirror image " in rows["Other hand"] and " scaled copy " in rows["Big hand"]
     assert "different" in rows["Box"]
     order = [line.split()[-1] for line in text.splitlines()[1:]]
+    # Mirrored and enlarged bodies are nearer than other shapes.
     assert order[-1] in (
         "Box",
         "Copy",
         "Part",
-    )  # Mirrored and enlarged bodies are nearer than other shapes.
+    )
     code, text = ask(tmp_path, path, "--to", "Hand", "--any-hand", "--any-size")
     assert sum(float(line.split()[0]) < 1e-5 for line in text.splitlines()[1:]) == 2
     code, text = ask(tmp_path, path, "--to", "Part", "--count", 1)

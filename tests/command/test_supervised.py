@@ -22,7 +22,7 @@ from body_moments.command.supervisor import listing, processes
 
 from tests.blender import batch_files as files
 from tests.command.test_process import BLENDER, SCRIPT, in_blender, process, script
-from tests.soak import commands, hostile, kills
+from tools.soak import commands, hostile, kills
 
 on_linux = pytest.mark.skipif(
     not sys.platform.startswith("linux"), reason="not on this system: /proc"
@@ -50,7 +50,7 @@ def scans(tmp_path_factory):
 @pytest.fixture(scope="module")
 def killer(tmp_path_factory):
     """A file that kills Blender."""
-    corpus = Path(__file__).resolve().parent.parent / "soak" / "crash_corpus"
+    corpus = Path(__file__).resolve().parents[2] / "tools" / "soak" / "crash_corpus"
     return Path(
         shutil.copy(
             corpus / "damaged_block.blend", tmp_path_factory.mktemp("killer") / "killer.blend"
@@ -204,9 +204,8 @@ def test_a_signal_ends_a_run_at_once_and_it_can_be_resumed(tmp_path, number):
     sent = time.monotonic()
     running.send_signal(number)
     _, said = running.communicate(timeout=20)
-    assert (
-        time.monotonic() - sent < 10.0
-    )  # within a second on a machine at rest, where the file would take minutes
+    # within a second on a machine at rest, where the file would take minutes
+    assert time.monotonic() - sent < 10.0
     assert running.returncode == 3 and b"interrupted after 4 of 5" in said and not out.exists()
     assert not any(map(commands.is_running, born))
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.jsonl.journal", "scans"]

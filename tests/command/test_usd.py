@@ -19,12 +19,13 @@ pytestmark = [
     pytest.mark.skipif(not bpy.app.usd.supported, reason="this Blender is built without USD"),
 ]
 BALL = 4.0 * pi / 3.0
+# sheared, mirrored and moved
 MATRIX = (
     (1, 0, 0, 0),
     (0.5, 2, 0, 0),
     (0, 0, -3, 0),
     (10, 20, 30, 1),
-)  # sheared, mirrored and moved
+)
 CAGE = """
     int[] faceVertexCounts = [3, 3, 3, 3]
     int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]

@@ -168,9 +168,8 @@ def test_readme_example_runs_as_printed(capsys):
     assert names["properties"].mass == pytest.approx(7850.0, rel=1e-12, abs=0.0)
     assert names["volume"].total == pytest.approx(1.0, rel=1e-12, abs=0.0)
     assert names["volume"][4, 0, 2] == pytest.approx(1.0 / 15.0, rel=1e-12, abs=0.0)
-    assert names["area"].total == pytest.approx(
-        5.0, rel=1e-12, abs=0.0
-    )  # the faces that were given: no cap
+    # the faces that were given: no cap
+    assert names["area"].total == pytest.approx(5.0, rel=1e-12, abs=0.0)
     assert names["area"].about.tolist() == [0.5, 0.5, 0.5]  # the middle of the bounding box
     assert "capped" in capsys.readouterr().out
 

@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The numbers of the corpus, before and after a change.
 
-    python tests/corpus/compare.py --write OUT.json     measure the corpus and keep all numbers
-                                                        (.json)
-    python tests/corpus/compare.py REFERENCE.json       measure it and compare with them, bit for
-                                                        bit
+    python tests/corpus/compare.py --write OUT.json  measure the corpus and keep all numbers (.json)
+    python tests/corpus/compare.py REFERENCE.json    measure it and compare with them, bit for bit
 
 for a Python with the bpy module (.envs/blender-5.2/bin/python). The second prints every difference
 and their count, and ends with 1 if there is one. A file that ends in .txt holds the summary instead
@@ -31,9 +29,8 @@ from pathlib import Path
 from types import ModuleType
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-if (
-    __name__ == "__main__"
-):  # The folder of the checkout would hide other packages if it were on the path.
+# The folder of the checkout would hide other packages if it were on the path.
+if __name__ == "__main__":
     tests = ModuleType("tests")
     tests.__path__ = [str(ROOT / "tests")]
     sys.modules["tests"] = tests

@@ -314,9 +314,8 @@ def test_the_frame_and_the_selection_stay_and_one_empty_is_made(scene):
         ) == {"FINISHED"}
         assert scene.frame_float == 7.25
         assert first.select_get() and second.select_get() and bpy.context.object == first
-        (empty,) = (
-            groups()
-        )  # an empty without a path is none, nor is a mesh that was given the same property
+        # an empty without a path is none, nor is a mesh that was given the same property
+        (empty,) = groups()
         assert path_of(empty).frames.tolist() == list(range(2, end + 1))
     scene.frame_start, scene.frame_end, scene.use_preview_range, scene.frame_preview_end = (
         1,
@@ -325,9 +324,8 @@ def test_the_frame_and_the_selection_stay_and_one_empty_is_made(scene):
         3,
     )
     assert bpy.ops.object.body_moments_balance_group() == {"FINISHED"}
-    assert path_of(empty).frames.tolist() == [
-        *range(1, 7)
-    ]  # those of the scene, as the property says
+    # those of the scene, as the property says
+    assert path_of(empty).frames.tolist() == [*range(1, 7)]
     assert np.abs(np.ptp(path_of(empty).centers, axis=0)).max() == 0.0
     assert not any(obj.animation_data for obj in (first, second))
 

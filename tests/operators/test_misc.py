@@ -13,7 +13,8 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 
 def body_keys(obj):
-    return [key for key in obj.keys() if key.startswith("body_") and key != "body_moments"]  # noqa: SIM118
+    keys = list(obj.keys())
+    return [key for key in keys if key.startswith("body_") and key != "body_moments"]
 
 
 def test_clear_removes_all_results_of_the_selected_objects_only():

@@ -71,9 +71,8 @@ def test_a_box_stands_by_its_narrow_side_wherever_it_is(scene, scale):
 
 def test_balance_beside_tips_over_makes_it_stand(scene):
     corners = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
-    points = [
-        (x + 0.275 * layer, y, 0.5 * layer) for layer in range(5) for x, y in corners
-    ]  # 0.05 beyond the base
+    # 0.05 beyond the base
+    points = [(x + 0.275 * layer, y, 0.5 * layer) for layer in range(5) for x, y in corners]
     sides = [(i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i) for i in range(4)]
     sides = [tuple(4 * layer + corner for corner in side) for layer in range(4) for side in sides]
     tower = bpy.data.meshes.new("Tower")

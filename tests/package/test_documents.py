@@ -15,7 +15,8 @@ from tests.package.test_architecture import ORDER
 ROOT = Path(__file__).resolve().parent.parent.parent
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 PLACE = re.compile(
-    r"`((?:core|blender|command|operators|panels|tests|docs)/[\w/.]*?|__init__\.py)(?::([A-Za-z_][\w.]*))?`"
+    r"`((?:core|blender|command|operators|panels|tests|tools|findings|docs)/[\w/.-]*?|__init__\.py)"
+    r"(?::([A-Za-z_][\w.]*))?`"
 )
 
 

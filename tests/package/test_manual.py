@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.package import manual
+from tools import manual
 
 bpy = pytest.importorskip("bpy")
 from body_moments.panels import menus as shown

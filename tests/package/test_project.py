@@ -2,11 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The project's commands take the options that their texts name."""
 
+import re
 import subprocess
 import sys
+from contextlib import suppress
+from importlib import metadata
 from pathlib import Path
 
 import pytest
+from packaging.specifiers import SpecifierSet
 
 TESTS = Path(__file__).resolve().parent.parent
 PARSED = """\
@@ -15,7 +19,8 @@ sys.path.insert(0, sys.argv[1])
 import project
 options = project.parse(sys.argv[2:])
 values = (getattr(options, name, None) for name in ("subject", "k"))
-print(options.function.__name__, options.arguments, *values)
+name = getattr(options, "tool", options.function.__name__)
+print(name, options.arguments, *values)
 """
 
 
@@ -42,3 +47,21 @@ def parsed(*words: str) -> str:
 )
 def test_options_reach_the_called_program(words, expected):
     assert parsed(*words) == expected
+
+
+PINNED = re.compile(r"^([\w.-]+)==([\w.]+)$", re.MULTILINE)  # for every system and Python
+
+
+@pytest.mark.parametrize("file", ["4.5", "build", "core", "tests"])
+def test_pins_allow_the_oldest_python_that_the_readme_names(file):
+    """The installed distributions state it; those that are not installed are left out."""
+    text = (TESTS / f"requirements-{file}.txt").read_text(encoding="utf-8")
+    checked = 0
+    for name, version in PINNED.findall(text):
+        with suppress(metadata.PackageNotFoundError):
+            found = metadata.distribution(name)
+            if found.version == version:
+                allowed = found.metadata.get("Requires-Python") or ""
+                assert SpecifierSet(allowed).contains("3.11.0"), (name, allowed)
+                checked += 1
+    assert checked >= 3

@@ -99,6 +99,5 @@ def test_start_and_panels_of_saved_file_load_no_numpy(scene, tmp_path):
         encoding="utf-8",
         timeout=480,
     )
-    assert done.returncode == 0 and "Traceback" not in done.stderr, (
-        done.stderr
-    )  # handlers print theirs
+    # handlers print theirs
+    assert done.returncode == 0 and "Traceback" not in done.stderr, done.stderr

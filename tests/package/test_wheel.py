@@ -18,9 +18,8 @@ import pytest
 from tests.core.mesh_files import ply, stl
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-NUMPY = (
-    "numpy==1.26.0" if sys.version_info < (3, 12) else "numpy"
-)  # 1.26 is made for no newer Python
+# 1.26 is made for no newer Python
+NUMPY = "numpy==1.26.0" if sys.version_info < (3, 12) else "numpy"
 
 # No body has an inertia about z that exceeds the sum of the other two.
 URDF = """\

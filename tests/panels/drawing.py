@@ -166,9 +166,8 @@ def every_panel():
     layout = Layout()
     for module in panels.MODULES:
         for cls in getattr(import_module("body_moments.panels." + module), "CLASSES", ()):
-            is_ours = issubclass(cls, bpy.types.Panel) and not hasattr(
-                cls, "preset_add_operator"
-            )  # else Blender's
+            # else Blender's
+            is_ours = issubclass(cls, bpy.types.Panel) and not hasattr(cls, "preset_add_operator")
             if is_ours and (not hasattr(cls, "poll") or cls.poll(bpy.context)):
                 cls.draw(SimpleNamespace(layout=layout), bpy.context)
     return labels(layout.record)

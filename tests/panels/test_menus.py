@@ -44,3 +44,8 @@ def test_copy_without_numbers_is_refused(what):
     bpy.context.view_layer.objects.active = None
     with pytest.raises(RuntimeError, match="first|Select objects"):
         bpy.ops.object.body_moments_copy(what=what)
+
+
+def test_help_without_manual_shows_first_page():
+    assert bpy.ops.wm.body_moments_manual() == {"FINISHED"}
+    assert "Body Moments" in bpy.data.texts["Body Moments Manual"].as_string()

@@ -28,12 +28,13 @@ from body_moments.core.robots.write import mjcf
 from body_moments.core.robots.write.shapes import with_colliders, with_meshes
 from body_moments.core.robots.write.stl import to_stl
 
-from tests import benchmark_colliders
 from tests.core.bodies import box, joined, sphere
 from tests.robots.links import rotation
+from tools import benchmark_colliders
 
 DENSITY = 700.0
 SLOW = {"helix", "knot", "spiral", "bowl", "goblet", "hook", "dumbbell", "cup", "crescent"}
+# of the humanoid JVRC-1, closed meshes
 LINKS = (
     *(
         "PELVIS",
@@ -47,7 +48,7 @@ LINKS = (
         "R_SHOULDER_P",
     ),
     *("R_SHOULDER_Y", "R_ELBOW_P", "R_ELBOW_Y", "R_WRIST_Y", "R_UTHUMB", "R_LINDEX"),
-)  # of the humanoid JVRC-1, closed meshes
+)
 COLUMNS = ["columns {}".format(number) for number in range(6)]
 SHAPES = {"box": box((-1, -1, -1), (1, 1, 1)), "ball": sphere(2), **benchmark_colliders.bodies()}
 BODIES = (*sorted({*SHAPES} - SLOW), "Suzanne", *LINKS, *COLUMNS)

@@ -150,9 +150,8 @@ def test_a_free_body_keeps_energy_and_momentum_for_a_second(seed):
         for _ in range(10_000):
             mujoco.mj_step(model, data)
         after = state()
-        assert near(
-            before[0], before[1], 1e-12
-        )  # MuJoCo's own energy is that of the tensor that was measured
+        # MuJoCo's own energy is that of the tensor that was measured
+        assert near(before[0], before[1], 1e-12)
         for old, new in zip(before, after):
             assert near(new, old, 1e-9)
 

@@ -83,9 +83,8 @@ def test_mujoco_loads_meshes_and_keeps_measured_inertia():
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     corners = model.mesh_vert[: model.mesh_vertnum[0]]
-    geom, _ = [
-        index for index in range(model.ngeom) if model.geom_dataid[index] == 0
-    ]  # the flat one has no collider
+    # the flat one has no collider
+    geom, _ = [index for index in range(model.ngeom) if model.geom_dataid[index] == 0]
     assert model.ngeom == 3
     shown = corners @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
     reach = np.abs(points).max()

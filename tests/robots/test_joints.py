@@ -224,9 +224,8 @@ def test_pinocchio_loads_100_random_assemblies_and_agrees():
             frame = data.oMf[model.getFrameId(link.name)]
             total = place.matrix @ maps[link.name] @ link.pose.matrix
             joint = robot.joint_of(link.name)
-            own = (
-                Pose() if joint is None else Pose(joint.pose.position)
-            )  # A link's origin is at its joint.
+            # A link's origin is at its joint.
+            own = Pose() if joint is None else Pose(joint.pose.position)
             size = max(1.0, np.abs(total[:3, 3]).max())
             assert np.abs(frame.homogeneous - total @ own.matrix).max() < 1e-12 * size
             parts.append(link.inertial.place(Pose(total[:3, 3], total[:3, :3])))

@@ -66,9 +66,8 @@ def test_mujoco_opens_files_with_their_meshes(tmp_path, name, suffix):
     """A flat mesh is only seen."""
     robot, path = written(tmp_path, name, suffix)
     model = mujoco.MjModel.from_xml_path(str(path))
-    assert model.nmesh == sum(bool(link.shapes) for link in robot.links) - (
-        name == "urdf"
-    )  # MuJoCo skips what is only seen there.
+    # MuJoCo skips what is only seen there.
+    assert model.nmesh == sum(bool(link.shapes) for link in robot.links) - (name == "urdf")
     for link in robot.links:
         assert abs(model.body(link.name).mass[0] / link.inertial.mass - 1.0) < 1e-12
     data = mujoco.MjData(model)

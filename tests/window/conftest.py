@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.package import extension
 from tests.window import harness
+from tools import extension
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 CUBE = """\

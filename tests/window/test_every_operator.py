@@ -211,6 +211,7 @@ REFUSED = (
     f"__import__('sys').modules['{PACKAGE}.blender.session.stored.outcome'].last() is not None"
 )
 RIG_OBJECT = "bpy.data.objects['Rig']"
+PRESET = str(ROOT / "tests" / "window" / "artefacts" / "preset.py")
 # operator: options, what is there before, what must have happened
 CLICKED = {
     "object.body_moments_copy_value": ({"value": "7.5", "unit": "kg"}, "", f"{CLIPBOARD} == '7.5'"),
@@ -229,6 +230,12 @@ CLICKED = {
         "",
         "'Window.py' in [path.name for d in bpy.utils.preset_paths('body_moments') "
         "for path in __import__('pathlib').Path(d).iterdir()]",
+    ),
+    "object.body_moments_preset_apply": (
+        {"filepath": PRESET},
+        f"open({PRESET!r}, 'w').write('import bpy; '"
+        "'bpy.context.object.body_moments.kind = \"SHELL\"')",
+        f"{PART}.body_moments.kind == 'SHELL'",
     ),
     "object.body_moments_select_found": (
         {"name": "Part"},
@@ -384,7 +391,11 @@ IN_BROWSER = {
     ),
 }
 # a key chooses in their search
-BY_KEYS = {"object.body_moments_set_material", "material.body_moments_set_density"}
+BY_KEYS = {
+    "object.body_moments_set_material",
+    "material.body_moments_set_density",
+    "wm.body_moments_manual",  # opens a browser
+}
 
 
 @pytest.fixture(scope="module")
@@ -455,11 +466,12 @@ TURNED = f"{PART}.rotation_euler = (0.3, 0.2, 0.1)"
 EMPTIES = "[obj.parent is not None for obj in bpy.data.objects if obj.type == 'EMPTY']"
 PLACE = f"[round(value, 3) for value in {PART}.location]"
 MASS = f"[{PART}.rigid_body.mass, *{PLACE}]"
+# pixels from the pointer where F9 was pressed, and between settings
 CHECKBOX, TITLE, ROW = (
     144,
     56,
     23,
-)  # pixels from the pointer where F9 was pressed, and between settings
+)
 # operator: which setting is clicked, what is there before, what is looked at, after the action,
 # after the click
 REDONE = {

@@ -68,8 +68,9 @@ bpy.ops.object.body_moments_live()
 bpy.ops.object.mode_set(mode="SCULPT")
 """
 SESSION = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.{}']"
-FOLLOWING, STALENESS, OUTCOME = (
-    SESSION.format(name) for name in ("live.following", "tracking.staleness", "stored.outcome")
+FOLLOWING, MAPPING, STALENESS, OUTCOME = (
+    SESSION.format(name)
+    for name in ("live.following", "live.mapping", "tracking.staleness", "stored.outcome")
 )
 SPHERE = "bpy.context.object"
 VOLUME = f"{FOLLOWING}.current_numbers({SPHERE}).measurement.volume"
@@ -88,7 +89,7 @@ def stroke(window):
     for step in range(8):
         window.move(x - 60 + 15 * step, y + 8 * step)
         window.get("True")
-    lag = window.get(f"str({FOLLOWING}.lag({SPHERE}))")
+    lag = window.get(f"str({MAPPING}.lag({SPHERE}))")
     window._xdotool("mouseup", 1)
     return lag
 
@@ -97,7 +98,7 @@ def test_numbers_follow_a_stroke_when_it_stops(window):
     window.ask(SPHERE_SCENE)
     before = window.get(VOLUME)
     assert stroke(window) == "behind"
-    window.wait(f"not {FOLLOWING}.lag({SPHERE}) and {VOLUME} != {before!r}")
+    window.wait(f"not {MAPPING}.lag({SPHERE}) and {VOLUME} != {before!r}")
     truth = window.ask(TRUTH)
     assert abs(truth / before - 1.0) > 1e-5
     assert window.get(VOLUME) == pytest.approx(truth, rel=1e-6)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from tests.close import close
-from tests.soak import commands
+from tools.soak import commands
 
 RUNNING = (
     "[op.bl_idname for op in window.modal_operators if 'body_moments' in op.bl_idname.lower()]"

@@ -58,10 +58,12 @@ def test_floaty_jump_is_listed_and_a_click_goes_there(jump):
 def test_parabola_explains_the_momentum(jump):
     window = jump
     window.press("pose.body_moments_parabola")
+    window.picture("motion-dialog")
     window.key("Return")
     window.wait(f"len({CURVES}[2].keyframe_points) > 10")
-    window.press("pose.body_moments_bake_curves")
     window.wait(f"'body_balance_spans' not in {EMPTY}")
+    found = "bpy.context.window_manager.operators[-1].properties"
+    assert window.get(f"({found}.take_off, {found}.landing)") == [8, 24]
     window.picture("motion-parabola")
     assert "Traceback" not in window.output()
 

@@ -11,8 +11,8 @@ import math
 import numpy as np
 import pytest
 
-from tests import demo
 from tests.window.conftest import ROOT, open_window
+from tools import demo
 
 BRACKET = "bpy.data.objects['Bracket']"
 
@@ -20,7 +20,7 @@ BRACKET = "bpy.data.objects['Bracket']"
 @pytest.fixture(scope="module")
 def bracket_file(run_blender, tmp_path_factory):
     file = tmp_path_factory.mktemp("demo") / "bracket.blend"
-    script = ROOT / "tests" / "demo.py"
+    script = ROOT / "tools" / "demo.py"
     run_blender("--background", "--python-exit-code", "1", "--python", script, "--", "build", file)
     return file
 

@@ -25,7 +25,8 @@ bpy.ops.ed.undo_push(message="edited")
 """
 CLOSED = """
 import bpy
-for cls in [cls for cls in bpy.types.Panel.__subclasses__() if cls.__name__.startswith("VIEW3D_PT_body_moments_")]:
+panels = bpy.types.Panel.__subclasses__()
+for cls in [cls for cls in panels if cls.__name__.startswith("VIEW3D_PT_body_moments_")]:
     if cls.__name__.split("_")[-1] not in {open}:
         bpy.utils.unregister_class(cls)
         cls.bl_options = cls.bl_options | {{"DEFAULT_CLOSED"}}

@@ -50,10 +50,11 @@ for cls in bpy.types.Panel.__subclasses__():
         cls.draw = lambda self, context: None
 """
 )
+# pixels, the first above the button under the list, with its filters open
 FIRST_LINE, LINE_STEP = (
     172,
     20.7,
-)  # pixels, the first above the button under the list, with its filters open
+)
 FIRST_OF_CLOSED = 125
 FILTERS = {  # Pixels from the left of the sidebar and above that button.
     "opened": (31, 27),

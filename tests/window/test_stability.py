@@ -22,12 +22,14 @@ SUPPORT = (
     SESSION
     + f"found = stability.support({CUBE})\nresult = [found.stands, found.margin, found.height]"
 )
+# pixels right of and below the pointer where F9 was pressed: the arrow at the end of the Step
 STEP_ARROW = (
     286,
     168,
-)  # pixels right of and below the pointer where F9 was pressed: the arrow at the end of the Step
+)
 KEYS = (
-    "len(bpy.data.objects['Balance'].animation_data.action.layers[0].strips[0].channelbags[0].fcurves[0]"
+    "len(bpy.data.objects['Balance'].animation_data.action.layers[0].strips[0]"
+    ".channelbags[0].fcurves[0]"
     ".keyframe_points)"
 )
 EMPTIES = "[obj.name for obj in bpy.context.scene.objects if 'body_balance_group' in obj]"

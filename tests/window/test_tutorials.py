@@ -195,7 +195,7 @@ def test_printed_part_is_weighed_and_stands(window, run_blender, tmp_path):
         "--python-exit-code",
         "1",
         "--python",
-        ROOT / "tests" / "demo.py",
+        ROOT / "tools" / "demo.py",
         "--",
         "build",
         file,

@@ -95,9 +95,8 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
     given = GivenPart.from_settings(request.obj.body_moments, request.settings.unit)
     if not given:
         return body
-    geometry = body.mass or find_extent(
-        body, request.settings
-    )  # raises MeasureError if there is no extent
+    # raises MeasureError if there is no extent
+    geometry = body.mass or find_extent(body, request.settings)
     location = reading.location * request.settings.unit
     mass, findings = given_moments(
         request.settings.mass, given, reading.rotation, location, geometry
@@ -134,9 +133,8 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
     settings = request.settings
     given = GivenPart.from_settings(properties, settings.unit)
     location = reading.location * settings.unit
-    own = (
-        shortest_decimal(properties.mass) if settings.mass is None else settings.mass
-    )  # a point has no density
+    # a point has no density
+    own = shortest_decimal(properties.mass) if settings.mass is None else settings.mass
     mass, findings = given_moments(own, given, reading.rotation, location, None)
     varying = GivenPart.from_settings(properties, 1.0).key
     settings = replace(

@@ -63,7 +63,7 @@ from ..request import Request
 MAX_CHECKED_INSTANCES = (
     50  # different places of a surface in which the sign of the density is checked
 )
-MAX_OUTSIDE_SHARE = 1e-9  # of the volume: a smaller share outside the grid is rounding
+MAX_OUTSIDE_SHARE = 1e-9  # relative to the volume: a smaller share outside the grid is rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,9 +227,8 @@ def voxel_filled_body(
         raise ReadError(OPEN_SURFACE_OF_GRID, subject=name)
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, subject=name, **names)
-    corner = affine_matrices(
-        np.eye(3), reading.low - 0.5
-    )  # from corners of voxels, not from their centers
+    # from corners of voxels, not from their centers
+    corner = affine_matrices(np.eye(3), reading.low - 0.5)
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ corner
     if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
         raise ReadError(GRID_EMPTY, subject=name, **names)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ....core.bodies.findings import SHAPE_FAR_FROM_ORIGIN
 from ....core.bodies.reading import name_subject
-from ....core.inertia.canonical_frame import NOISE_LEVEL
+from ....core.inertia.third_moment_frames import NOISE_LEVEL
 from ....core.measurement.settings import fingerprint
 from ....core.mesh.surface import Surface
 from ....core.moments.exponents import monomials

@@ -26,16 +26,9 @@ from ....core.bodies.findings import (
     WIRE_UNSUPPORTED,
 )
 from ....core.bodies.mesh_body import with_input_error
-from ....core.inertia.axial_harmonics import (
-    MAX_AXIAL_ORDER,
-    AxialHarmonics,
-    axial_harmonics,
-    axis_last,
-    turn_by_harmonics,
-)
-from ....core.inertia.canonical_frame import MAX_ORDER, NOISE_LEVEL
-from ....core.inertia.principal_frames import equivalent_frames, nearest_frame, pose_matrix
-from ....core.inertia.third_moment_frames import EQUAL_AXES
+from ....core.inertia.plain_body import EQUAL_AXES
+from ....core.inertia.principal_frames import PrincipalFrame, pose_matrix
+from ....core.inertia.third_moment_frames import NOISE_LEVEL
 from ....core.measurement.findings import WALL_UNSUPPORTED
 from ....core.measurement.measurement import Body, Measurement
 from ....core.mesh.surface import Surface, join_surfaces
@@ -45,11 +38,20 @@ from ....core.moments.moments import Moments
 from ....core.numerics.arrays import segment_starts
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.any_order import extend_small_moments
-from ....core.polyhedron.third_order_small import small_moments
+from ....core.polyhedron.third_order import small_moments
+from ....core.shape.axial_harmonics import (
+    MAX_AXIAL_ORDER,
+    AxialHarmonics,
+    axial_harmonics,
+    axis_last,
+    turn_by_harmonics,
+)
+from ....core.shape.canonical_frame import MAX_ORDER
 from ....core.shape.point_groups import PlacedTriangles
 from ....core.shape.registration import MAX_AXIS_ORDER, Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature, signatures
 from ....core.shape.symmetries import UNDECIDED, Symmetry, symmetry
+from ....core.shape.unique_frames import equivalent_frames, nearest_frame, unique_frame
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE
@@ -61,11 +63,12 @@ from ..stacks.stack import MeasuredStack, Stacked
 from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
+# factors on the level of noise: a unique frame is the same for all of them
 NOISE_FACTORS = (
     0.5,
     1.0,
     2.0,
-)  # factors on the level of noise: a unique frame is the same for all of them
+)
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
@@ -74,7 +77,7 @@ COARSE_NOISE = 1e-4, 1e-3  # noise in the moments of a ball with facets
 MAX_FACETS = (
     0.05  # relative to the size: between a body of revolution and the polygons that stand for it
 )
-SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
+SURFACE_OPTIONS = MeasureOptions(threads=THREADS)  # for the shape of a surface
 
 
 @dataclass(frozen=True)
@@ -152,14 +155,24 @@ class Shape:
         """Yield the surfaces of the body in world coordinates."""
         return self.body.surfaces(self._sheets)
 
+    def principal_frame(self) -> PrincipalFrame:
+        """Return the frame that moments to sixth order fix; the measured one if the density
+        varies.
+        """
+        measured = self.measurement.mass_properties.principal
+        if measured.is_unique or self.body.mass is not None:
+            return measured
+        return unique_frame(self.moments, self.rotation)
+
     def pose(self) -> dict[str, Any]:
         """Return the pose for a record (`docs/shape.md`), with harmonics to order 30 if the body
         may be round.
         """
         body = self.measurement.mass_properties
         constant = self.body.mass is None
-        axes = body.principal.axes
-        unique = body.principal.is_unique
+        principal = self.principal_frame()
+        axes = principal.axes
+        unique = principal.is_unique
         moments = self.moments if constant else self.measurement.mass_moments[0]
         alike = equivalent_frames(moments)
         factors = NOISE_FACTORS
@@ -358,7 +371,7 @@ def surface_shape(measured: Measured) -> Shape:
     """Return the shape of a body that was measured with SURFACE_OPTIONS, which must have
     polygons.
     """
-    shape = _shape_of_measured(measured, SURFACE_OPTIONS.threads)
+    shape = shape_of_measured(measured, SURFACE_OPTIONS.threads)
     if not shape.has_surface:
         raise NoShapeError(SIGNATURE_NEEDS_POLYGONS, shape.measurement)
     return shape
@@ -370,11 +383,11 @@ def shape_of(
     """Measure an object for its shape, or raise MeasureError; NoShapeError if it can be measured
     but has no shape.
     """
-    options = replace(options or MeasureOptions(), pose=True)
-    return _shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
+    options = options or MeasureOptions()
+    return shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
 
 
-def _shape_of_measured(measured: Measured, threads: int) -> Shape:
+def shape_of_measured(measured: Measured, threads: int) -> Shape:
     """Return the shape of a measured body, or raise NoShapeError if it has none."""
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.has_surface:

@@ -58,9 +58,8 @@ class SurfaceDistance:
         nearest = self._tree.find_nearest
         queries = scaled.tolist()
         reach = np.inf if within is None else 1.01 * max(NEAR_DISTANCE, within / self._scale)
-        distances = np.array(
-            [nearest(row, reach)[3] for row in queries], np.float64
-        )  # None becomes NaN
+        # None becomes NaN
+        distances = np.array([nearest(row, reach)[3] for row in queries], np.float64)
         distances[np.isnan(distances)] = np.inf
         doubtful = np.flatnonzero(
             (distances > EXACT_DISTANCE)

@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterator, Sequence
 import bpy
 import numpy as np
 
-from ....core.measurement.builder import MAX_FACES_HIGH_ORDER
 from ....core.measurement.settings import Settings
 from ....core.verdict import internal_error
 from ...read.mesh import mesh_surface, plain_mesh
@@ -22,6 +21,7 @@ from ..measure_object import Measured, measure_body
 from .stack import MeshShape, Stacked, StackMember, measure_members
 
 MAX_OBJECTS_PER_STACK = 512
+MAX_STACKED_FACES = 20_000  # of one mesh
 MAX_FACES_PER_STACK = 40_000
 
 Outcome = Measured | Stacked | Exception
@@ -162,7 +162,7 @@ class _Collector:
 
     def _read(self, mesh: bpy.types.Mesh) -> MeshShape | None:
         """Return the shape of a mesh; None if it has to be measured alone."""
-        if not len(mesh.polygons) or len(mesh.polygons) > MAX_FACES_HIGH_ORDER:
+        if not len(mesh.polygons) or len(mesh.polygons) > MAX_STACKED_FACES:
             return None
         surface = mesh_surface(mesh)
         arrays = surface.points, surface.corner_vertices, surface.triangles, surface.quads

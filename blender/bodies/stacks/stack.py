@@ -15,10 +15,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies.mesh_body import own_moments, with_known
-from ....core.inertia.canonical_frame import MAX_ORDER
 from ....core.inertia.mass_properties import MassProperties, has_certain_total
-from ....core.inertia.principal_frames import OwnMoments
 from ....core.inertia.third_moment_frames import third_moment_frames
 from ....core.measurement.builder import build_measurement, find_large_bounds
 from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
@@ -27,15 +24,12 @@ from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Moments, image, join_moments
 from ....core.numerics.rotations import rotation_matrix
-from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.integration import area_of_images
-from ....core.polyhedron.third_order import MAX_SMALL_TRIANGLES
 from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
 from ....core.solid.solid_stack import (
     SolidStack,
     can_be_stacked,
     measure_stack,
-    small_moments_to_order,
 )
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
@@ -80,17 +74,6 @@ class MeshShape:
     def digest(self) -> bytes | None:
         """Digest of the surface, for staleness; None for a large one."""
         return surface_digest(self.surface) if self.face_count <= MAX_DIGESTED_FACES else None
-
-    def sixth_order(self) -> Moments:
-        """Return the volume's moments to the order that axes need, for a mesh that was measured
-        alone.
-        """
-        solid = self.alone
-        assert solid is not None
-        found = polyhedron_moments(
-            solid.repaired_surface, MAX_ORDER, about=solid.volume.about, exact=True, allow_open=True
-        )
-        return with_known(found[0], solid.volume)
 
 
 def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
@@ -262,7 +245,6 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     same unit.
     """
     unit = members[0].settings.unit
-    axes = members[0].settings.axes
     own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])
     matrices = np.array([member.matrix for member in members], np.float64)
@@ -300,31 +282,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
         volume, area = volume.at(rows), area.at(rows)
     rotation = rotation_matrix([member.quaternion for member in members])
 
-    def higher(left: NDArray[np.intp]) -> OwnMoments:
-        found = {members[i].shape.row: members[i].shape for i in left.tolist()}
-        rows = sorted(found)
-        sixth: dict[int, Moments] = {}
-        together = [row for row in rows if found[row].alone is None]
-        if together:
-            solids = found[together[0]].solids
-            assert solids is not None
-            higher_order = solids.to_order(np.array(together), MAX_ORDER)
-            sixth.update((row, higher_order.at(i)) for i, row in enumerate(together))
-        alone = {row: each.alone for row, each in found.items() if each.alone is not None}
-        small = [
-            row
-            for row, solid in alone.items()
-            if solid.repaired_surface.triangle_count <= MAX_SMALL_TRIANGLES
-        ]
-        if small:
-            higher_order = small_moments_to_order([alone[row] for row in small], MAX_ORDER)
-            sixth.update((row, higher_order.at(i)) for i, row in enumerate(small))
-        sixth.update((row, found[row].sixth_order()) for row in alone.keys() - small)
-        number = {row: i for i, row in enumerate(rows)}
-        shape = np.array([number[row] for row in which[left].tolist()])
-        return own_moments([sixth[row] for row in rows], shape, matrices[left, :3, :3])
-
-    properties = MassProperties.of_stack(volume, density, rotation, fixed, higher if axes else None)
+    properties = MassProperties.of_stack(volume, density, rotation, fixed)
     geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
     return MeasuredStack(
         members,

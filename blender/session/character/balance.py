@@ -39,7 +39,7 @@ FARTHEST = 0.5  # moves and, in radians, turns of a bone in a step
 TORN = 0.05  # share of the mass above a bone that its location may leave behind
 MAX_STEPS = 20
 HALVINGS = 6  # of a step that does not bring the center nearer
-FLAT = 1e-3  # of the largest rate: channels below it are left alone
+FLAT = 1e-3  # relative to the largest rate: channels below it are left alone
 TURNS = (0.6, -0.6, 1.2, -1.2, 1.8, -1.8)  # rad: further first turns, if the center stays away
 
 UNMOVABLE = (
@@ -199,6 +199,7 @@ class _Search:
             lift = [] if handle.turns else [up @ (head - seen.head)]
             return np.array([*((self.target - seen.center) @ self.axes[:, :2]), *lift])
 
+        gap = 0.0
         seen = self.look(handle, change @ units / self.scale)
         for _ in range(MAX_STEPS):
             gap = float(np.linalg.norm(missing(seen)))

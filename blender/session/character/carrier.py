@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ....core.bodies.reading import float64_matrix
 from ....core.numerics.rotations import polar_rotation, quaternion, rotation_matrix
-from ....core.rig.channels import count_pieces, in_pieces, rotation_values
+from ....core.rig.channels import divide_frames, in_pieces, rotation_values
 from ....core.rig.motion import continuous
 from ...read.tracking import tracking_paused
 from ...scene import fcurves
@@ -22,7 +22,7 @@ from ...scene.transforms import TransformChannels
 from ...write.reports import Refused
 from .weight import Character
 
-# of the character's size: a trial move, and the tolerance of the parts that follow
+# relative to the character's size: a trial move, and the tolerance of the parts that follow
 TRIAL = 1e-2
 FOLLOWS = 1e-4
 LEAST_NORM = 0.5  # of quaternions and axes that keep the length of the earlier ones
@@ -168,24 +168,20 @@ class Carrier:
         armature = self.armature
         old = {name: self._old(name) for name in ("location", self.rotation)[: 1 + turns]}
         locations, quaternions = self.wanted(moves)
-        counts = np.ones(len(times) - 1, np.intp)
+        places = np.arange(len(times)).astype(np.float64)
         if turns:
             mode = self.owner.rotation_mode
-            counts = count_pieces(quaternions, mode, old[self.rotation][0])
-            quaternions = in_pieces(quaternions, counts)
-        shares = [np.arange(count) / count for count in counts.tolist()]
-        starts = zip(times, np.diff(times), shares)
-        times = np.append(
-            np.concatenate([at + step * share for at, step, share in starts]), times[-1]
-        )
+            shortest = fcurves.JUMP / (times[1] - times[0])
+            places = divide_frames(quaternions, mode, old[self.rotation][0], shortest)
+        times = np.interp(places, np.arange(len(times)), times)
         channels = {}
         for name, before in old.items():
             fcurves.ensure_keyed(armature, self.path(name), before[0], times[0], as_layer)
-            before = in_pieces(before, counts)
+            before = in_pieces(before, places)
             if name == "location":
-                new = in_pieces(locations, counts)
+                new = in_pieces(locations, places)
             else:
-                new = self.values(quaternions, before)
+                new = self.values(in_pieces(quaternions, places), before)
             if as_layer and name == "rotation_quaternion":
                 new = continuous(_quotients(before, new))
                 new *= np.sign(new[0, 0])

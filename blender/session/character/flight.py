@@ -31,7 +31,9 @@ from ..stored import balance_groups
 from . import weight
 from .carrier import FOLLOWS, Carrier
 
-KEPT = 0.01  # of the angular momentum: the largest deviation in a flight, between frames, too
+KEPT = (
+    0.01  # relative to the angular momentum: the largest deviation in a flight, between frames, too
+)
 MOMENTUM = "body_balance_momentum"
 
 NOT_CARRIED = (
@@ -231,7 +233,7 @@ class CharacterMotion(BalanceGroup):
         """
         centers = np.array(self.centers)
         moves = np.tile(np.eye(4), (len(centers), 1, 1))
-        # of the samples, in frames
+        # times of the samples, in frames
         places = np.arange(len(centers) // spin.LAST)[:, None] + spin.NODES[:-1]
         places = np.append(places, len(centers) // spin.LAST)
         if not turns:

@@ -192,9 +192,8 @@ class Character:
         """
         names = [bone.name for bone in armature.pose.bones]
         named = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
-        may_touch = np.array(
-            [not named or name in named for name in names] + [not named]
-        )  # last: no weight
+        # last: no weight
+        may_touch = np.array([not named or name in named for name in names] + [not named])
         gravity = down(depsgraph.scene)
         reach = REACH * self.size
         lowest = np.inf
@@ -282,9 +281,8 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     def stand() -> Weight | None:
         unit = meters_per_unit(depsgraph.scene)
         known = character(armature, unit)
-        if known is None or any(
-            name not in armature.pose.bones for name in known.names
-        ):  # removed in Edit Mode
+        # removed in Edit Mode
+        if known is None or any(name not in armature.pose.bones for name in known.names):
             return None
         gravity = down(depsgraph.scene)
         ground = armature.body_moments_weight.ground

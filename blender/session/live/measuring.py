@@ -155,9 +155,8 @@ def note_updates(events: handlers.Updates) -> None:
         and active in memory.followed
         and active.session_uid in events.others
     ):
-        changed[active.session_uid] = memory.followed[
-            active
-        ]  # strokes are drawn without evaluating
+        # strokes are drawn without evaluating
+        changed[active.session_uid] = memory.followed[active]
     for current in changed.values():
         current.is_pending = True
     moved = any(memory.followed.by_uid(uid) is not None for uid in events.moved)

@@ -64,9 +64,8 @@ class Motion:
     """
 
     frames: int
-    _followed: dict[int, _Followed] = field(
-        default_factory=dict
-    )  # by session uid, as undo replaces objects
+    # by session uid, as undo replaces objects
+    _followed: dict[int, _Followed] = field(default_factory=dict)
 
     def mass_and_center(
         self, obj: Object, depsgraph: Depsgraph

@@ -43,9 +43,8 @@ class Degree:
     rows: tuple[tuple[str, str, str], ...]
 
 
-Display = tuple[
-    tuple[Degree, ...], Finding | None
-]  # a panel's degrees, and the reason if there are none
+# a panel's degrees, and the reason if there are none
+Display = tuple[tuple[Degree, ...], Finding | None]
 
 
 def compute_moments(

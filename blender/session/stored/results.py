@@ -135,7 +135,7 @@ def store_symmetry(
     stored.elements.clear()
     turn = shape.rotation.T
     for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:
-        local = turn @ direction  # of a line: its largest component is positive
+        local = turn @ direction  # sign of a line: its largest component is positive
         element = stored.elements.add()
         element.kind, element.order = kind, order
         element.direction = local if local[np.argmax(np.abs(local))] > 0.0 else -local

@@ -81,7 +81,7 @@ def watch_all() -> None:
 
 
 def redraw_weights(updates: handlers.Updates) -> None:
-    """Redraw the sidebars that show the weight of a character, which playback leaves as they are."""
+    """Redraw sidebars with the weight of a character, which playback leaves as they are."""
     for window in bpy.context.window_manager.windows if updates.frame_changed else ():
         obj = window.view_layer.objects.active
         if obj is not None and obj.type == "ARMATURE" and obj.body_moments_weight.show:

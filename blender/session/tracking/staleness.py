@@ -30,6 +30,7 @@ from ....core import measurement
 from ... import read
 from ...read.fingerprint import (
     colliders_digest,
+    has_scale,
     has_transform,
     matrix_hash,
     scale_hash,
@@ -94,6 +95,10 @@ def _has_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
 
 def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
     return stamp.extra == meters_per_unit(scene)
+
+
+def _has_body_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
+    return has_scale(obj, stamp.transform, [*obj[COLLIDERS].get("scale", ())])
 
 
 def _has_colliders(obj: Object, _stamp: Stamp, _scene: Scene) -> bool:
@@ -191,7 +196,7 @@ CHECKS = {
     Kind.COLLIDERS: (
         (Stale.SETTINGS, _has_settings),
         (Stale.GEOMETRY, _has_geometry),
-        (Stale.TRANSFORM, _has_transform),
+        (Stale.TRANSFORM, _has_body_scale),
         (Stale.COLLIDERS, _has_colliders),
     ),
 }
@@ -339,9 +344,8 @@ def _remember_shape(
 
 def note_all_edits() -> None:
     """Note the effects of all updates on all objects."""
-    for obj in (
-        bpy.data.objects if memory.state.updates else ()
-    ):  # while Blender enables the add-on, it gives no data
+    # while Blender enables the add-on, it gives no data
+    for obj in bpy.data.objects if memory.state.updates else ():
         note_edits(obj)
 
 

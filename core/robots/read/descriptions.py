@@ -59,9 +59,8 @@ _QUEUE = ThreadPoolExecutor(1)  # One file at a time: xacro keeps what it reads 
 MAX_DESCRIPTION = 64 << 20  # bytes
 MAX_LINKS = 100_000
 MAX_INCLUDES = 1000
-_SCHEME = re.compile(
-    r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL
-)  # Schemes of one letter are drives.
+# Schemes of one letter are drives.
+_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)
 PATHS = "ROS_PACKAGE_PATH"
 MAX_DEPTH = 3  # Levels of folders below a root that are searched for a package.
 
@@ -110,9 +109,8 @@ class Roots:
                 real = Path(os.path.realpath(path))
             except (OSError, ValueError):  # no name that the system knows
                 continue
-            if not os.path.isfile(
-                real
-            ):  # False if the system refuses the name, as one that is too long
+            # False if the system refuses the name, as one that is too long
+            if not os.path.isfile(real):
                 continue
             if self.anywhere or any(real.is_relative_to(folder) for folder in self.folders):
                 return real
@@ -292,9 +290,8 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
                 waiting.append((found, depth + 1, there, inside, [path]))
             else:
                 model.append(path)
-                for inner in found.all(
-                    "model"
-                ):  # The including file of SDF may place and name it anew.
+                # The including file of SDF may place and name it anew.
+                for inner in found.all("model"):
                     stated = {one.tag: one.text.strip() for one in child.children}
                     inner.attributes |= {
                         name: stated[name] for name in ("name", "placement_frame") if name in stated
@@ -340,9 +337,8 @@ def _compose_usd(path: Path, roots: Roots) -> bytes:
                 prim.SetInstanceable(False)
         return stage.Flatten().ExportToString().encode()
     except RuntimeError as error:  # pxr.Tf.ErrorException is one.
-        place, _, reason = (
-            str(error).strip().partition("\n")[0].rpartition(" : ")
-        )  # a place in pxr's source
+        # a place in pxr's source
+        place, _, reason = str(error).strip().partition("\n")[0].rpartition(" : ")
         raise FileError(FILE_UNREADABLE, error=(reason or place).strip(" '")) from error
 
 

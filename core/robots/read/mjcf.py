@@ -400,9 +400,8 @@ def _primitive(kind: str, attributes: dict[str, str], pose: Pose) -> Shape | Non
         return Shape(
             kind, sizes.get(kind, (size[0], length)), Pose((ends[:3] + ends[3:]) / 2.0, turn)
         )
-    halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(
-        kind, 3
-    )  # index of the first half of a length
+    # index of the first half of a length
+    halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(kind, 3)
     values = tuple(
         2.0 * value if place >= halves else value for place, value in enumerate(size[: SIZES[kind]])
     )

@@ -153,12 +153,10 @@ def _table_rows(documents: Iterable[dict[str, Any]]) -> Iterable[list[Any]]:
                 "",
             ]
         for link in one["links"]:
-            can = link["repaired"] is not None
-            shared = [
-                link["mass"],
-                link["density"],
-                ("true" if one["repaired"] else "possible") if can else "false",
-            ]
+            repaired = "false"
+            if link["repaired"] is not None:
+                repaired = "true" if one["repaired"] else "possible"
+            shared = [link["mass"], link["density"], repaired]
             for found in link["findings"] or [{"severity": "", "code": "ok", "message": ""}]:
                 yield [
                     one["file"],

@@ -96,9 +96,8 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
 
 def _name(text: str) -> str:
     text = xml_name(text)
-    return (
-        text + "_" if text == "world" else text
-    )  # The root that contains all bodies has this name.
+    # The root that contains all bodies has this name.
+    return text + "_" if text == "world" else text
 
 
 def _add_meshes(root: Element, robot: Robot) -> dict[tuple, str]:
@@ -149,7 +148,9 @@ def _add_joints(
     for count, free in enumerate(joint.free[:1] if joint.is_ball else joint.free, start=1):
         is_single = joint.is_ball or len(joint.free) == 1
         name = names[joint.name] if is_single else "{}_{}".format(names[joint.name], count)
-        kind = "ball" if joint.is_ball else "hinge" if free.kind == "rotate" else "slide"
+        kind = "hinge" if free.kind == "rotate" else "slide"
+        if joint.is_ball:
+            kind = "ball"
         element = SubElement(body, "joint", name=name, type=kind)
         if joint.pose.position.any():
             element.set("pos", numbers(joint.pose.position))

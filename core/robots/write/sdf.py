@@ -35,9 +35,8 @@ from .text import (
 VERSION = (
     "1.9"  # The first with quaternions; newer parsers convert it, older ones refuse newer files.
 )
-FRAME_PART = (
-    2.0**-20
-)  # of the child's inertial, for frames between axes: readers take no link without mass
+# of the child's inertial, for frames between axes: readers take no link without mass
+FRAME_PART = 2.0**-20
 _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
 
 

@@ -16,10 +16,11 @@ from ..model import Robot
 from .shapes import with_meshes
 from .stl import write_meshes
 
+# All other findings are about geometry and joints.
 OF_INERTIALS = {
     MJCF_INERTIA_TOO_SMALL,
     USD_INERTIA_TOO_SMALL,
-}  # All other findings are about geometry and joints.
+}
 
 
 def with_geometry(

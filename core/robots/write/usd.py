@@ -61,9 +61,8 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     """
     names = unique_names([link.name for link in robot.links], identifier)
     joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
-    heavy = [
-        link for link in robot.roots if link.is_fixed and link.inertial is not None
-    ]  # Prims without mass stand.
+    # Prims without mass stand.
+    heavy = [link for link in robot.roots if link.is_fixed and link.inertial is not None]
     bases = {} if inertial_only else {link.name: link for link in heavy}
     trees = {
         link.name for link in robot.roots if not inertial_only and robot.children(link.name)

@@ -312,9 +312,8 @@ def test_an_empty_gives_mass_center_and_inertia_in_its_own_frame(with_children):
     settings = root.body_moments_assembly
     settings.mass_from, settings.mass = "MASS", 2.5
     assembly = measured(root)
-    assert [found.code for found in assembly.root.findings] == [
-        "assembly_mass_given"
-    ]  # its origin was chosen
+    # its origin was chosen
+    assert [found.code for found in assembly.root.findings] == ["assembly_mass_given"]
     body = assembly.measurement.mass_properties
     assert close(body.mass, 2.5, 1e-15) and np.abs(body.center - (1, 2, 3)).max() < 1e-6
     side = 3.0 if with_children else 0.0  # m

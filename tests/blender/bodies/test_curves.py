@@ -276,9 +276,8 @@ def test_flat_region_takes_varying_density():
     settings.density_from, settings.density_polynomial = "POLYNOMIAL", "200 + 100*x"
     found = measured(obj)
     assert found.density_from.code == "density_from_polynomial"
-    assert found.mass_properties.mass == pytest.approx(
-        100.0 * np.pi, rel=5e-3
-    )  # Blender's polygon is smaller
+    # Blender's polygon is smaller
+    assert found.mass_properties.mass == pytest.approx(100.0 * np.pi, rel=5e-3)
     assert found.mass_properties.center[0] == pytest.approx(0.125, rel=5e-3)
     assert "display_mesh_needed" in said(found)
 

@@ -303,9 +303,8 @@ def test_level_set_is_no_density_and_measures_as_solid(tmp_path):
     assert found.mass_properties.mass == pytest.approx(1000 * found.volume, rel=1e-12)
     assert found.mass_properties.center == pytest.approx([5, 0, 0], abs=1e-3)
     told = said(found)["level_set_measured"]
-    assert (
-        told["grid"] == "distance" and 1.3 < told["polygons"] * 0.1**2 / found.area < 1.6
-    )  # through each voxel
+    # through each voxel
+    assert told["grid"] == "distance" and 1.3 < told["polygons"] * 0.1**2 / found.area < 1.6
 
 
 def test_volume_without_file_is_refused_after_saving(tmp_path):

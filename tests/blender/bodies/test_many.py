@@ -215,7 +215,7 @@ def test_stacked_shards_equal_single_measurements():
 def test_options_hold_for_each_stacked_object():
     objects = shards(2)
     for options in (
-        MeasureOptions(density=2700.0, unit_scale=0.001, pose=True),
+        MeasureOptions(density=2700.0, unit_scale=0.001),
         MeasureOptions(mass=3.0),
         MeasureOptions(kind="shell", thickness=0.001),
         MeasureOptions(overlap="union"),

@@ -165,9 +165,8 @@ def test_a_mixed_selection_is_each_measured_by_itself(seed, tmp_path, reported):
     assert list(bpy.context.selected_objects) == objects
     assert_total_is(total, displayed.total(bpy.context))
     refusals = [values for findings in alone for values in refused(findings)]
-    refusals = [
-        values for values in refusals if values["object"] not in ("Empty", "Camera")
-    ]  # passed over together
+    # passed over together
+    refusals = [values for values in refusals if values["object"] not in ("Empty", "Camera")]
     kept = {name: group.finding.code for group in groups for name in group.objects}
     assert kept == {values["object"]: values["cause"]["code"] for values in refusals}
     assert "linked_object" in kept.values()

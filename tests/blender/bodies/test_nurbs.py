@@ -27,9 +27,8 @@ from tests.close import close
 pytestmark = pytest.mark.usefixtures("scene")
 
 BALL = 4.0 * np.pi / 3.0
-STORED = (
-    1.0 - 1.95e-7
-)  # what the rounding of the primitive's control points and weights leaves of a ball
+# what the rounding of the primitive's control points and weights leaves of a ball
+STORED = 1.0 - 1.95e-7
 
 
 def primitive(name):
@@ -529,6 +528,5 @@ def test_instances_of_patches_that_overlap_are_united_too():
     empty.body_moments.overlap = "UNION"
     united = measured(empty)
     assert str(united.method) == "union" and "display_mesh_needed" in said(united)
-    assert close(
-        united.volume, BALL * 27.0 / 16.0, 0.02
-    )  # of two balls whose centers are a radius apart
+    # of two balls whose centers are a radius apart
+    assert close(united.volume, BALL * 27.0 / 16.0, 0.02)

@@ -314,9 +314,8 @@ def test_limited_locations_of_bones_slide():
         (joint,) = [joint for joint in made.robot.joints if joint.child == name]
         return joint.free
 
-    assert [free.kind for free in found()] == [
-        "rotate"
-    ]  # Locations without a constraint stay locked.
+    # Locations without a constraint stay locked.
+    assert [free.kind for free in found()] == ["rotate"]
     limit = bone.constraints.new("LIMIT_LOCATION")
     limit.owner_space = "LOCAL"
     limit.use_min_y, limit.use_max_y, limit.min_y, limit.max_y = True, True, -0.5, 1.0

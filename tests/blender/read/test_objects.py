@@ -522,9 +522,8 @@ def test_edit_mode_reads_the_shape_keys_that_it_shows(blended, edited, half, exp
     assert reading.parts[0].surface.box[1].tolist() == [half] * 3
     single = [] if blended else [expected]
     assert reading.findings == [finding("read_in_mode", mode="Edit Mode"), *single]
-    assert "edit_mode_single_shape_key" not in said(
-        read(other)
-    )  # which is not the one that is edited
+    # which is not the one that is edited
+    assert "edit_mode_single_shape_key" not in said(read(other))
 
 
 def test_members_of_hidden_collection_are_not_listed():

@@ -38,9 +38,8 @@ def test_a_union_is_as_exact_as_float32_wherever_it_is(size, away):
     assert close(moments.raw[0], 40.0 / 3.0 * size**3, tolerance)
     center = moments.about + moments.raw[1:4] / moments.raw[0]
     assert np.abs(center - place - (size * 2.0 / 3.0, 0.0, 0.0)).max() <= tolerance * size
-    more = (
-        united.displacement - surface.coordinate_error
-    )  # rounded before and after Blender's boolean
+    # rounded before and after Blender's boolean
+    more = united.displacement - surface.coordinate_error
     assert (more > 0.1 * FLOAT32_HALF_ULP * size).all() and (
         more < 8.0 * FLOAT32_HALF_ULP * size
     ).all()

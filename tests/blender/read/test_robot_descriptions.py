@@ -31,9 +31,8 @@ def mjcf_turns(rng, degrees, sequence):
     turn = np.eye(3)
     for name, each in zip(sequence, angles):
         step = about(np.eye(3)["xyz".index(name.lower())], each)
-        turn = (
-            turn @ step if name.islower() else step @ turn
-        )  # about axes that turn along, or that do not
+        # about axes that turn along, or that do not
+        turn = turn @ step if name.islower() else step @ turn
     x, y = rng.normal(size=(2, 3))
     upright = y - (y @ x) / (x @ x) * x
     z = np.cross(x, upright)
@@ -447,9 +446,8 @@ def test_mjcf_frames_place_and_scale_what_is_in_them(tmp_path):
     assert near(
         found.shapes[0].shape.size, (0.2, 0.8, 1.8), 1e-15
     ) and found.inertial.center.tolist() == [0, 0, 1.5]
-    found = link(
-        own + '<body name="d" pos="1" scale="2">{}</body>'.format(own + geom)
-    )  # no frame: it has no scale
+    # no frame: it has no scale
+    found = link(own + '<body name="d" pos="1" scale="2">{}</body>'.format(own + geom))
     assert found.inertial.mass == 2 and found.span is not None and not found.findings
     for wrong in (
         "<frame scale='0'>{}</frame>",

@@ -310,9 +310,8 @@ def test_collada(tmp_path, seed):
     else:
         assert upright.tolist() == UPRIGHT[up]
     path.write_text(content.format(unit, "Z_UP", geometries, text(second), steps, ""))
-    everything = np.concatenate(
-        [corners, corners, points[triangles]]
-    )  # as it is, where there is no scene
+    # as it is, where there is no scene
+    everything = np.concatenate([corners, corners, points[triangles]])
     assert check(path, meter * everything) is None
     path.write_text(
         "<COLLADA>"

@@ -204,9 +204,8 @@ def Xform "world" ( doc = "a }} b" )
     for stated, order in zip(link.shapes[8:10], ([0, 1, 2], [2, 1, 0])):
         assert stated.shape.kind == "mesh" and near(stated.shape.surface.points, placed, 1e-12)
         assert (stated.shape.surface.triangles == indices[np.array(fans)][:, order]).all()
-    assert (
-        len(link.shapes) == 11 and link.shapes[10].shape.kind == "ellipsoid"
-    )  # up to the next body
+    # up to the next body
+    assert len(link.shapes) == 11 and link.shapes[10].shape.kind == "ellipsoid"
     for other, size, place in (
         (following, meters, np.eye(4)),
         (only, meters * np.cbrt(np.linalg.det(first)), first),
@@ -232,21 +231,23 @@ def test_damaged_meshes_in_usd_are_findings(tmp_path):
     ]
     cases = [{**whole, **change} for change in wrong]
     cases += [{name: value for name, value in whole.items() if name != left} for left in whole]
+    # a triangle
     cases.append(
         {**whole, "faceVertexCounts": "[2, 3, 1]", "faceVertexIndices": "[2, 2, 0, 1, 2, 1]"}
-    )  # a triangle
+    )
     meshes = ["\n".join("int[] {} = {}".format(*item) for item in case.items()) for case in cases]
     prims = "".join('def Mesh "m" {{\n{}\n}}\n'.format(mesh) for mesh in meshes)
     body = '#usda 1.0\ndef Xform "b" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{\n{}{}}}'
     (link,) = read(tmp_path, body.format("float physics:mass = 1\n", prims)).links
     assert len(link.shapes) == 1 and link.inertial is None
+    # an absent attribute may stand in another layer
     texts = [
         "[0, 1]",
         "[4]",
         "[]",
         "[0, 1, 3]",
         "[0, -1, 2]",
-    ]  # an absent attribute may stand in another layer
+    ]
     assert [one.values["text"] for one in link.findings] == texts
     assert (
         link.shapes[0].shape.surface.points == [[0, 0, 0], [0.01, 0, 0], [0, 0.01, 0]]
@@ -357,17 +358,19 @@ def test_usd_shapes_are_as_large_as_each_axis_says(tmp_path):
         np.eye(3)[:, order] for order in ([1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2])
     ]
     turns += [np.eye(3)[:, [1, 2, 0]], np.eye(3)]
+    # a mirrored one is turned
     for signs, turn in (
         ((1, 1, 1), np.eye(3)),
         ((-1, 1, 1), np.diag([1, -1, -1])),
-    ):  # a mirrored one is turned
+    ):
         text = scale.format(", ".join(map(str, np.multiply(signs, (2, 3, 5)).tolist())))
         inside = "".join("{}\n{}}}\n".format(prim, text) for prim in prims)
         (link,) = bodies(tmp_path, BODY.format("b", inside), "(\nmetersPerUnit = 1\n)\n")
+        # not the default in its place
         assert [one.values["text"] for one in link.findings] == [
             "(3, 4)",
             "Cone",
-        ]  # not the default in its place
+        ]
         for stated, size, own in zip(link.shapes, sizes, turns, strict=True):
             assert near(np.array(stated.shape.size), np.array(size, float), 1e-15)
             assert near(stated.shape.pose.rotation, turn @ own, 1e-15)
@@ -394,9 +397,8 @@ def test_usd_meshes_and_bodies_that_are_mirrored(tmp_path, is_mirrored, is_left_
         (link,) = bodies(tmp_path, content)
         (made,) = (shape.shape.surface for shape in link.shapes)
         assert near(made.points, 0.01 * np.diag(local), 1e-15)
-        ahead = (
-            np.linalg.det(made.points[made.triangles[0]]) > 0.0
-        )  # whether it faces away from the origin
+        # whether it faces away from the origin
+        ahead = np.linalg.det(made.points[made.triangles[0]]) > 0.0
         assert ahead == (not is_left_handed)
         if content is own:
             assert near(link.local, np.diag([*local, 1.0]), 1e-15)

@@ -146,10 +146,11 @@ def test_invalid_descriptions_are_refused(tmp_path):
     ):
         assert refusal(read_description, write(tmp_path / "a.xml", content)) == code, content[:40]
     binary = write(tmp_path / "a.xml", b"PXR-USDC\0\0")
+    # without and with usd-core
     assert refusal(read_description, binary) in (
         "usd_not_text",
         "file_unreadable",
-    )  # without and with usd-core
+    )
     assert refusal(read_description, tmp_path / "none.urdf") == "file_missing"
     assert refusal(read_description, tmp_path) == "file_not_regular"
 

@@ -176,16 +176,14 @@ def test_moved_object_is_restored_after_internal_error(name, monkeypatch):
 
     def failing(obj, *args):
         seen.append(obj.name)
-        if (
-            obj.name == "b" and seen.count("b") % 2 == 0
-        ):  # looked at again, to see whether its shape is the same
+        # looked at again, to see whether its shape is the same
+        if obj.name == "b" and seen.count("b") % 2 == 0:
             raise TypeError("planted")
         return real(obj, *args)
 
     monkeypatch.setattr(reframe, "shape", failing)
-    monkeypatch.setattr(
-        reframe, "reframe_own_meshes", lambda *_: []
-    )  # which reframes them together
+    # which reframes them together
+    monkeypatch.setattr(reframe, "reframe_own_meshes", lambda *_: [])
     assert OPERATORS[name]() == {"FINISHED"}
     assert seen.count("b") >= 2 and state(bodies[1]) == before
 

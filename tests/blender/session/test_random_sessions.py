@@ -7,7 +7,7 @@ import pytest
 pytest.importorskip("bpy")
 from body_moments.blender.read import mesh
 
-from tests.soak import sessions
+from tools.soak import sessions
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -124,9 +124,8 @@ def test_drivers_follow_storing_without_evaluating_geometry():
     obj = add(mesh_body())
     obj["own"] = 0.0
     other = add(None, "Other", select=False)
-    user = add(
-        mesh_body("User"), "User", select=False
-    )  # shown anew with whatever moves its operand
+    # shown anew with whatever moves its operand
+    user = add(mesh_body("User"), "User", select=False)
     user.modifiers.new("Boolean", "BOOLEAN").object = obj
     child = add(mesh_body("Child"), "Child", select=False)
     child.parent = obj

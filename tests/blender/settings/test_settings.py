@@ -49,7 +49,7 @@ def test_copied_settings_keep_set_and_unset_values():
         if name in properties.COPIED_PROPERTIES:
             setattr(source, name, other)
             assert properties.copy_settings(source, target), name
-            assert properties._comparable(getattr(target, name)) == properties._comparable(
+            assert properties.comparable(getattr(target, name)) == properties.comparable(
                 getattr(source, name)
             )
             assert not properties.copy_settings(source, target), name

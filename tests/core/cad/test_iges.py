@@ -257,9 +257,8 @@ def test_plane_within_curves_is_a_face(tmp_path, given, way):
     read = read_surfaces(file.write(tmp_path / "a.igs"), for_blender=False)
     found = [area_moments([face], 0)[0].total for face in read.bodies[0].patches]
     assert read.refused == () and close(found, np.array([3.75 * np.pi, 36.0 - 0.25 * np.pi]), 1e-14)
-    assert (
-        refusal(tmp_path / "a.igs").values["causes"][0]["code"] == "surface_trimmed"
-    )  # for Blender
+    # for Blender
+    assert refusal(tmp_path / "a.igs").values["causes"][0]["code"] == "surface_trimmed"
 
 
 @pytest.mark.parametrize(

@@ -27,9 +27,8 @@ def test_once_around_from_any_corner_in_either_sense(first, way):
     assert trims_nothing(lines(*corners), DOMAIN) and trims_nothing([polyline(*corners)], DOMAIN)
     assert trims_nothing(lines(*corners, *corners[1:]), DOMAIN) is False  # twice
     assert trims_nothing(lines(*corners[:-1]), DOMAIN) is False  # open
-    assert (
-        trims_nothing(lines(*corners[:3], corners[1], corners[0]), DOMAIN) is False
-    )  # there and back
+    # there and back
+    assert trims_nothing(lines(*corners[:3], corners[1], corners[0]), DOMAIN) is False
     assert trims_nothing(lines(*corners[:2], *corners[:1], *corners[1:]), DOMAIN) is False
 
 
@@ -65,16 +64,13 @@ def test_seams_and_poles_may_be_anywhere(at):
     )
     assert trims_nothing(lines(a, b, c, d, a), DOMAIN, (False, False)) == (at == 0.0)
     assert not trims_nothing(lines(b, c) + lines(d, a), DOMAIN, closed)  # the circles are missing
-    assert not trims_nothing(
-        lines(b, c) + lines(a, d), DOMAIN, closed, poles
-    )  # a seam run twice the same way
-    assert not trims_nothing(
-        [around[0], *lines(d, c)], DOMAIN, closed
-    )  # circles that bound no band
+    # a seam run twice the same way
+    assert not trims_nothing(lines(b, c) + lines(a, d), DOMAIN, closed, poles)
+    # circles that bound no band
+    assert not trims_nothing([around[0], *lines(d, c)], DOMAIN, closed)
     middle = np.array([0.0, 1.0])
-    assert not trims_nothing(
-        lines(a, b, b + middle, a + middle, a), DOMAIN, closed, poles
-    )  # a part of it
+    # a part of it
+    assert not trims_nothing(lines(a, b, b + middle, a + middle, a), DOMAIN, closed, poles)
 
 
 def test_edge_across_the_domain_trims_despite_ends_on_sides():

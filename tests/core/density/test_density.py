@@ -68,9 +68,8 @@ def test_grid_moments_to_order_20_match_fractions(order, signed):
     ):
         if not signed and not any(power % 2 for power in powers):  # nothing cancels
             assert abs(Fraction(value) - truth) <= truth / 10**12
-            assert bound <= (1e-11 if sum(powers) < 4 else 1e-2) * float(
-                truth
-            )  # (|t| + w)^l is far from sharp
+            # (|t| + w)^l is far from sharp
+            assert bound <= (1e-11 if sum(powers) < 4 else 1e-2) * float(truth)
 
 
 @pytest.mark.parametrize("axis", range(3))
@@ -202,8 +201,7 @@ def test_values_are_mapped_before_they_are_summed():
 
 
 def test_signaling_nan_samples_are_refused_without_warning():
-    samples = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(
-        np.float32
-    )  # a damaged file may hold it
+    # a damaged file may hold it
+    samples = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)
     with refused("density_non_finite"):
         grid_moments(samples, samples.shape, np.eye(4))

@@ -161,6 +161,5 @@ def test_nonfinite_values_are_refused():
     with refused("density_non_finite"):
         inside_moments(blob(), np.full((7, 7, 7), np.nan))
     with refused("density_non_finite"):
-        inside_moments(
-            blob(), np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)
-        )  # a signaling NaN
+        # a signaling NaN
+        inside_moments(blob(), np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32))

@@ -4,7 +4,7 @@
 
 import pytest
 
-from tests.paper_tables import ROWS, as_printed, main
+from tools.paper_tables import ROWS, as_printed, main
 
 COUNTS = {
     "S1": 7123,

@@ -56,9 +56,8 @@ def linear_truth(points, triangles, density, about):
         )
         for at, powers in enumerate(exact.MONOMIALS):
             axes = [axis for axis, n in enumerate(powers) for _ in range(n)]
-            for choice in product(
-                range(3), repeat=len(axes) + 1
-            ):  # the corner of each factor and of the density
+            # the corner of each factor and of the density
+            for choice in product(range(3), repeat=len(axes) + 1):
                 value = Fraction(float(rho[choice[-1]]))
                 for axis, k in zip(axes, choice):
                     value *= corner[k][axis]

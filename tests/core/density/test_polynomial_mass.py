@@ -269,9 +269,8 @@ def test_a_cylinder_with_a_linear_density():
     assert body.mass == pytest.approx(area * height * (a + b * height / 2.0), rel=1e-14)
     z = (a * height / 2.0 + b * height**2 / 3.0) / (a + b * height / 2.0)
     assert body.center == pytest.approx([0.0, 0.0, z], abs=1e-14)
-    gyration = (
-        radius**2 / 6.0 * (2.0 + np.cos(2.0 * np.pi / n))
-    )  # a regular polygon about its center
+    # a regular polygon about its center
+    gyration = radius**2 / 6.0 * (2.0 + np.cos(2.0 * np.pi / n))
     assert body.inertia[2, 2] == pytest.approx(body.mass * gyration, rel=1e-13)
 
 
@@ -306,9 +305,8 @@ def test_the_winding_number_tells_inside_from_outside():
     points, triangles = prism()
     points, triangles = np.array(points), np.array(triangles)
     assert winding_number(points, triangles, (0.5, 0.5, 0.0)) == pytest.approx(1.0, abs=1e-12)
-    assert winding_number(points, triangles, (2.0, 2.0, 0.0)) == pytest.approx(
-        0.0, abs=1e-12
-    )  # in the notch
+    # in the notch
+    assert winding_number(points, triangles, (2.0, 2.0, 0.0)) == pytest.approx(0.0, abs=1e-12)
     assert winding_number(points, triangles[:, ::-1], (0.5, 0.5, 0.0)) == pytest.approx(
         -1.0, abs=1e-12
     )

@@ -14,9 +14,8 @@ from tests.core import bodies, exact
 def found(text, body, solid=True):
     """The value and the place, or None, and a flag if a negative value remains possible."""
     points, triangles = (np.array(part) for part in body)
-    unused = np.concatenate(
-        [points, [[-1e3, 1e3, 1e3]]]
-    )  # any of these densities would differ there
+    # any of these densities would differ there
+    unused = np.concatenate([points, [[-1e3, 1e3, 1e3]]])
     return find_negative_point(parse_polynomial(text), unused, triangles, solid)
 
 
@@ -46,7 +45,6 @@ def test_positive_density_is_known_to_be_positive(text):
 
 def test_density_outside_the_body_does_not_count():
     assert found("(x - 5.5)**2 + (y - 5.5)**2 - 3", ANGLE) == (None, True)  # between the arms
-    (value, place), unsure = found(
-        "(x*y)**8 - 1000", ANGLE
-    )  # a millionth of what there is between the arms
+    # a millionth of what there is between the arms
+    (value, place), unsure = found("(x*y)**8 - 1000", ANGLE)
     assert value == -1000.0 and place[0] * place[1] == 0.0 and not unsure

@@ -309,9 +309,8 @@ def test_empty_full_and_bad_samples_are_handled():
     with pytest.raises(MeasureError) as refused:
         threshold_body(samples, 0.5)
     assert refused.value.finding.code == "density_non_finite"
-    signaling = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(
-        np.float32
-    )  # a damaged file may hold it
+    # a damaged file may hold it
+    signaling = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)
     with pytest.raises(MeasureError):
         threshold_body(signaling, 0.5)
     with pytest.raises(ValueError, match="two samples per axis"):

@@ -46,12 +46,13 @@ def test_malformed_table_is_refused(text, code, values):
 
 
 def test_units_have_their_sizes_and_follow_the_scene():
+    # NIST SP 811
     sizes = {
         "KG_M3": 1.0,
         "G_CM3": 1000.0,
         "LB_IN3": 27679.904710203125,
         "LB_FT3": 16.01846337396014,
-    }  # NIST SP 811
+    }
     assert DENSITY_UNITS.keys() == sizes.keys()
     assert all(close(DENSITY_UNITS[name][0], size, 1e-14) for name, size in sizes.items())
     shown = {"METRIC": "KG_M3", "IMPERIAL": "LB_FT3", "NONE": "KG_M3"}

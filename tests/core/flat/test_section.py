@@ -214,9 +214,8 @@ def test_plane_faces_as_most_faces_and_near_preferred_axes():
     )
     down = fit_plane(points, triangles[:, ::-1], np.eye(3), np.zeros(3))
     assert down.axes == pytest.approx(np.diag([1.0, -1.0, -1.0])) and down.x_axis_name == "X"
-    upright = fit_plane(
-        points[:, [2, 0, 1]], triangles, np.eye(3), np.array([9.0, 1.0, 1.0])
-    )  # in the plane of y, z
+    # in the plane of y, z
+    upright = fit_plane(points[:, [2, 0, 1]], triangles, np.eye(3), np.array([9.0, 1.0, 1.0]))
     assert upright.x_axis_name == "Y" and upright.axes[:, 0] == pytest.approx([0, 1, 0])
     assert upright.origin == pytest.approx([0, 1, 1])
 
@@ -253,10 +252,11 @@ def test_section_without_area_is_refused():
     for edges in ([[0, 1], [1, 0]], np.zeros((0, 2), np.intp)):
         with refused("section_encloses_nothing"):
             measure_section(LEVEL, points, np.array(edges))
+    # flat, and an outside
     for outline in (
         [(0, 0), (1, 1), (3, 3)],
         [(0, 0), (0, 2), (2, 2), (2, 0)],
-    ):  # flat, and an outside
+    ):
         with refused("section_encloses_nothing"):
             measure_section(
                 LEVEL, lifted(np.array(outline, float)), directed_edges([range(len(outline))])
@@ -338,9 +338,8 @@ def test_plane_lies_amid_its_points_for_any_facing(facing, turned, size):
         and np.linalg.det(plane.axes) > 0.0
     )
     assert plane.x_axis_name == "X" and plane.axes[0, 0] > 0.0
-    assert (
-        abs(np.cross(found, [1.0, 0.0, 0.0]) @ plane.axes[:, 0]) <= 1e-14
-    )  # in the plane of the normal and X
+    # in the plane of the normal and X
+    assert abs(np.cross(found, [1.0, 0.0, 0.0]) @ plane.axes[:, 0]) <= 1e-14
 
 
 @pytest.mark.parametrize("more", [[], [[0, 0, 1], [0, 1, 0]]])

@@ -22,9 +22,8 @@ from body_moments.core.polyhedron import integration
 from tests.core import bodies
 from tests.core.findings import refused
 
-polyhedron_moments = partial(
-    integration.polyhedron_moments, allow_open=True
-)  # open faces count as given
+# open faces count as given
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)
 
 
 def half_grid(half):
@@ -46,9 +45,8 @@ def test_the_fast_sums_are_within_the_bound_of_their_aliasing(width):
     for found, strength in zip(spreading.sums(), strengths):
         error = np.abs(found.reshape(-1) - waves @ strength)
         assert (error <= 1.01 * share * np.abs(strength).sum()).all()
-        assert (
-            error.max() >= 1e-3 * share.max() * np.abs(strength).sum()
-        )  # the bound says something
+        # the bound says something
+        assert error.max() >= 1e-3 * share.max() * np.abs(strength).sum()
 
 
 LOPSIDED = bodies.moved(bodies.torus(36, 16), [[1, 0.2, 0], [0, 0.7, 0], [0.1, 0, 1.5]], (3, -2, 5))

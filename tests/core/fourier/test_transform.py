@@ -19,9 +19,8 @@ from tests.close import close
 from tests.core import bodies, exact
 from tests.core.findings import refused
 
-polyhedron_moments = partial(
-    integration.polyhedron_moments, allow_open=True
-)  # open faces count as given
+# open faces count as given
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)
 
 TETRAHEDRON = (
     np.array([[0, 0, 0], [1, 0, 0], [0.5, 0.75**0.5, 0], [0.5, 0.75**0.5 / 3, (2 / 3) ** 0.5]]),

@@ -20,13 +20,14 @@ from body_moments.core.moments.moments import SECOND_MOMENT_INDEX
 from tests.close import close
 from tests.core.inertia.test_reference import box
 
+# of each symmetry, and of a flat body
 SPREADS = (
     (5, 3, 2),
     (5, 2, 2),
     (5, 5, 2),
     (3, 3, 3),
     (5, 3, 0),
-)  # of each symmetry, and of a flat body
+)
 
 
 @pytest.mark.parametrize("scale", [1e-9, 1e9])

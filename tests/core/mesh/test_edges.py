@@ -121,10 +121,11 @@ def test_a_closed_mesh_is_proven_closed_by_its_own_corners(points, faces):
     edges = dict.fromkeys(
         tuple(sorted((face[i - 1], face[i]))) for face in faces for i in (*range(1, len(face)), 0)
     )
+    # in the order in which the faces come to them, as in the mesh
     assert sides.shape == (
         2,
         len(edges),
-    )  # in the order in which the faces come to them, as in the mesh
+    )
     for edge, pair in zip(edges, sides.T):
         expected = {
             k

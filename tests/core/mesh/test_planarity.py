@@ -15,9 +15,8 @@ from body_moments.core.polyhedron import integration
 from tests.close import close
 from tests.core.bodies import ring, rotation
 
-polyhedron_moments = partial(
-    integration.polyhedron_moments, allow_open=True
-)  # open faces count as given
+# open faces count as given
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)
 
 
 def one_by_one(surface, error):
@@ -58,9 +57,8 @@ def quads(kind, dtype):
     """
     points, faces = ring(60, 30)
     rng = np.random.default_rng(3)
-    loose = points[faces].reshape(
-        -1, 3
-    )  # each quad with corners of its own, so that they can be bent one by one
+    # each quad with corners of its own, so that they can be bent one by one
+    loose = points[faces].reshape(-1, 3)
     faces = np.arange(len(loose)).reshape(-1, 4)
     a, b, _, d = (loose[k::4].copy() for k in range(4))
     scale = np.exp(rng.uniform(-4.0, 0.0, (len(faces), 1))) if kind != "folded" else 0.5
@@ -69,9 +67,8 @@ def quads(kind, dtype):
     normal = np.cross(b - a, d - a)
     if kind == "bent":
         c += normal * rng.uniform(-5.0, 5.0, (len(c), 1))
-    if (
-        kind == "folded"
-    ):  # two triangles that nearly make up for each other, bent by about their own limit
+    # two triangles that nearly make up for each other, bent by about their own limit
+    if kind == "folded":
         size = np.linalg.norm(normal, axis=1)[:, None]
         c[::5] = (a + 1.5 * (b - a) - 1.45 * (d - a) + 1e-5 * normal / size)[::5]
     if kind == "bare":  # but for a trace of an area, on one side
@@ -79,9 +76,8 @@ def quads(kind, dtype):
         c[::17] = b[::17] + (d - a)[::17]
     if kind in ("some", "all sorts"):
         c[::7] += (normal * rng.uniform(-5.0, 5.0, (len(c), 1)))[::7]
-        c[1::7] += (normal * 1e-6 * rng.uniform(-200.0, 200.0, (len(c), 1)))[
-            1::7
-        ]  # about the limit
+        # about the limit
+        c[1::7] += (normal * 1e-6 * rng.uniform(-200.0, 200.0, (len(c), 1)))[1::7]
     if kind == "all sorts":
         c[::5] = a[::5] - 0.3 * (c - a)[::5]  # folded
         d[::11] = b[::11]  # two triangles on each other

@@ -83,9 +83,8 @@ def test_lines_through_a_lattice_of_vertices_miss_nothing():
 
 def test_quads_are_met_as_their_triangles():
     points, quads = ring(30, 20)
-    points = points + 0.02 * np.random.default_rng(0).normal(
-        size=points.shape
-    )  # so that some are cut the other way
+    # so that some are cut the other way
+    points = points + 0.02 * np.random.default_rng(0).normal(size=points.shape)
     body = Surface(points, quads=quads)
     cut = Surface.from_triangles(points, body.all_triangles()[0])
     grid = grid_of(body)

@@ -4,12 +4,12 @@
 
 import numpy as np
 import pytest
-from body_moments.core.inertia.canonical_frame import _tensor_positions
 from body_moments.core.moments.affine_maps import (
     apply_translation,
     rotate_moments,
 )
 from body_moments.core.moments.exponents import monomial_count, monomials, tensor_index
+from body_moments.core.shape.canonical_frame import _tensor_positions
 
 from tests.close import close
 from tests.core import bodies

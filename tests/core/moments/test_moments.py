@@ -128,9 +128,8 @@ def test_an_affine_map_is_exact_within_its_bound(name, order):
     image = floats(exact).transform(matrix)
     assert np.array_equal(image.about, matrix[:3, 3])
     assert_within_bound(image, mapped_exactly(exact, matrix, image.about, order))
-    if (
-        order == ORDER
-    ):  # Not vacuous: what a few roundings of the positions and of the largest moment amount to.
+    # Not vacuous: what a few roundings of the positions and of the largest moment amount to.
+    if order == ORDER:
         assert image.rounding_error.max() <= 1e-14 * (np.abs(matrix).max() + 1.0) * max(
             np.abs(image.raw).max(), 1e-40
         )
@@ -192,9 +191,8 @@ def test_shift_at_order_20_is_exact_within_a_tight_bound(point):
     shifted = body.about_point(point)
     exact = box_moments(low, high, 20, point)
     assert_within_bound(shifted, exact)
-    reach = np.abs([low, high]).max(axis=0) + np.abs(
-        point
-    )  # the sum of the sizes of the binomial theorem's terms
+    # the sum of the sizes of the binomial theorem's terms
+    reach = np.abs([low, high]).max(axis=0) + np.abs(point)
     largest = 24.0 * np.prod(reach ** monomials(20), axis=1)
     assert (shifted.rounding_error <= 1e-13 * largest).all()
 
@@ -202,9 +200,8 @@ def test_shift_at_order_20_is_exact_within_a_tight_bound(point):
 @pytest.mark.parametrize("of", ["volume", "area", "mass"])
 def test_a_frame_is_a_turn_about_its_origin(of):
     exact = simplex_moments(7)
-    rotation = np.array(
-        [[0.6, 0.0, 0.8], [0.8, 0.0, -0.6], [0.0, 1.0, 0.0]]
-    )  # columns are the axes
+    # columns are the axes
+    rotation = np.array([[0.6, 0.0, 0.8], [0.8, 0.0, -0.6], [0.0, 1.0, 0.0]])
     body = floats(exact, of=of).in_frame(rotation, (1.0, -2.0, 0.5))
     to_frame = np.eye(4)
     to_frame[:3, :3], to_frame[:3, 3] = rotation.T, rotation.T @ [-1.0, 2.0, -0.5]

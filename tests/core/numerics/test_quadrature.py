@@ -24,9 +24,8 @@ def test_a_rule_on_a_unit_length_is_exact_to_its_degree(points):
     assert not close(weights @ nodes ** (2 * points), 1.0 / (2 * points + 1), 1e-13)
     with_ends, more = gauss_legendre_with_ends(points)
     assert with_ends.tolist() == [0.0, *nodes, 1.0] and more.tolist() == [0.0, *weights, 0.0]
-    assert not any(
-        row.flags.writeable for row in (nodes, weights, with_ends, more)
-    )  # they are kept
+    # they are kept
+    assert not any(row.flags.writeable for row in (nodes, weights, with_ends, more))
 
 
 def test_a_rule_of_many_points_is_exact_to_rounding():

@@ -101,9 +101,8 @@ def test_half_and_third_turns_are_exact_without_negative_zeros():
     found = quaternion(matrices)
     assert found.shape == (4, 4, 4) and np.abs(found - known).max() <= 1e-14
     assert not np.signbit(quaternion(np.rint(matrices[:2]))[(known[:2] == 0.0)]).any()
-    far = np.array(
-        [[1.0, 0.0, 0.0], [0.0, -0.5, 0.75**0.5], [0.0, -(0.75**0.5), -0.5]]
-    )  # 240° about x
+    # 240° about x
+    far = np.array([[1.0, 0.0, 0.0], [0.0, -0.5, 0.75**0.5], [0.0, -(0.75**0.5), -0.5]])
     for axis in range(3):
         found = quaternion(np.roll(far, (axis, axis), (0, 1)))
         across = [0, 1, 2, 3][1:][:axis] + [0, 1, 2, 3][axis + 2 :]

@@ -57,9 +57,8 @@ def test_the_length_of_a_parabola_is_its_closed_form():
 
 
 def test_length_estimate_of_a_cusp_holds():
-    cusp = Curve(
-        clamped_space(4), [(0, 0, 0), (1, 1, 0), (0, 1, 0), (1, 0, 0)]
-    )  # symmetric, its speed zero half-way
+    # symmetric, its speed zero half-way
+    cusp = Curve(clamped_space(4), [(0, 0, 0), (1, 1, 0), (0, 1, 0), (1, 0, 0)])
     moments = length_moments([cusp], 0)
     t = (np.arange(2_000_000) + 0.5) / 2_000_000
     speed = np.linalg.norm(

@@ -207,13 +207,14 @@ def test_area_estimate_of_a_folded_patch_holds():
     """A line that runs forth and back, dragged aside: its length, between its turns, is the
     area.
     """
+    # with the last ones it turns beyond all points of the coarse rules
     for third in (
         0.4,
         -0.1,
         -0.7,
         0.99,
         0.999,
-    ):  # with the last ones it turns beyond all points of the coarse rules
+    ):
         x = np.array([0.0, 1.0, third])  # x = 2 t (1 - t) + third t²
         turn = 1.0 / (2.0 - third)
         peak = 2.0 * turn * (1.0 - turn) + third * turn * turn
@@ -245,9 +246,8 @@ def test_a_sheet_thicker_than_its_radius_is_refused():
         sheet_moments([torus()], -0.3, 0.3)
     sheet_moments([torus()], -0.24, 0.24)
     with refused("wall_thicker_than_curvature"):
-        sheet_moments(
-            [sphere()], -1.5, 1.5
-        )  # beyond the center both curvatures are: their product is positive again
+        # beyond the center both curvatures are: their product is positive again
+        sheet_moments([sphere()], -1.5, 1.5)
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
@@ -271,9 +271,8 @@ def test_patch_far_from_the_point_is_exact_within_its_bound(weighted, far):
     """Neither the tangents nor the agreement of rules may suffer from the distance."""
     rng = np.random.default_rng(1)
     shape = (6, 5)
-    points = (
-        rng.integers(-(2**20), 2**20, (*shape, 3)) / 2.0**20
-    )  # with the distance added still exact
+    # with the distance added still exact
+    points = rng.integers(-(2**20), 2**20, (*shape, 3)) / 2.0**20
     weights = 10.0 ** rng.uniform(-0.5, 0.5, shape) if weighted else None
     spaces = clamped_space(4, (0.25, 0.5)), clamped_space(3, (0.125, 0.75))
     here, _ = volume_moments(closed_by_cones(Patch(spaces, points, weights)), 2, ORIGIN)

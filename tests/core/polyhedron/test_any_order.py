@@ -26,9 +26,8 @@ from tests.core.findings import refused
 from tests.core.polyhedron.test_third_order import grid_torus
 from tests.core.strategies import holds, random_meshes, seeds
 
-polyhedron_moments = partial(
-    integration.polyhedron_moments, allow_open=True
-)  # open faces count as given
+# open faces count as given
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)
 
 
 @pytest.fixture(params=["one block", "many blocks"])
@@ -194,9 +193,8 @@ def test_the_bounds_are_not_vacuous(order):
     reach = 1.4**degree
     assert (volume.rounding_error <= 1e-12 * volume.total * reach).all()
     assert (area.rounding_error <= 1e-12 * area.total * reach).all()
-    even = (monomials(order) % 2 == 0).all(
-        axis=1
-    )  # whose moments do not cancel, and mostly lie far inside the box
+    # whose moments do not cancel, and mostly lie far inside the box
+    even = (monomials(order) % 2 == 0).all(axis=1)
     assert (volume.rounding_error[even] <= 1e-11 * volume.raw[even]).all()
     assert (area.rounding_error[even] <= 1e-11 * area.raw[even]).all()
 
@@ -273,9 +271,8 @@ def test_pieces_make_the_whole(path, order):
     assert np.array_equal(streamed[0].about, about)
     assert_within(streamed[0], exact.volume_moments(points, triangles, about, order))
     pieces.insert(0, np.zeros((0, 3, 3)))
-    blind = polyhedron_moments(
-        iter(pieces), order, area_order=order
-    )  # about the middle of the first that has faces
+    # about the middle of the first that has faces
+    blind = polyhedron_moments(iter(pieces), order, area_order=order)
     assert np.abs(blind[0].about - whole[0].about).max() > 0.01
     assert_within(blind[0], exact.volume_moments(points, triangles, blind[0].about, order))
     assert_within(blind[1], exact.area_moments(points, triangles, blind[1].about, order=order))

@@ -90,9 +90,8 @@ def test_a_chain_of_cylinders_gives_each_bone_its_cylinder(turn):
     character = made.cylinder_chain(lengths, radius, sides).moved(turn, (10.0, 20.0, -5.0))
     angle = 2.0 * np.pi / sides
     area = sides / 2.0 * radius**2 * np.sin(angle)
-    polar = (
-        area * radius**2 * (2.0 + np.cos(angle)) / 6.0
-    )  # the second moment of a regular polygon about its center
+    # the second moment of a regular polygon about its center
+    polar = area * radius**2 * (2.0 + np.cos(angle)) / 6.0
     start = 0.0
     for piece, length in zip(cut(character), lengths, strict=True):
         assert is_closed(piece.surface)

@@ -13,7 +13,6 @@ import pytest
 from body_moments.core.numerics.rotations import quaternion
 from body_moments.core.robots.diagnosis import (
     CENTERS,
-    IMPERIAL,
     IMPERIAL_INERTIAS,
     INCH,
     LENGTHS,
@@ -38,6 +37,7 @@ AXES = bodies.rotation(5)
 INERTIA = MASS * AXES @ np.diag([0.017, 0.029, 0.036]) @ AXES.T
 TRUTH = StatedInertial(MASS, CENTER, INERTIA)
 REFERENCE = Reference(MASS / DENSITY, CENTER, INERTIA / MASS, (ORIGIN,))
+# mm, cm, inches, and the other way round
 LENGTH_UNITS = (
     1e-3,
     1e-2,
@@ -45,7 +45,8 @@ LENGTH_UNITS = (
     1e3,
     1e2,
     1.0 / 0.0254,
-)  # mm, cm, inches, and the other way round
+)
+# g·m², kg·mm², g·mm², kg·cm², g·cm²
 INERTIA_UNITS = (
     1e-3,
     1e-6,
@@ -57,7 +58,7 @@ INERTIA_UNITS = (
     1e9,
     1e4,
     1e7,
-)  # g·m², kg·mm², g·mm², kg·cm², g·cm²
+)
 
 
 def square(arm):
@@ -107,7 +108,6 @@ def mistakes():
         yield "unit", {"part": "inertia", "factor": factor}, of_inertia(INERTIA / factor)
     in_pounds = {"factor": IMPERIAL_INERTIAS[0]}
     stated = StatedInertial(MASS / POUND, CENTER, INERTIA / IMPERIAL_INERTIAS[0])
-    yield "unit", {"part": IMPERIAL, **in_pounds}, stated
     yield "unit", {"part": WHOLE_IMPERIAL, **in_pounds}, replace(stated, center=CENTER / INCH)
     yield "inertia_of_unit", {"part": "mass", "factor": MASS}, of_inertia(INERTIA / MASS)
     yield "inertia_of_unit", {"part": "density", "factor": DENSITY}, of_inertia(INERTIA / DENSITY)
@@ -215,11 +215,13 @@ def test_center_repaired_alone_claims_agreement_of_centers_only():
     assert note.finding.code == "audit_not_uniform"
 
 
-def test_inertia_in_kg_inches_keeps_a_right_mass_and_is_not_certain():
-    """Pounds and lb·in² explain the same numbers per kilogram, so none of both is certain."""
-    (found,) = diagnose(of_inertia(INERTIA / INCH**2), [REFERENCE])
-    assert close(found.repaired.mass, MASS, 1e-15) and close(found.repaired.inertia, INERTIA, 1e-12)
-    assert not found.is_certain
+def test_square_inches_of_kg_or_pounds_keep_the_mass_uncertainly():
+    """Numbers in kg·in² or, with pounds, in lb·in² are the same per kilogram: neither is certain."""
+    for mass in (MASS, MASS / POUND):
+        stated = StatedInertial(mass, CENTER, mass / MASS * INERTIA / INCH**2)
+        (found,) = diagnose(stated, [REFERENCE])
+        assert found.finding.values["factor"] == INCH**2 and not found.is_certain
+        assert found.repaired.mass == mass and REFERENCE.compare(found.repaired) < 1e-12
 
 
 def of_density(density):

@@ -152,9 +152,8 @@ def test_nifti_placement_is_read(tmp_path):
     turned = nifti(values(), spacing=(2, 3, 4), quaternion=(1, 0, 0, 5, 6, 7), qfac=-1.0)
     scan = read_scan(written(tmp_path / "q.nii", turned))
     assert np.array_equal(scan.matrix[:3], [[2, 0, 0, 5], [0, -3, 0, 6], [0, 0, 4, 7]])
-    turned = nifti(
-        values(), spacing=(2, 3, 4), quaternion=(1, 0, 0, 5, 6, 7), qfac=0.0
-    )  # zero stands for 1
+    # zero stands for 1
+    turned = nifti(values(), spacing=(2, 3, 4), quaternion=(1, 0, 0, 5, 6, 7), qfac=0.0)
     assert np.array_equal(read_scan(written(tmp_path / "q.nii", turned)).matrix[2], [0, 0, -4, 7])
     third = (1 / 3) ** 0.5 * np.sin(np.pi / 3)  # a third of a turn about (1, 1, 1): x to y to z
     scan = read_scan(

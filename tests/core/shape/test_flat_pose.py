@@ -62,9 +62,8 @@ def test_turn_between_two_shapes_maximizes_their_overlap(seed, turn):
     values = np.array([overlap(angle, 0) for angle in found])
     assert (np.diff(values) <= 1e-9 * values[0]).all() and len(values) > 1
     apart = np.abs(np.exp(1j * found[:, None]) - np.exp(1j * found))[np.triu_indices(len(found), 1)]
-    assert (
-        np.count_nonzero(apart < 1e-3) <= 1
-    )  # one that lies just between two samples comes from both
+    # one that lies just between two samples comes from both
+    assert np.count_nonzero(apart < 1e-3) <= 1
     assert max(abs(overlap(angle, 1)) for angle in found) < 1e-11 * abs(overlap(found[0], 2))
     assert max(overlap(angle, 2) for angle in found) < 0.0
 

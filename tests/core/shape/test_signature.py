@@ -180,12 +180,13 @@ def test_a_record_gives_the_signature_back():
     for name in PARTS:
         assert np.array_equal(getattr(found, name), getattr(again, name))
     assert again.size == found.size and list(found.as_record()) == ["size", *PARTS]
+    # libraries on disk hold these lengths
     assert [len(getattr(found, name)) for name in PARTS] == [
         37,
         121,
         12,
         47,
-    ]  # libraries on disk hold these lengths
+    ]
 
 
 def test_flat_record_restores_the_signature_to_order_20():

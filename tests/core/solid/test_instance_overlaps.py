@@ -80,9 +80,8 @@ def test_own_parts_and_open_parts_are_not_compared():
     lid = without(cube(0.25), *range(2, 12))
     found = compared((cube(0.5), places(np.eye(3))), (lid, places(np.eye(3), MIRROR)))
     assert not len(found.overlapping) and not len(found.nested)
-    points, triangles = welded(
-        joined(cube(0.125), cube(0.125, (0.25, 0.0, 0.0)))
-    )  # but for one layer of their wall
+    # but for one layer of their wall
+    points, triangles = welded(joined(cube(0.125), cube(0.125, (0.25, 0.0, 0.0))))
     triangles = triangles[np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1]]
     for shift in (0.0, 0.5):
         found = compared(

@@ -495,9 +495,8 @@ def test_a_box_with_one_side_subdivided_is_closed_in_space(spin, dtype, rel, fli
     )
     assert result.method == ("reoriented" if flip else "exact")
     assert result.findings[0] == Finding("t_junctions", {"count": 4})
-    assert len(result.repaired_surface.points) == len(
-        part[0]
-    )  # gaps are closed between their own vertices
+    # gaps are closed between their own vertices
+    assert len(result.repaired_surface.points) == len(part[0])
     assert result.health.defective_elements.flipped_faces.tolist() == (
         list(range(10, 60)) if flip else []
     )
@@ -648,9 +647,8 @@ def test_spread_of_polygons_is_reported():
         np.concatenate([[[9.0, 9.0, 9.0]], points]),
         [[corner + 1 for corner in face] for face in faces],
     )
-    assert (
-        measure_solid(beside).health.as_record() == raised.health.as_record()
-    )  # a vertex of no face is left out
+    # a vertex of no face is left out
+    assert measure_solid(beside).health.as_record() == raised.health.as_record()
     far = mesh(moved(CUBE, rotation(1), (300, 200, 100))[0], SIDES.tolist(), np.float32)
     assert measure_solid(far).health.non_planar_faces == 0  # bending by float32 does not count
 
@@ -899,9 +897,8 @@ def test_complex_coordinates_are_refused():
         Surface.from_triangles(CUBE[0].astype(complex), CUBE[1])
 
 
-OUTLINE = np.array(
-    [[-2, 0], [0, -1], [0, 1], [0, 0], [2, 0], [1, 3]], float
-)  # runs past its fourth point and back
+# runs past its fourth point and back
+OUTLINE = np.array([[-2, 0], [0, -1], [0, 1], [0, 0], [2, 0], [1, 3]], float)
 REGION = np.array([[0, 1, 3], [3, 2, 0], [2, 3, 4], [4, 5, 2], [0, 2, 5]])
 
 

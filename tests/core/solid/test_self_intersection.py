@@ -103,10 +103,11 @@ def hull(seed, count=30):
     return points, np.concatenate([triple[below], triple[above][:, ::-1]])
 
 
+# the middle of whose box is outside
 CORNER = (
     np.eye(4, 3, -1),
     np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]),
-)  # the middle of whose box is outside
+)
 
 
 @pytest.mark.parametrize(

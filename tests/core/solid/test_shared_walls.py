@@ -53,12 +53,13 @@ def test_cubes_in_a_row_are_turned_one_by_one(turned, cut):
         )
     row = [inverted(part) if flip else part for part, flip in zip(row, turned)]
     points, triangles = joined(*row)
+    # in whatever order its faces are: which copy of a face comes first says nothing
     for seed in (
         None,
         0,
         1,
         2,
-    ):  # in whatever order its faces are: which copy of a face comes first says nothing
+    ):
         order = np.arange(36) if seed is None else np.random.default_rng(seed).permutation(36)
         turn = np.eye(3) if seed is None else rotation(seed)
         result = measure_solid(surface(welded(moved((points, triangles[order]), turn, (4, 5, 6)))))
@@ -139,9 +140,8 @@ def test_welding_within_float32_precision_is_not_reported(gap, reported, scale):
     """Along the open edges of a box that has no top, and of the top."""
     top = box()[0], box()[1][2:4]
     part = joined(without(box(), 2, 3), moved(top, offset=(gap, 0, 0)))
-    part = moved(
-        part, scale * np.eye(3), (-0.5 * scale,) * 3
-    )  # small numbers are finer there than large ones
+    # small numbers are finer there than large ones
+    part = moved(part, scale * np.eye(3), (-0.5 * scale,) * 3)
     result = measure_solid(surface(part))
     assert result.method == "exact" and result.health.welded
     assert codes(result) == ["vertices_welded"] * reported

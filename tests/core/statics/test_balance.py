@@ -75,9 +75,8 @@ def test_no_other_move_is_smaller_to_first_order(shell):
             bodies.surface(part), movable, moments.center + step, across=HORIZONTAL, shell=shell
         )
         ours = (found.points - part[0])[movable].ravel() * root
-        least = np.linalg.lstsq(rows, step[:2], rcond=None)[
-            0
-        ]  # the shortest of all moves to the point
+        # the shortest of all moves to the point
+        least = np.linalg.lstsq(rows, step[:2], rcond=None)[0]
         off.append(np.linalg.norm(ours - least) / np.linalg.norm(least))
     assert off[0] < 100 * 1e-3 and 8.0 < off[0] / off[1] < 12.0
 
@@ -217,9 +216,8 @@ def test_moves_are_independent_of_face_diagonals(shell, sides):
     ]
     fans = _Fans(bodies.mesh(points, faces), shell)
     gradient = fans.center_gradient(np.array([0.0, 0.0, 1.0]))
-    mirror = np.concatenate(
-        [k + (-np.arange(sides)) % sides for k in (0, sides, 2 * sides)]
-    )  # y → -y
+    # y → -y
+    mirror = np.concatenate([k + (-np.arange(sides)) % sides for k in (0, sides, 2 * sides)])
     flip = np.diag([1.0, -1.0, 1.0])
     assert np.abs(flip @ gradient[mirror] @ flip - gradient).max() < 1e-14
     turned = np.concatenate([k + (np.arange(sides) + 1) % sides for k in (0, sides, 2 * sides)])

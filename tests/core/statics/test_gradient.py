@@ -90,9 +90,8 @@ def test_volume_derivatives_match_rational_arithmetic(name):
                 return exact.volume_moments(moved, triangles, about)[:10]
 
             near, far = ([a - b for a, b in zip(at(k), at(-k))] for k in (1, 2))
-            truth = [
-                (8 * one - other) / (12 * Fraction(h)) for one, other in zip(near, far)
-            ]  # exact to degree 4
+            # exact to degree 4
+            truth = [(8 * one - other) / (12 * Fraction(h)) for one, other in zip(near, far)]
             for i in range(10):
                 assert abs(Fraction(float(gradient[vertex, i, axis])) - truth[i]) <= 1e-13
 

@@ -135,9 +135,8 @@ def test_total_and_drawn_center_follow_a_density(settings, density):
     assert active == 0 and close(drawn[1].center, center, 1e-12)
     obj.location.x += 1.0
     bpy.context.view_layer.update()
-    assert (
-        len(overlay.bodies.collect(bpy.context, [bpy.context.object])[0]) == 1
-    )  # the total is out of date
+    # the total is out of date
+    assert len(overlay.bodies.collect(bpy.context, [bpy.context.object])[0]) == 1
 
 
 @pytest.mark.parametrize(

@@ -58,9 +58,8 @@ def test_a_shape_has_mass_center_and_inertia_of_the_object(kind, unit):
         and np.abs(found.center - true.center).max() < 1e-5 * unit
     )
     apart = np.abs(found.inertia - true.inertia).max() / np.abs(true.inertia).max()
-    assert (
-        apart < {"BOX": 1e-5, "ELLIPSOID": 0.03, "CAPSULE": 0.2}[kind]
-    )  # facets; two parameters for three moments
+    # facets; two parameters for three moments
+    assert apart < {"BOX": 1e-5, "ELLIPSOID": 0.03, "CAPSULE": 0.2}[kind]
     if kind != "BOX":
         assert (
             len(shape.data.vertices) == 32 * 16 + 2

@@ -132,9 +132,8 @@ def test_a_turned_object_has_the_section_in_its_own_axes(data, rotation):
 @pytest.mark.parametrize("scale", [(2, 2, 2), (3, 0.5, 1), (-2, 1, 1), (2, 1, -5)])
 def test_scale_also_uneven_and_mirroring_is_measured(data, scale):
     section, _, _ = section_of(add(data(), scale=scale))
-    assert section.plane.axes[:, 2] == pytest.approx(
-        (0, 0, np.sign(scale[2])), abs=1e-15
-    )  # as the object's z axis
+    # as the object's z axis
+    assert section.plane.axes[:, 2] == pytest.approx((0, 0, np.sign(scale[2])), abs=1e-15)
     a, b = abs(scale[0]), abs(scale[1])
     assert close(section.area, I_AREA * a * b, rel=1e-13)
     assert close(section.second[:2], (I_X * a * b**3, I_Y * b * a**3), rel=1e-13)

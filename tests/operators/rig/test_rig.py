@@ -402,9 +402,8 @@ def test_bone_freedom_follows_locks_limits_constraints():
     limit = bone.constraints.new("LIMIT_ROTATION")
     limit.use_limit_x = limit.use_limit_y = True
     limit.min_x, limit.max_x, limit.min_y, limit.max_y = -1.0, 1.5, 0.5, 0.5
-    assert [one[1] for one in free()] == [
-        axes[axis] for axis in "zyx"
-    ]  # in the world it leaves the bone free
+    # in the world it leaves the bone free
+    assert [one[1] for one in free()] == [axes[axis] for axis in "zyx"]
     limit.owner_space = "LOCAL"
     assert free() == [("rotate", axes["z"], -inf, inf), ("rotate", axes["x"], -1.0, 1.5)]
     limit.enabled = False

@@ -108,6 +108,38 @@ def test_balance_measures_by_itself_and_is_one_undo_step(scene):
     assert "UNDO" in bpy.types.POSE_OT_body_moments_balance_pose.bl_options
 
 
+def test_total_mass_shows_the_measured_one_until_it_is_set(scene):
+    rig, _body = posed()
+    settings = rig.body_moments_weight
+    assert settings.mass == 0.0 and settings.shown_mass == pytest.approx(rig["body_mass"])
+    settings.shown_mass = 70.0
+    assert settings.mass == 70.0 and weight(rig).parts.mass == pytest.approx(70.0)
+    settings.shown_mass = 0.0
+    assert settings.shown_mass == pytest.approx(rig["body_mass"])
+
+
+def test_shown_weight_is_one_mark_with_axes_on_request(scene):
+    from body_moments.panels.overlay.bodies import Bodies, collect
+    from body_moments.panels.overlay.lines import body_lines
+
+    rig, _body = posed()
+    for bone in rig.pose.bones:
+        if hasattr(bone, "select"):
+            bone.select = True
+        else:
+            bone.bone.select = True
+
+    def lengths():
+        entries, _active = collect(bpy.context, [rig])
+        lines = body_lines(Bodies.of(entries, 1.0), scene.body_moments.overlay)
+        assert len(lines) == 1
+        return np.linalg.norm(lines[0, :, 1] - lines[0, :, 0], axis=1)
+
+    assert lengths().max() == 0.0
+    rig.body_moments_weight.show_axes = True
+    assert (lengths()[:3] > 0.1).all() and lengths()[3:].max() == 0.0
+
+
 def test_measured_poses_have_the_mass_at_rest(scene):
     from body_moments.blender.session.displayed import displayed
 

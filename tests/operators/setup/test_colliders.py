@@ -338,3 +338,17 @@ def test_record_of_turned_body_keeps_its_colliders():
     assert reason() is None and "body" not in body
     body[COLLIDERS]["body"] = [*body[COLLIDERS]["body"][:-1], 9.0]
     assert reason() == Stale.GEOMETRY
+
+
+def test_turning_a_sheared_body_keeps_its_colliders_valid():
+    parent = add(None, "Parent", scale=(1, 2, 0.7))
+    body = add(mesh_body(), "Body", rotation=(0.4, 0.6, 0.8))
+    body.parent = parent
+    only(body)
+    make(shape="HULL")
+    parent.rotation_euler = 1, 2, 3
+    bpy.context.view_layer.update()
+    assert stale_reason(body, bpy.context.scene, of_colliders) is None
+    parent.scale = 1, 1, 1
+    bpy.context.view_layer.update()
+    assert stale_reason(body, bpy.context.scene, of_colliders) == Stale.TRANSFORM

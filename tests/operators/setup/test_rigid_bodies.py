@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.session.tracking.staleness import stale_reason
+from body_moments.blender.session.tracking.stamps import of_colliders
 from mathutils import Matrix, Vector
 
 from tests.blender.bodies.test_assembly import box, boxes_inertia
@@ -24,7 +25,7 @@ def slanted(name="Body", **settings):
 
 
 def make(**options):
-    return bpy.ops.object.body_moments_rigid_bodies(**options)
+    return bpy.ops.object.body_moments_rigid_bodies(**({"frame": "AXES"} | options))
 
 
 def is_what_bullet_takes_it_for(obj):
@@ -211,3 +212,25 @@ def test_text_and_too_light_body_stay_with_a_reason(reported):
         and (place(tiny) == was).all()
     )
     assert {"rigid_body_needs_mesh", "rigid_body_mass_too_small"} <= set(reported.codes)
+
+
+@pytest.mark.parametrize("frame", ["AXES", "ORIGIN"])
+def test_bodies_with_colliders_rest_on_a_flat_floor(frame):
+    scales = ((1, 1, 1), (3, 3, 3), (3, 2, 1), (-2, 2, 2), (1, 2, -1.5))
+    bodies = [
+        add(mesh_body(), "Body {:d}".format(i), (8 * i, 0, 5), (0.2, 0.1, 0.3), scale)
+        for i, scale in enumerate(scales)
+    ]
+    only(*bodies)
+    bpy.ops.object.body_moments_make_colliders(shape="HULL")
+    assert make(frame=frame) == {"FINISHED"}
+    scene = bpy.context.scene
+    assert all(stale_reason(obj, scene, of_colliders) is None for obj in bodies)
+    bpy.ops.mesh.primitive_plane_add(size=400)
+    floor = bpy.context.object
+    only(floor)
+    assert make(type="PASSIVE") == {"FINISHED"} and floor.rigid_body.collision_shape == "MESH"
+    for frame_number in range(1, 151):
+        scene.frame_set(frame_number)
+    lowest = [float(seen(obj)[:, 2].min()) for obj in bodies]
+    assert min(lowest) > -0.03 and max(lowest) < 0.2, lowest

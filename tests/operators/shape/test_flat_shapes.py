@@ -48,9 +48,8 @@ def test_letters_are_found_again_in_another_size_place_and_turn(body):
 
 def test_mirror_images_are_told_apart_as_seen_from_the_front():
     wanted = text("R", "Wanted")
-    text(
-        "R", "Turned over", rotation=(math.pi, 0, 0), location=(3, 0, 0)
-    )  # its front looks down, and shows an R
+    # its front looks down, and shows an R
+    text("R", "Turned over", rotation=(math.pi, 0, 0), location=(3, 0, 0))
     text("R", "Mirrored", scale=(-1, 1, 1), location=(6, 0, 0))
     text("R", "Mirrored twice", scale=(-1, -1, 1), location=(9, 0, 0))
     only(wanted)

@@ -9,7 +9,7 @@ each is found again.
 import numpy as np
 import pytest
 
-from tests.soak import letters
+from tools.soak import letters
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -217,14 +217,35 @@ def test_equal_shape_keys_and_groups_are_shared():
     assert link(first, second) == {"FINISHED"} and first.data == second.data
 
 
-@pytest.mark.parametrize("cause", ["driver", "constraint", "material", "linked"])
+@pytest.mark.parametrize(
+    "cause",
+    ["driver", "mesh driver", "scene driver", "constraint", "bone", "modifier"]
+    + ["material", "linked"],
+)
 def test_objects_that_others_follow_or_shade_are_left(cause, tmp_path):
     mesh = blob(1)
     first, second = add(mesh, "First"), moved_copy(mesh, turn(2))
     other = add(box_mesh(1, 1, 1), "Other", (9, 9, 9))
-    if cause == "driver":
-        variable = other.driver_add("color", 0).driver.variables.new()
-        variable.targets[0].id, variable.targets[0].data_path = second, "location.x"
+    if "driver" in cause:
+        owner = bpy.context.scene if cause == "scene driver" else other
+        owner["value"] = 0.0
+        target = owner.driver_add('["value"]').driver.variables.new().targets[0]
+        if cause == "mesh driver":
+            target.id_type = "MESH"
+            target.id, target.data_path = second.data, "vertices[0].co[0]"
+        else:
+            target.id, target.data_path = second, "location.x"
+    elif cause == "bone":
+        rig = add(bpy.data.armatures.new("Rig"), "Rig")
+        bpy.context.view_layer.objects.active = rig
+        bpy.ops.object.mode_set(mode="EDIT")
+        rig.data.edit_bones.new("Bone").tail = 0, 0, 1
+        bpy.ops.object.mode_set(mode="OBJECT")
+        rig.pose.bones[0].constraints.new("COPY_ROTATION").target = second
+    elif cause == "modifier":
+        mirror = other.modifiers.new("Mirror", "MIRROR")
+        mirror.mirror_object = second
+        mirror.show_viewport = False
     elif cause == "constraint":
         other.constraints.new("TRACK_TO").target = second
         other.constraints[0].influence = 0.0

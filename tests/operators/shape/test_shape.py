@@ -71,9 +71,8 @@ def test_a_symmetric_object_takes_the_nearest_of_its_poses():
     before = place(copy)
     only(target, copy)
     assert run("match_pose") == {"FINISHED"}
-    assert (
-        np.trace(before[:3, :3].T @ place(copy)[:3, :3]) > 2.99
-    )  # it turned by a little, not by a quarter
+    # it turned by a little, not by a quarter
+    assert np.trace(before[:3, :3].T @ place(copy)[:3, :3]) > 2.99
     assert np.abs(place(copy) - place(target)).max() < 1e-5
 
 

@@ -4,10 +4,13 @@
 scales.
 """
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
 from body_moments.blender.scene import empties
+from body_moments.core.inertia.findings import AXES_FREE_BY_SHAPE
 
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.objects import add, measured, mesh_body, only, place
@@ -87,6 +90,8 @@ def test_axes_of_a_cube_are_its_sides(operator, options, reported):
     axes = np.array(frames[name.removeprefix("body_moments_")]())[:3, :3]
     cosines = np.abs(sides.T @ axes)
     assert np.abs(cosines - np.round(cosines)).max() < 1e-5
+    if "cursor" not in name:  # these search by higher moments, the cursor takes the stored axes
+        free = replace(free, code=AXES_FREE_BY_SHAPE)
     assert reported.codes == [free.code]
     assert reported[0] == (free.of_sources(["Cube"]) if "empty" in name else free)
     if "cursor" in name:

@@ -414,22 +414,22 @@ def test_a_prism_turned_within_its_object_gets_its_own_axes(vertices, fold):
     assert run(AXES) == {"FINISHED"}
     assert np.abs(seen(obj) - before).max() < 1e-5
     points = np.array([vertex.co for vertex in obj.data.vertices])
-    angles = np.degrees(np.arctan2(points[:, 2], points[:, 1])) % (
-        360 / fold
-    )  # the long axis is x now
+    # the long axis is x now
+    angles = np.degrees(np.arctan2(points[:, 2], points[:, 1])) % (360 / fold)
     step = 180 / fold
-    assert (
-        np.abs((angles + step / 2) % step - step / 2).max() < 0.01
-    )  # corners or the middles of sides on the axes
+    # corners or the middles of sides on the axes
+    assert np.abs((angles + step / 2) % step - step / 2).max() < 0.01
     assert run(AXES) == {"CANCELLED"}
 
 
-@pytest.mark.parametrize("name", [AXES, "body_moments_rigid_bodies"])
-def test_a_cube_turned_within_its_object_gets_its_own_axes(name):
+@pytest.mark.parametrize(
+    "name, options", [(AXES, {}), ("body_moments_rigid_bodies", {"frame": "AXES"})]
+)
+def test_a_cube_turned_within_its_object_gets_its_own_axes(name, options):
     bpy.ops.mesh.primitive_cube_add(location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
     obj = bpy.context.object
     turned_within(obj)
-    assert run(name) == {"FINISHED"}
+    assert run(name, **options) == {"FINISHED"}
     points = np.array([vertex.co for vertex in obj.data.vertices])
     assert np.abs(np.abs(points) - 1.0).max() < 1e-5
     assert run(AXES) == {"CANCELLED"}

