@@ -25,6 +25,7 @@ from ..verdict.sentences import sentence, severity
 from .diagnosis import DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
     AUDIT_ANGLES,
+    AUDIT_DENSITY,
     AUDIT_NOT_UNIFORM,
     AUDIT_UNIFORM_INSTEAD,
     AUDIT_UP_AXIS,
@@ -291,12 +292,15 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
     if left:
         # It adds nothing to errors.
         entries = [one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM]
-        # Geometry that cannot hold the mass shows nothing about its place.
-        light_or_heavy = diagnose_density(geometry, reference)
-        guess = None if light_or_heavy else finding(AUDIT_UNIFORM_INSTEAD)
-        repaired = None if light_or_heavy else geometry
+        density = stated.mass / reference.volume
+        # Geometry that cannot hold the mass, in kg or another unit, shows nothing about its place.
+        unusual = diagnose_density(geometry, reference)
+        holds = all(one.is_change for one in unusual)
+        guess = finding(AUDIT_UNIFORM_INSTEAD) if holds else None
+        repaired = geometry if holds else None
         entries += [Entry(one, place, (), guess, "guess" if guess else "", True) for one in left]
-        entries += [Entry(one.finding, place, compares=True) for one in light_or_heavy]
+        if unusual:
+            entries.append(Entry(finding(AUDIT_DENSITY, density=density), place, compares=True))
     apart = min(one.compare(stated) for one in references)
     return LinkAudit(
         link, tuple(entries), repaired, stated.mass / reference.volume, geometry, apart, bool(wrong)

@@ -50,7 +50,7 @@ IMPERIAL_INERTIAS = (
     POUND * (12.0 * INCH) ** 2,
     POUND / 16.0 * INCH**2,
 )
-INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
+INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, INCH**2, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
 # kg/m³, possible range of a robot: from foam to above the heaviest metal.
 DENSITIES = (
     10.0,
@@ -210,7 +210,7 @@ def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Dia
                     best = (
                         now,
                         _with_density(
-                            Diagnosis(finding(code, **values), repaired), stated, reference
+                            Diagnosis(_finding(code, values), repaired), stated, reference
                         ),
                     )
     if best is None:
@@ -226,7 +226,7 @@ def _center_changes(stated: StatedInertial, references: Sequence[Reference]) -> 
             continue
         for code, values, repaired in _changes(stated, reference):
             if values.get("part") in CENTERS and reference.compare_centers(repaired) < AGREES:
-                yield Diagnosis(finding(code, **values), repaired)
+                yield Diagnosis(_finding(code, values, "the centers"), repaired)
                 break
 
 
@@ -242,7 +242,8 @@ def diagnose_density(stated: StatedInertial, reference: Reference) -> list[Diagn
             mass = float(_times(stated.mass, factor))
             inertia = _times(stated.inertia, factor)
             repaired = stated.along_link(inertia, mass=mass)
-            change = finding(AUDIT_UNIT, part="mass and inertia", factor=factor, density=density)
+            values = {"part": "mass and inertia", "factor": factor, "density": density}
+            change = _finding(AUDIT_UNIT, values)
             return [Diagnosis(change, repaired, is_certain=False)]
     return [Diagnosis(finding(AUDIT_DENSITY, density=density))]
 
@@ -259,14 +260,19 @@ def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference
     # Both cannot be in the range: a cube of a factor exceeds it.
     if DENSITIES[0] <= other <= DENSITIES[1]:
         return Diagnosis(
-            finding(AUDIT_UNIT, part="lengths of the mesh", factor=1.0 / factor),
+            _finding(AUDIT_UNIT, {"part": "lengths of the mesh", "factor": 1.0 / factor}),
             is_of_geometry=True,
         )
     if factor == INCH:  # Programs that state inches state pounds.
         values = {"part": WHOLE_IMPERIAL, "factor": IMPERIAL_INERTIAS[0]}
         *_, repaired = (one for _, some, one in _pounds(stated) if some == values)
-        return Diagnosis(finding(AUDIT_UNIT, **values), repaired)
+        return Diagnosis(_finding(AUDIT_UNIT, values), repaired)
     return found
+
+
+def _finding(code: str, values: dict, agree: str = "inertial and geometry") -> Finding:
+    """Return the finding about a change. agree: what agrees after a change of units."""
+    return finding(code, **(values | {"agree": agree} if code == AUDIT_UNIT else values))
 
 
 def _times(values: ArrayLike, factor: float) -> NDArray[np.float64]:

@@ -183,6 +183,11 @@ INERTIAL_SPREAD_OUTSIDE = error(
     "Impossible: with this inertia, mass lies outside of the geometry (variance {factor:.3g} times "
     "too large).",
 )
+INERTIAL_TOO_DENSE = error(
+    "inertial_too_dense",
+    "Impossible: no matter is that dense. This mass with this inertia takes at least "
+    "{density:.3g} kg/m³; osmium has {limit:g}.",
+)
 AUDIT_UNIFORM_INSTEAD = warning(
     "audit_uniform_instead",
     "State the inertial of the geometry, filled evenly with the stated mass.",
@@ -203,7 +208,7 @@ AUDIT_UP_AXIS = warning(
 )
 AUDIT_DENSITY = warning("audit_density", "The density is {density:.3g} kg/m³. Check mass and mesh.")
 AUDIT_UNIT = warning(
-    "audit_unit", "Multiply the {part:word} by {factor:g}: inertial and geometry then agree."
+    "audit_unit", "Multiply the {part:word} by {factor:g}: {agree:word} then agree."
 )
 AUDIT_INERTIA_OF_UNIT = warning(
     "audit_inertia_of_unit",

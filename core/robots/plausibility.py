@@ -7,11 +7,21 @@ is the triangle inequality of the principal moments. The center lies in the conv
 direction n, in which the hull reaches from a to b, the variance of the mass is at most (b -
 mean)(mean - a) (Bhatia and Davis, Amer. Math. Monthly 107, 2000). All of these are necessary; an
 inertial that breaks one is impossible for any density.
+
+No matter is denser than osmium. Let s = S/m be the second moments per kilogram about the center.
+The mean of xᵀs⁻¹x over the mass is tr(s⁻¹s) = 3. With x = √s y, it is the mean of |y|². Among the
+bodies of mass m and at most density ρ, that mean is least for the ball |y| <= R of density ρ: mass
+moved into it from outside comes nearer (the bathtub principle). The ball has the mass
+ρ √(det s) (4/3)πR³ and the mean 3R²/5. So 3R²/5 <= 3, R² <= 5, and m/ρ <= (4/3)π √(125 det s).
+Digits that were rounded away may hide a thickness: before the comparison, each eigenvalue of s is
+raised by the rounding of the largest moment. So of nearly flat or thin tensors only a mass that is
+too dense for that thickness is decided.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +33,7 @@ from .findings import (
     INERTIAL_NOT_FINITE,
     INERTIAL_NOT_POSITIVE,
     INERTIAL_SPREAD_OUTSIDE,
+    INERTIAL_TOO_DENSE,
     INERTIAL_TRIANGLE,
     INERTIAL_TRIANGLE_SLIGHTLY,
 )
@@ -35,6 +46,7 @@ LARGEST = 1e60
 ZERO_RTOL = 1e-14  # Relative to the largest moment: zero after finding the principal axes.
 CENTER_RTOL = 1e-3  # Relative to the hull's size.
 SPREAD_RTOL = 5e-3
+OSMIUM = 22_590.0  # kg/m³
 MAX_STEPS = 200  # towards the nearest point of a hull
 DIRECTIONS = 400
 
@@ -96,7 +108,7 @@ def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
             finding(INERTIAL_NOT_POSITIVE, part="mass", value=float(stated.mass), unit="kg")
         )
     if stated.mass or stated.inertia.any():  # A mere placeholder has one fault.
-        findings += _impossible_tensor(stated.inertia)
+        findings += _impossible_tensor(stated.inertia, stated.mass)
     if hull is None:
         return findings
     distance = hull.distance(stated.center)
@@ -108,8 +120,18 @@ def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
     return findings
 
 
-def _impossible_tensor(inertia: NDArray) -> list[Finding]:
-    """Return the reason why no body has a (3, 3) tensor; empty if one may have it."""
+def least_density(mass: float, moments: NDArray) -> float:
+    """Return the least density of a body of this mass and (3,) ascending moments, in kg/m³, by the
+    bound above.
+    """
+    spreads = np.maximum(moments.sum() / 2.0 - moments, 0.0) + ROUNDING * moments[2]
+    # Roots before the product: it stays in the range of float64.
+    first, second, third = map(sqrt, (spreads / mass).tolist())
+    return mass / (4.0 / 3.0 * pi * sqrt(125.0) * first * second * third)
+
+
+def _impossible_tensor(inertia: NDArray, mass: float) -> list[Finding]:
+    """Return the reason why no body of a mass has a (3, 3) tensor; empty if one may have it."""
     moments = np.linalg.eigvalsh(inertia)
     if not moments[0] > ZERO_RTOL * moments[2]:
         moment = 0.0 if abs(moments[0]) <= ZERO_RTOL * abs(moments[2]) else float(moments[0])
@@ -121,6 +143,9 @@ def _impossible_tensor(inertia: NDArray) -> list[Finding]:
     excess = float(moments[2] / (moments[0] + moments[1]) - 1.0)
     if excess > ROUNDING:
         return [finding(INERTIAL_TRIANGLE, moments=moments.tolist(), excess=excess)]
+    density = least_density(mass, moments) if mass > LEAST_MASS else 0.0
+    if density > OSMIUM:
+        return [finding(INERTIAL_TOO_DENSE, density=density, limit=OSMIUM)]
     return [finding(INERTIAL_TRIANGLE_SLIGHTLY, excess=excess)] if excess > 1e-12 else []
 
 

@@ -13,7 +13,6 @@ import pytest
 from body_moments.core.numerics.rotations import quaternion
 from body_moments.core.robots.diagnosis import (
     CENTERS,
-    IMPERIAL,
     IMPERIAL_INERTIAS,
     INCH,
     LENGTHS,
@@ -109,7 +108,6 @@ def mistakes():
         yield "unit", {"part": "inertia", "factor": factor}, of_inertia(INERTIA / factor)
     in_pounds = {"factor": IMPERIAL_INERTIAS[0]}
     stated = StatedInertial(MASS / POUND, CENTER, INERTIA / IMPERIAL_INERTIAS[0])
-    yield "unit", {"part": IMPERIAL, **in_pounds}, stated
     yield "unit", {"part": WHOLE_IMPERIAL, **in_pounds}, replace(stated, center=CENTER / INCH)
     yield "inertia_of_unit", {"part": "mass", "factor": MASS}, of_inertia(INERTIA / MASS)
     yield "inertia_of_unit", {"part": "density", "factor": DENSITY}, of_inertia(INERTIA / DENSITY)
@@ -180,7 +178,11 @@ def mistakes():
 
 def said(stated=TRUTH, *references, otherwise=()):
     (found,) = diagnose(stated, references or [REFERENCE], otherwise)
-    return found.finding.code.removeprefix("audit_"), dict(found.finding.values)
+    values = dict(found.finding.values)
+    agree = values.pop("agree", None)
+    is_center = values.get("part") == "center of mass"
+    assert agree in (None, "the centers" if is_center else "inertial and geometry") or is_center
+    return found.finding.code.removeprefix("audit_"), values
 
 
 def test_two_mistakes_are_both_named():
@@ -204,6 +206,22 @@ def test_two_mistakes_are_both_named():
     found, note = diagnose(uneven, [REFERENCE], (), True)
     assert note.finding.code == "audit_not_uniform" and abs(note.finding.values["distance"]) < 1e-15
     assert not found.is_certain and close(found.repaired.center, CENTER, 1e-15)
+
+
+def test_center_repaired_alone_claims_agreement_of_centers_only():
+    """The mass is not spread evenly: no change of the center makes the inertias agree."""
+    found, note = diagnose(of_inertia(INERTIA * 0.8, CENTER / 1e-3), [REFERENCE], (), True)
+    assert found.finding.values["agree"] == "the centers"
+    assert note.finding.code == "audit_not_uniform"
+
+
+def test_square_inches_of_kg_or_pounds_keep_the_mass_uncertainly():
+    """Numbers in kg·in² or, with pounds, in lb·in² are the same per kilogram: neither is certain."""
+    for mass in (MASS, MASS / POUND):
+        stated = StatedInertial(mass, CENTER, mass / MASS * INERTIA / INCH**2)
+        (found,) = diagnose(stated, [REFERENCE])
+        assert found.finding.values["factor"] == INCH**2 and not found.is_certain
+        assert found.repaired.mass == mass and REFERENCE.compare(found.repaired) < 1e-12
 
 
 def of_density(density):
