@@ -35,9 +35,9 @@ class _Prim(NamedTuple):
     """Facts about the prim of an object that Blender's importer drops.
 
     hidden: the reason why a renderer does not show it. scheme: the subdivision of a mesh that is a
-    cage. solid: the arguments of `revolved_solid`. place: (4, 4) its matrix in the scene. is_member:
-    of an instance. points: (n, 3) of a skinned mesh. members: of an instancer, the objects that it
-    shows, each with its (k, 4, 4) places relative to it.
+    cage. solid: the arguments of `revolved_solid`. place: (4, 4) its matrix in the scene.
+    is_member: of an instance. points: (n, 3) of a skinned mesh. members: of an instancer, the
+    objects that it shows, each with its (k, 4, 4) places relative to it.
     """
 
     hidden: str | None
@@ -328,7 +328,7 @@ def _correct(
         if prim.scheme is not None:
             findings[name] = (finding(USD_CAGE, scheme=prim.scheme),)
         patch = None if prim.solid is None else revolved_solid(*prim.solid)
-        if patch is not None:
+        if prim.solid is not None and patch is not None:
             if prim.solid not in surfaces:
                 surfaces[prim.solid] = surface_data(name, [patch], 1.0)[:2]
             data, moved = surfaces[prim.solid]

@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import permutations, product
 from math import degrees, hypot, radians
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -272,7 +273,8 @@ def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference
 
 def _finding(code: str, values: dict, agree: str = "inertial and geometry") -> Finding:
     """Return the finding about a change. agree: what agrees after a change of units."""
-    return finding(code, **(values | {"agree": agree} if code == AUDIT_UNIT else values))
+    more: dict[str, Any] = {**values, "agree": agree} if code == AUDIT_UNIT else values
+    return finding(code, **more)
 
 
 def _times(values: ArrayLike, factor: float) -> NDArray[np.float64]:

@@ -216,7 +216,7 @@ def test_center_repaired_alone_claims_agreement_of_centers_only():
 
 
 def test_square_inches_of_kg_or_pounds_keep_the_mass_uncertainly():
-    """Numbers in kg·in² or, with pounds, in lb·in² are the same per kilogram: neither is certain."""
+    """kg·in², and lb·in² with pounds, are the same per kilogram: neither is certain."""
     for mass in (MASS, MASS / POUND):
         stated = StatedInertial(mass, CENTER, mass / MASS * INERTIA / INCH**2)
         (found,) = diagnose(stated, [REFERENCE])

@@ -180,7 +180,7 @@ def test_the_distance_is_found_within_a_billionth_of_the_size(size):
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 def test_least_density_of_an_ellipsoid_is_its_own(size):
-    """The bound is sharp for even ellipsoids, up to the allowance for rounding; others are above."""
+    """The bound is sharp for even ellipsoids up to the rounding; others are above."""
     axes = size * np.array([0.5, 0.7, 0.9])
     for density, is_possible in ((22_000.0, True), (23_000.0, False)):
         mass = density * 4.0 / 3.0 * np.pi * axes.prod()
