@@ -52,7 +52,7 @@ _FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
 # array.
 _FBX_VERTICES = re.compile(rb"\x08Vertices(?=[df])")
 _FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?")
-_FBX_NUMBERS = re.compile(rb"(?:[\s,]*+%b(?=[\s,}]|\Z))*+[\s,]*+" % SHORT)
+_FBX_NUMBERS = re.compile(rb"(?>(?:[\s,]*+%b(?=[\s,}]|\Z))*)[\s,]*+" % SHORT)
 _FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
 _GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _GLTF_TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}

@@ -42,15 +42,16 @@ _MARKED = re.compile(MARK + rb"[ \t]*(?:" + _KINDS + rb")(?!\S)")
 # not \n, \r
 _SPACES = bytes.maketrans(bytes(range(10)) + bytes(range(11, 13)) + bytes(range(14, 32)), b" " * 30)
 _NEXT = b" \v "  # joins a line and its continuation, so that lines can still be counted
-_INDEX = rb"%(n)b(?:/(?:%(n)b)?+){0,2}+"
+_INDEX = rb"%(n)b(?>(?:/(?>(?:%(n)b)?)){0,2})"
 _SHORT_INDEX, _ANY_INDEX = (_INDEX % {b"n": number} for number in (SHORT_WHOLE, rb"[+-]?[0-9]++"))
 _FIELDS = {
     name: rb"(?:[ \r\v]++%b)" % field
     for name, field in ((b"n", SHORT), (b"m", SHORT_OR_NAN), (b"i", _SHORT_INDEX))
 }
 _LINES = re.compile(
-    rb"(?:(?:v(?:%(n)b{3,}+|t%(m)b++|n%(m)b{3,}+)|f%(i)b{3,}+|l%(i)b{2,}+|p%(i)b++)[ \r\v]*+\n"
-    rb"|[ \r\v]*+(?!(?:%(kinds)b)(?!\S))[^\n]*+\n)*+" % (_FIELDS | {b"kinds": _KINDS})
+    rb"(?>(?:(?:v(?:(?>%(n)b{3,})|t(?>%(m)b+)|n(?>%(m)b{3,}))|f(?>%(i)b{3,})|l(?>%(i)b{2,})"
+    rb"|p(?>%(i)b+))[ \r\v]*+\n|[ \r\v]*+(?!(?:%(kinds)b)(?!\S))[^\n]*+\n)*)"
+    % (_FIELDS | {b"kinds": _KINDS})
 )
 
 

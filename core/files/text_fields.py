@@ -26,8 +26,12 @@ MAX_TEXT = 60  # letters of a line that are shown
 BLOCK = 1 << 18  # bytes
 MARK = b"\xef\xbb\xbf"  # byte order mark
 # Decimal numbers that are so short that they are below 1e38 without being computed; the same, or
-# NaN.
-SHORT = rb"[+-]?(?:[0-9]{1,8}+(?:\.[0-9]*+)?+|\.[0-9]++)(?:[eE](?:-[0-9]++|\+?0?[0-2]?[0-9]))?+"
+# NaN. A repeated group is held by (?>...): Python before 3.11.5 lets a group with *+, ++ or ?+
+# match more than the group itself does (python/cpython#106052).
+SHORT = (
+    rb"[+-]?(?:[0-9]{1,8}+(?>(?:\.[0-9]*+)?)|\.[0-9]++)"
+    rb"(?>(?:[eE](?:-[0-9]++|\+?0?[0-2]?[0-9]))?)"
+)
 SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
 SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
 # forms that C prints

@@ -256,7 +256,7 @@ class _Rows:
         self._places = element.name == "vertex"
         is_worth = element.rows > FEW_ROWS and len(element.properties) < MANY_PROPERTIES
         row = _pattern_of(element) if is_worth else rb"(?!)"
-        self._pattern = re.compile(rb"(?:%b%b[ \t\r]*+(?:\n|\Z))*+" % (_BLANK, row))
+        self._pattern = re.compile(rb"(?>(?:%b%b[ \t\r]*+(?:\n|\Z))*)" % (_BLANK, row))
         only_lists = all(_is_whole(one) for one in element.properties)
         self._type = np.dtype(np.int64 if only_lists else np.float64)
 
@@ -331,7 +331,7 @@ def _pattern_of(element: Element) -> bytes:
         number = SHORT if element.name == "vertex" and one.name in ("x", "y", "z") else SHORT_OR_NAN
         if one.counter:
             item = SHORT_WHOLE if _is_whole(one) else number
-            number = b"(?:%b)" % b"|".join(rb"%d(?:[ \t]++%b){%d}+" % (n, item, n) for n in LENGTHS)
+            number = b"(?:%b)" % b"|".join(rb"%d(?>(?:[ \t]++%b){%d})" % (n, item, n) for n in LENGTHS)
         fields.append(number)
     return rb"[ \t]++".join(fields)
 

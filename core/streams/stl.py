@@ -54,12 +54,12 @@ _NORMAL = re.compile(rb"normal[^v]*?out")
 # words for the end of a file
 BY_COUNT = "where its number of triangles does"
 BY_WORD = "with “endsolid”"
-SOLID = re.compile(rb"(?<!\S)(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+", re.IGNORECASE)
+SOLID = re.compile(rb"(?<!\S)(?:end)?solid\b(?>(?:(?!\s(?:vertex|facet)\s)[^\n])*)", re.IGNORECASE)
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
 _FACET_NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
 _FACETS = re.compile(
-    rb"(?:\s*+(?:%b(?!\S)|facet\s++normal%b\s++outer\s++loop"
-    rb"(?:\s++vertex%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+"
+    rb"(?>(?:\s*+(?:%b(?!\S)|facet\s++normal%b\s++outer\s++loop"
+    rb"(?:\s++vertex%b){3}\s++endloop\s++endfacet(?!\S)))*)\s*+"
     % (SOLID.pattern, _FACET_NORMAL, _CORNER),
     re.IGNORECASE,
 )

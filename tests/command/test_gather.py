@@ -366,8 +366,8 @@ told.push(names());text.value="";text.dispatchEvent(new Event("input"));
 const status=document.getElementById("status");
 status.value="timeout";status.dispatchEvent(new Event("change"));
 told.push(rows().length);told.push([...document.images].every(image=>image.naturalWidth>0));
-document.body.innerHTML="<pre></pre>
-";document.querySelector("pre").textContent=JSON.stringify(told);
+document.body.innerHTML="<pre></pre>";
+document.querySelector("pre").textContent=JSON.stringify(told);
 }
 </script>
 """
