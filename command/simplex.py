@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ..core.files.limits import file_limits
 from ..core.measurement.plain_text import print_message
 from ..core.measurement.record import described
+from ..core.numerics.array_types import Array
 from ..core.polyhedron import enclosed_moments, facet_moments, facets_of
 from ..core.polyhedron.n_dimensions import SimplexMoments, closes, multi_indices, outer_facets
 from ..core.scans.numpy_files import read_arrays
@@ -125,7 +126,7 @@ def _as_record(moments: SimplexMoments) -> dict[str, dict[str, float]]:
     }
 
 
-def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray | None]:
+def _read(path: Path) -> tuple[Array, NDArray[np.integer], NDArray | None]:
     arrays = read_arrays(path, ("points", "simplices", "signs"), file_limits())
     if not {"points", "simplices"} <= arrays.keys():
         raise UsageError("The file is no .npz archive with the arrays “points” and “simplices”")

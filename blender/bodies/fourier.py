@@ -24,6 +24,7 @@ from ...core.measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import affine_matrices, placed_boxes
 from ...core.moments.moments import Measure
+from ...core.numerics.array_types import Array
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.method import Procedure
 from ..read.objects import read_object
@@ -53,7 +54,7 @@ class ObjectTransform:
     transform: BodyTransform | RegionTransform
     findings: tuple[Finding, ...]
     factor: float = 1.0
-    arrays: dict[str, NDArray[np.float64]] | None = None
+    arrays: dict[str, Array] | None = None
 
     def steps(self) -> Generator[float, None, None]:
         """Do the work and yield the fraction done, or raise MeasureError."""
@@ -172,6 +173,6 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
     return size
 
 
-def _to_object(reading: Reading, unit: float) -> NDArray[np.float64]:
+def _to_object(reading: Reading, unit: float) -> Array:
     """Return the (4, 4) map from the world to the object's frame, in meters."""
     return affine_matrices(reading.rotation.T, -reading.rotation.T @ reading.location * unit)

@@ -33,6 +33,7 @@ from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import affine_matrices, are_similarities, distinct_linear_parts
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
+from ...core.numerics.array_types import Array
 from ...core.nurbs.findings import ERROR_ESTIMATE_LARGE
 from ...core.nurbs.patch_moments import area_moments, stored_area_moments, volume_moments
 from ...core.nurbs.seams import sharpest_crease
@@ -68,7 +69,7 @@ class PatchBody(Body):
 
     reading: Reading = field(kw_only=True)
     unit: float = field(kw_only=True)
-    pieces: tuple[tuple[Part, PatchIntegrals, NDArray[np.float64]], ...] = ()
+    pieces: tuple[tuple[Part, PatchIntegrals, Array], ...] = ()
     polygons: MeshBody | None = None
     threads: int = field(kw_only=True)
 

@@ -20,6 +20,7 @@ from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities
 from ...core.moments.exponents import KNOWN_ORDER
 from ...core.moments.moments import Measure, Moments, sum_moments
+from ...core.numerics.array_types import Array
 from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import polyhedron_moments
 from ...core.rig.cuts import bone_pieces, bones_of_caps, dominant_bones
@@ -69,7 +70,7 @@ class _Sum:
     extents: list[Extent] = field(default_factory=list)
     areas: list[Extent] = field(default_factory=list)
     procedures: list[Procedure] = field(default_factory=list)
-    surfaces: list[tuple[Surface, NDArray[np.float64]]] = field(default_factory=list)
+    surfaces: list[tuple[Surface, Array]] = field(default_factory=list)
     sources: dict[str, None] = field(default_factory=dict)
 
 
@@ -87,7 +88,7 @@ class BonePart:
     mass: Moments
     measurement: Measurement | None
     refusal: Finding | None
-    surfaces: tuple[tuple[Surface, NDArray[np.float64]], ...]
+    surfaces: tuple[tuple[Surface, Array], ...]
     sources: tuple[str, ...]
 
 
@@ -283,7 +284,7 @@ class _Measuring:
         surface: Surface,
         triangles: NDArray,
         bones: NDArray[np.integer],
-        metric: NDArray[np.float64],
+        metric: Array,
     ) -> Iterator[tuple]:
         for bone in np.unique(bones).tolist():
             sheet = Surface(
@@ -350,7 +351,7 @@ class _Measuring:
         )
 
 
-def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
+def _area(sheet: Surface, metric: Array, order: int) -> Moments:
     """Return the area moments of a sheet mapped to its place in the world."""
     if are_similarities(metric[None, :3, :3])[0]:  # the mapped points would be rounded once more
         return polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1].transform(metric)

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.bodies.reading import Reading
 from ...core.measurement.measurement import Body
 from ...core.moments.exponents import KNOWN_ORDER, monomials
 from ...core.moments.moments import FLOAT32_HALF_ULP, Moments, U
+from ...core.numerics.array_types import Array
 from ...core.nurbs.curve_moments import length_moments
 from ...core.nurbs.splines import Curve
 from ...core.polyhedron.third_order import nothing
@@ -75,9 +75,7 @@ def body(reading: Reading, request: Request) -> Body:
     )
 
 
-def curves_in_world(
-    curves: list[Curve], matrix: NDArray[np.float64], unit: float
-) -> tuple[list[Curve], float]:
+def curves_in_world(curves: list[Curve], matrix: Array, unit: float) -> tuple[list[Curve], float]:
     """Return curves mapped to the world in m by a (4, 4) matrix in Blender units, and the points'
     float32 error.
     """

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from bpy.types import Depsgraph, Object
-from numpy.typing import NDArray
 
 from ...core.bodies.reading import Part, float64_matrix
+from ...core.numerics.array_types import Array
 from ...core.numerics.rotations import rotation_matrix
 from ...core.rig.cuts import VertexWeights
 from .visibility import evaluated_geometry
@@ -27,8 +27,8 @@ class RestBones:
 
     names: tuple[str, ...]
     deforming: tuple[str, ...]
-    segments: NDArray[np.float64]
-    frames: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]
+    segments: Array
+    frames: dict[str, tuple[Array, Array]]
 
     @classmethod
     def read(cls, armature: Object) -> RestBones:

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.numerics.array_types import Array
 from ...core.numerics.bspline import SplineSpace
 from ...core.nurbs.blender_knots import blender_space
 from ...core.nurbs.findings import NON_FINITE_CONTROL_POINTS
@@ -125,7 +126,7 @@ def _kind(spline) -> tuple[str, bool, int, bool, bool]:
     )
 
 
-def _control_points(spline) -> NDArray[np.float64]:
+def _control_points(spline) -> Array:
     """Return (n, 3) points in Blender's order; a Bézier point counts as left handle, point and
     right handle.
     """
@@ -224,7 +225,7 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
         )
 
 
-def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
+def _catmull_rom(points: NDArray, cyclic: bool) -> Array:
     """Return (n, 3) offsets to the handles of the equal Bézier curve: a sixth of the way from
     neighbor to neighbor.
     """
@@ -232,9 +233,7 @@ def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
     return (around[2:] - around[:-2]) / 6.0
 
 
-def _values(
-    curves, name: str, item: str, shape: tuple[int, int], default: float = 0.0
-) -> NDArray[np.float64]:
+def _values(curves, name: str, item: str, shape: tuple[int, int], default: float = 0.0) -> Array:
     """Return an attribute of the points or the curves as an array, filled with the default if there
     is none.
     """
@@ -258,7 +257,7 @@ def _curve(
     order: int,
     bezier: bool,
     endpoint: bool,
-    points: NDArray[np.float64],
+    points: Array,
     weights: NDArray | None,
 ) -> Curve | None:
     """Return a spline as a curve, None if too short; `points` are (n, 3), three for each point of a

@@ -29,6 +29,7 @@ from ...core.bodies.reading import (
 )
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import affine_matrices
+from ...core.numerics.array_types import Array
 from ...core.verdict.finding import ReadError
 from .findings import INSTANCES_OF_HIDDEN_OBJECT, NON_FINITE_INSTANCES
 from .mesh import face_slots, from_edit_mesh, mesh_surface, read_array, vertex_values
@@ -81,7 +82,7 @@ class InstanceCollector:
         self.drawn: dict[bpy.types.Object, None] = {}
         self.vanished_count = 0
         self.splines: dict[bpy.types.Object, SplineReading | None] = {}
-        self._parts: dict[Hashable, tuple[Part, list[NDArray[np.float64]]]] = {}
+        self._parts: dict[Hashable, tuple[Part, list[Array]]] = {}
         self._path: list[bpy.types.Object] = []
 
     def collect(self) -> None:

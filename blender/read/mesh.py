@@ -23,6 +23,7 @@ from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
+from ...core.numerics.array_types import Array
 from ...core.verdict.finding import ReadError
 from .findings import ATTRIBUTE_MISSING
 from .visibility import evaluated_geometry
@@ -143,7 +144,7 @@ def face_slots(mesh) -> NDArray[np.int32]:
     return _attribute(mesh, "material_index", "value", (len(mesh.polygons),), np.int32)
 
 
-def vertex_values(mesh, name: str) -> NDArray[np.float64]:
+def vertex_values(mesh, name: str) -> Array:
     """Return (n,) values of a float attribute on vertices, or raise ReadError if there is none."""
     attribute = mesh.attributes.get(name)
     if attribute is None or attribute.domain != "POINT" or attribute.data_type != "FLOAT":

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import numpy as np
 from bpy.types import Object
-from numpy.typing import NDArray
 
 from ...core.bodies.reading import float64_matrix
+from ...core.numerics.array_types import Array
 
 KEY = "body_file_places"  # a property of objects: the numbers of their matrices
 
 
-def set_places(obj: Object, matrices: NDArray[np.float64]) -> None:
+def set_places(obj: Object, matrices: Array) -> None:
     """Give an object its (k, 4, 4) places in the world, or in the collection that is instanced."""
     obj[KEY] = np.asarray(matrices, np.float64).ravel().tolist()
 
@@ -26,7 +26,7 @@ def has_places(obj: Object) -> bool:
     return KEY in obj
 
 
-def world_matrices(obj: Object) -> NDArray[np.float64]:
+def world_matrices(obj: Object) -> Array:
     """Return the (k, 4, 4) places of an object: the file's, else Blender's one."""
     if KEY in obj:
         return np.array(obj[KEY], np.float64).reshape(-1, 4, 4)

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from ...core.bodies.findings import DRAWN_AS_POLYGONS
 from ...core.bodies.reading import Reading
 from ...core.mesh.surface import Surface
+from ...core.numerics.array_types import Array, Index, Mask
 from ...core.numerics.rotations import polar_rotation
 from ...core.nurbs.splines import Curve
 from ...core.verdict.finding import Finding, ReadError, finding
@@ -62,10 +63,10 @@ class SectionReading:
     triangles: NDArray[np.integer]
     faces: NDArray[np.integer]
     error: float
-    rotation: NDArray[np.float64]
-    location: NDArray[np.float64]
+    rotation: Array
+    location: Array
     loops: Sequence[NDArray[np.integer]] | None = None
-    facing: NDArray[np.float64] | None = None
+    facing: Array | None = None
     drawn_area: float | None = None
     findings: list[Finding] = field(default_factory=list)
 
@@ -94,7 +95,7 @@ def read_section(
     return _section("All Faces", surface, triangles, faces, reading, findings=findings)
 
 
-def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64]]:
+def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], Array]:
     """Return the outlines of a flat curve or text without modifiers in its own coordinates, and its
     `matrix_world`.
     """
@@ -132,7 +133,7 @@ def _section(
 
 
 def _selected_faces(obj, depsgraph) -> SectionReading:
-    def selected(copy: bpy.types.Mesh) -> tuple[NDArray[np.bool_], Surface]:
+    def selected(copy: bpy.types.Mesh) -> tuple[Mask, Surface]:
         return read_array(copy.polygons, "select", (len(copy.polygons),), bool), mesh_surface(
             copy, edges=False
         )
@@ -223,9 +224,7 @@ def _require_flat_outlines(obj) -> None:
         raise ReadError(SECTION_EXTRUDED, subject=obj.name)
 
 
-def _spline_outlines(
-    obj, resolution: int | None
-) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
+def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[Index], int]:
     """Return (n, 3) spline points, the indices of each closed spline's points, and the number of
     open splines.
     """

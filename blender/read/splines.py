@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from ...core.bodies.reading import SplineReading, float64_matrix
 from ...core.moments.moments import FLOAT32_HALF_ULP
+from ...core.numerics.array_types import Array
 from ...core.numerics.bspline import SplineSpace
 from ...core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from ...core.nurbs.splines import Patch
@@ -249,7 +250,7 @@ def is_deformed(evaluated) -> bool:
     )
 
 
-def deform(evaluated, points: NDArray, depsgraph) -> NDArray[np.float64]:
+def deform(evaluated, points: NDArray, depsgraph) -> Array:
     """Return (n, 3) control points of all splines in turn, moved by shape keys and hooks, or raise
     ReadError.
     """
@@ -263,7 +264,7 @@ def deform(evaluated, points: NDArray, depsgraph) -> NDArray[np.float64]:
     return points
 
 
-def _apply_shape_keys(evaluated, keys, points: NDArray) -> NDArray[np.float64]:
+def _apply_shape_keys(evaluated, keys, points: NDArray) -> Array:
     blocks = list(keys.key_blocks)
     if evaluated.original.show_only_shape_key:
         return _block_points(blocks[evaluated.original.active_shape_key_index])
@@ -277,7 +278,7 @@ def _apply_shape_keys(evaluated, keys, points: NDArray) -> NDArray[np.float64]:
     return result
 
 
-def _block_points(block) -> NDArray[np.float64]:
+def _block_points(block) -> Array:
     coordinates = []
     for item in block.data:
         if hasattr(item, "handle_left"):
@@ -287,7 +288,7 @@ def _block_points(block) -> NDArray[np.float64]:
     return np.array(coordinates, np.float64).reshape(-1, 3)
 
 
-def _apply_hook(evaluated, modifier, points: NDArray, depsgraph) -> NDArray[np.float64]:
+def _apply_hook(evaluated, modifier, points: NDArray, depsgraph) -> Array:
     indices = np.array(list(modifier.vertex_indices), np.intp)
     if modifier.object is None or not len(indices):
         return points

@@ -26,6 +26,7 @@ from ...core.bodies.reading import Reading, float64_matrix, name_subject
 from ...core.density.findings import GRID_TRANSFORM_SINGULAR
 from ...core.files.findings import OTHERS_LEFT_OUT
 from ...core.mesh.surface import Surface
+from ...core.numerics.array_types import Array
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from .decisions import modifier_findings
@@ -71,7 +72,7 @@ class VolumeReading(Reading):
 
     grid: str
     level_set: bool | None
-    to_object: NDArray[np.float64]
+    to_object: Array
     low: NDArray[np.int64]
     shape: tuple[int, int, int]
     background: float

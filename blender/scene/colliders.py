@@ -20,10 +20,10 @@ import bpy
 import numpy as np
 from bpy.types import Context, Mesh, Object
 from mathutils import Matrix
-from numpy.typing import NDArray
 
 from ...core.bodies.reading import float64_matrix
 from ...core.mesh.surface import Surface
+from ...core.numerics.array_types import Array
 from ...core.numerics.rotations import polar_rotation, quaternion
 from ...core.polyhedron.integration import volume_and_center
 from ...core.robots.model import Pose, Shape
@@ -60,12 +60,12 @@ def colliders_by_body(objects: Iterable[Object]) -> dict[Object, list[Object]]:
     return found
 
 
-def stretch_of(obj: Object, rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+def stretch_of(obj: Object, rotation: Array) -> Array:
     """Return the (3, 3) map from an object's own coordinates to its frame: scale and shear."""
     return rotation.T @ float64_matrix(obj.matrix_world)[:3, :3]
 
 
-def as_stored(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Shape:
+def as_stored(shape: Shape, stretch: Array, unit: float) -> Shape:
     """Return a shape with the vertices of its hull as a mesh of the object stores them, in the
     object's frame in m.
     """
@@ -77,9 +77,7 @@ def as_stored(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Shape:
     return replace(shape, surface=Surface.from_triangles(stored, triangles))
 
 
-def _origin_and_points(
-    shape: Shape, stretch: NDArray[np.float64], unit: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _origin_and_points(shape: Shape, stretch: Array, unit: float) -> tuple[Array, Array]:
     """Return a hull's (3,) center and its (n, 3) points from there, as its object stores them."""
     assert shape.surface is not None
     points = shape.surface.points @ shape.pose.rotation.T + shape.pose.position
@@ -91,7 +89,7 @@ def _origin_and_points(
     return center, (points - center).astype(np.float32).astype(np.float64)
 
 
-def collider_mesh(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Mesh:
+def collider_mesh(shape: Shape, stretch: Array, unit: float) -> Mesh:
     """Return the mesh of a hull about its center, or of a primitive in its own frame, in Blender's
     units.
     """
@@ -110,7 +108,7 @@ def place_colliders(
     old: Sequence[Object],
     shapes: Sequence[Shape],
     meshes: Sequence[Mesh],
-    stretch: NDArray[np.float64],
+    stretch: Array,
     unit: float,
     engine: str,
 ) -> list[Object]:
@@ -178,7 +176,7 @@ def _undo_path(context: Context, curve: Object, colliders: Sequence[Object]) -> 
         raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location", sources=[curve.name])
 
 
-def _in_body(collider: Object) -> NDArray[np.float64]:
+def _in_body(collider: Object) -> Array:
     """Return the (4, 4) transform of a collider in its body's own coordinates."""
     if collider.parent.type == "CURVE":  # the parent inverse also undoes the place along the path
         to_body = np.linalg.inv(float64_matrix(collider.parent.matrix_world))
@@ -222,9 +220,7 @@ def remove_colliders(colliders: Sequence[Object]) -> None:
             bpy.data.collections.remove(collection)
 
 
-def read_colliders(
-    colliders: Iterable[Object], rotation: NDArray[np.float64], unit: float
-) -> list[Shape]:
+def read_colliders(colliders: Iterable[Object], rotation: Array, unit: float) -> list[Shape]:
     """Return colliders as shapes in the frame of their body, in m; `rotation` is that of the
     frame.
     """

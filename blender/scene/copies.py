@@ -28,6 +28,7 @@ from bpy.types import ID, Context, Mesh, Node, NodesModifier, NodeTree, Object, 
 from numpy.typing import NDArray
 
 from ...core.mesh.correspondence import Correspondence, Elements, correspondences
+from ...core.numerics.array_types import Array
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...core.verdict.findings import LINKED_OBJECT
 from . import reframe
@@ -145,7 +146,7 @@ class MeshData:
         ]
 
     @cached_property
-    def labels(self) -> NDArray[np.float64]:
+    def labels(self) -> Array:
         """The (n,) numbers of the vertices, by the layers that have to agree."""
         found = np.zeros(len(self.mesh.vertices))
         elements = self.elements

@@ -14,6 +14,7 @@ from bpy.types import ID, Constraint, Depsgraph, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ...core.numerics.array_types import Array
 from ...core.verdict.finding import EditRefusedError, Finding, ReadError, finding
 from ..read.objects import read_object
 from ..read.visibility import measurable
@@ -29,7 +30,7 @@ SAMPLES = 64
 # a direction along which hardly anything is symmetric
 SORT_DIRECTION = np.array([1.0, 0.7548776662, 0.5698402910])
 
-Shape = list[tuple[NDArray[np.float64], NDArray[np.float64]]]
+Shape = list[tuple[Array, Array]]
 
 
 def referring(objects: set[Object]) -> dict[Object, set[Object]]:
@@ -94,11 +95,11 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
     )
 
 
-def _sample_instances(shape: Shape) -> dict[int, NDArray[np.float64]]:
+def _sample_instances(shape: Shape) -> dict[int, Array]:
     """Return a dict from numbers of points to (k, s, 3) samples of k instances, sorted by center
     along a line.
     """
-    by_count: dict[int, list[NDArray[np.float64]]] = {}
+    by_count: dict[int, list[Array]] = {}
     for first, rest in shape:
         sample_index = np.linspace(0, len(first) - 1, rest.shape[1]).astype(int)
         by_count.setdefault(len(first), []).append(

@@ -16,6 +16,7 @@ import numpy as np
 from bpy.types import FCurve, Object, Scene
 from numpy.typing import NDArray
 
+from ...core.numerics.array_types import Array
 from ...core.rig.channels import handle_values
 from ...core.verdict.finding import EditRefusedError
 from .findings import INTERPOLATION_UNCUT
@@ -143,7 +144,7 @@ def find(curves: Iterable[FCurve], channel: Channel) -> FCurve | None:
     )
 
 
-def keys(curve: FCurve) -> NDArray[np.float64]:
+def keys(curve: FCurve) -> Array:
     """Return the (k, 2) frames and values of a curve's keys."""
     points = np.empty(2 * len(curve.keyframe_points), np.float32)
     curve.keyframe_points.foreach_get("co", points)

@@ -29,6 +29,7 @@ from ...core.cad.surfaces import MAX_ORDER, SurfaceBody, is_storable
 from ...core.density.grid_values import positions_text
 from ...core.files.findings import FILE_UNREADABLE
 from ...core.files.limits import Limits
+from ...core.numerics.array_types import Array
 from ...core.numerics.float32 import shortest_decimal
 from ...core.nurbs.blender_knots import bezier_space
 from ...core.nurbs.flat_face import FlatFace
@@ -286,7 +287,7 @@ class PlacedScan(NamedTuple):
     """
 
     scan: Scan
-    matrix: NDArray[np.float64]
+    matrix: Array
     positions: Positions
     findings: Sequence[Finding]
     target: Path
@@ -354,7 +355,7 @@ def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
     return least
 
 
-def _slabs(scan: Scan) -> Iterator[tuple[int, NDArray[np.float64]]]:
+def _slabs(scan: Scan) -> Iterator[tuple[int, Array]]:
     samples = scan.samples
     planes = max(1, SAMPLES_PER_SLAB // (samples.shape[1] * samples.shape[2]))
     for start in range(0, samples.shape[0], planes):

@@ -26,6 +26,7 @@ from bpy.types import ID, Context, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ...core.numerics.array_types import Index
 from ...core.verdict import internal_error
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ...core.verdict.findings import LINKED_OBJECT
@@ -243,7 +244,7 @@ def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> Scene
                 plan.findings.append(finding(DATA_COPIED))
 
 
-def _in_order(own: Shape | None, order: NDArray[np.intp] | None) -> Shape | None:
+def _in_order(own: Shape | None, order: Index | None) -> Shape | None:
     """Return a shape with its first points in another order; others have points that no order of
     vertices tells.
     """

@@ -21,6 +21,7 @@ from bpy.types import Context, Mesh, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ...core.numerics.array_types import Array, Index, Mask
 from ...core.numerics.arrays import PerBody
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, finding
@@ -55,7 +56,7 @@ class Plan:
     move_only: bool
     findings: list[Finding] = field(default_factory=list)
     mesh: Mesh | None = None
-    order: NDArray[np.intp] | None = None
+    order: Index | None = None
 
 
 def location_tolerance(obj: Object, size: float) -> float:
@@ -72,7 +73,7 @@ def rounding_of_locations(size: PerBody, reach: PerBody) -> PerBody:
     return 4e-7 * size + 4.0 * FLOAT32 * reach
 
 
-def largest_move(difference: NDArray, reach: float) -> NDArray[np.float64]:
+def largest_move(difference: NDArray, reach: float) -> Array:
     """Return the (...,) largest moves of points up to `reach` by (..., 4, 4) differences of
     maps.
     """
@@ -80,7 +81,7 @@ def largest_move(difference: NDArray, reach: float) -> NDArray[np.float64]:
     return off[..., :3, :3].sum(axis=(-2, -1)) * reach + off[..., :3, 3].max(axis=-1)
 
 
-def data_change(was: NDArray, now: NDArray, move_only: bool) -> NDArray[np.float64]:
+def data_change(was: NDArray, now: NDArray, move_only: bool) -> Array:
     """Return (..., 4, 4) maps that keep points in place while their objects' matrices go from `was`
     to `now`.
     """
@@ -226,11 +227,11 @@ def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) ->
     return groups
 
 
-def _worlds(objects: Sequence[Object]) -> NDArray[np.float64]:
+def _worlds(objects: Sequence[Object]) -> Array:
     return np.array([obj.matrix_world for obj in objects], np.float64).reshape(-1, 4, 4)
 
 
-def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> NDArray[np.bool_]:
+def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> Mask:
     """Set objects' rotations and scales to (n, 3, 3) matrices; return a mask of matrices that have
     no shear.
     """

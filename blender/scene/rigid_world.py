@@ -13,15 +13,15 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 from bpy.types import Context, Object, RigidBodyConstraint, Scene
-from numpy.typing import NDArray
 
+from ...core.numerics.array_types import Array
 from ...core.verdict.finding import EditRefusedError
 from .findings import RIGID_WORLD_LINKED
 
 MIN_MASS = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min  # kg
 
 
-def down(scene: Scene) -> NDArray[np.float64]:
+def down(scene: Scene) -> Array:
     """Return the direction of gravity, (3,); -Z if the scene has none."""
     gravity = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
     length = np.linalg.norm(gravity)

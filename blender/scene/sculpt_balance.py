@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from ...core.bodies.reading import Part
 from ...core.measurement.measurement import Measurement
 from ...core.moments.moments import Measure
+from ...core.numerics.array_types import Array
 from ...core.statics.balancing import balance
 from ...core.statics.findings import BALANCE_NO_EFFECT, BALANCE_SHORT
 from ...core.verdict.finding import EditRefusedError, MeasureError, Severity
@@ -74,7 +75,7 @@ class _Vertices:
     start: NDArray[np.float32]
     is_changed = leans = False
 
-    def choose(self, weights: NDArray[np.float64]) -> None:
+    def choose(self, weights: Array) -> None:
         """Let the vertices with (n,) weights above 0 move; EditRefusedError if there are none."""
         self.movable = np.flatnonzero(weights > 0.0)
         self.weights = weights[self.movable]
@@ -224,7 +225,7 @@ def balance_mesh(
     return Balanced(number, largest, centers[0], centers[1])
 
 
-def _lean(points: NDArray, center: NDArray, shift: NDArray, up: NDArray) -> NDArray[np.float64]:
+def _lean(points: NDArray, center: NDArray, shift: NDArray, up: NDArray) -> Array:
     """Return (n, 3) moves in proportion to the height above the lowest of the points, by `shift` at
     the center.
 

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.plain_body import EQUAL_AXES
 from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
+from ...core.numerics.array_types import Array
 from ...core.numerics.rotations import polar_rotation
 from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict.finding import EditRefusedError, Finding
@@ -57,10 +58,10 @@ class SnapTarget:
     """
 
     obj: Object
-    center: NDArray[np.float64]
-    axes: NDArray[np.float64]
-    inertia: NDArray[np.float64]
-    gyration: NDArray[np.float64]
+    center: Array
+    axes: Array
+    inertia: Array
+    gyration: Array
     mass: float
     finding: Finding | None
     shape_axes: tuple[int, ...] = ()

@@ -20,6 +20,7 @@ import numpy as np
 from bpy.types import Object, PoseBone
 from numpy.typing import NDArray
 
+from ...core.numerics.array_types import Array, Mask
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError
 from ..read.findings import SCALE_ZERO_AXIS
@@ -29,8 +30,8 @@ from .findings import CHANNEL_LOCKED, PARENT_SHEARS
 FLOAT32 = float(np.finfo(np.float32).eps)
 MAX_SHEAR = 2e-6  # by rounding, in float32 products of a rotation and a scale
 
-Matrix3 = NDArray[np.float64]
-Matrix4 = NDArray[np.float64]
+Matrix3 = Array
+Matrix4 = Array
 
 
 def world(obj: Object) -> Matrix4:
@@ -45,7 +46,7 @@ def solve(matrix: Matrix4, right_side: Matrix4) -> Matrix4:
     return np.asarray(np.linalg.solve(matrix, right_side), np.float64)
 
 
-def _turn(axis: int, angle: NDArray) -> NDArray[np.float64]:
+def _turn(axis: int, angle: NDArray) -> Array:
     matrix = np.zeros((*np.shape(angle), 3, 3))
     j, k = (axis + 1) % 3, (axis + 2) % 3
     matrix[..., axis, axis] = 1.0
@@ -68,7 +69,7 @@ def euler_matrix(angles: NDArray, mode: str) -> Matrix3:
     return _turn(k, angles[k]) @ _turn(j, angles[j]) @ _turn(i, angles[i])
 
 
-def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> NDArray[np.float64]:
+def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> Array:
     """Return (..., 3) Euler angles by axis of (..., 3, 3) rotations: of all equivalent ones the
     nearest to `near`.
     """
@@ -128,9 +129,7 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
     _assign(obj, "location", channel_location, obj.lock_location, tolerance)
 
 
-def rotation_and_scale(
-    linear: NDArray, scale: NDArray
-) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
+def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[Array, NDArray, Mask]:
     """Return rotations and scales, signed as `scale`, of (..., 3, 3) maps, and a mask of maps
     without shear or zero.
     """

@@ -12,6 +12,7 @@ import numpy as np
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
+from ...core.numerics.array_types import Array
 from ...core.statics.support import Support, find_contacts, support_of_contacts
 from ...core.verdict import internal_error
 from ...core.verdict.finding import EditRefusedError, MeasureError
@@ -125,7 +126,7 @@ class BalanceGroup:
             support_of_contacts(touching, self.centers[-1], gravity) if len(touching) else None
         )
 
-    def _center(self, motion: Motion, depsgraph: Depsgraph) -> NDArray[np.float64]:
+    def _center(self, motion: Motion, depsgraph: Depsgraph) -> Array:
         """Return the common center at this frame, in Blender's units."""
         if self._assembly is not None:
             body = measure_assembly(self._assembly, depsgraph).measurement.mass_properties

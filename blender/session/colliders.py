@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from bpy.types import Context, Depsgraph, Object
-from numpy.typing import NDArray
 
 from ...core.bodies.reading import float64_matrix
 from ...core.colliders.effects import correct_masses, correct_vertices, effect, uniform_masses
@@ -23,6 +22,7 @@ from ...core.measurement.settings import digest
 from ...core.mesh.hulls import convex_hull
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.moments.affine_maps import are_singular
+from ...core.numerics.array_types import Array
 from ...core.numerics.rotations import polar_rotation
 from ...core.robots.model import Pose, Shape
 from ...core.verdict.finding import ReadError
@@ -48,7 +48,7 @@ class Plan:
 
     obj: Object
     shapes: tuple[Shape, ...]
-    stretch: NDArray[np.float64]
+    stretch: Array
     record: dict[str, Any]
     fingerprint: str
     key: str

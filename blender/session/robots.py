@@ -12,11 +12,11 @@ from dataclasses import dataclass, field, replace
 import bpy
 import numpy as np
 from bpy.types import Collection, Context, Depsgraph, Object
-from numpy.typing import NDArray
 
 from ...core.bodies.reading import float64_matrix
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
+from ...core.numerics.array_types import Array
 from ...core.numerics.rotations import polar_rotation, rotation_matrix
 from ...core.robots.findings import ROBOT_WITHOUT_LINKS
 from ...core.robots.links import Candidate, Connection, assemble_robot, make_candidate
@@ -55,7 +55,7 @@ class SceneLinks:
     findings: list[Finding]
     unit: float
     members: dict[str, list[Object]] = field(default_factory=dict)
-    pieces: dict[str, tuple[tuple[Surface, NDArray[np.float64]], ...]] = field(default_factory=dict)
+    pieces: dict[str, tuple[tuple[Surface, Array], ...]] = field(default_factory=dict)
 
     def with_colliders(self) -> SceneLinks:
         """Return the links with the colliders of their objects in place of their geometry as

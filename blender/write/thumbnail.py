@@ -11,6 +11,8 @@ import zlib
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.numerics.array_types import Array
+
 SIZE = 128  # pixels
 _SAMPLES = 5_000  # points of the surface, so that parts thinner than a pixel are drawn, too
 _MAX_TESTS = 1_000_000  # pairs of a pixel and a triangle; many long slivers would have far more
@@ -26,8 +28,8 @@ _BODY = np.array([205.0, 208.0, 214.0])
 def thumbnail(
     points: NDArray[np.floating],
     triangles: NDArray[np.integer],
-    center: NDArray[np.float64],
-    axes: NDArray[np.float64],
+    center: Array,
+    axes: Array,
 ) -> str:
     """Draw triangles from an oblique direction, and return a PNG as a data URL.
 
@@ -69,7 +71,7 @@ def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) ->
     _put(image, spots[order], colors[owner[order]])
 
 
-def _covered_pixels(corners: NDArray) -> tuple[NDArray, NDArray[np.float64]]:
+def _covered_pixels(corners: NDArray) -> tuple[NDArray, Array]:
     """Return the (k,) triangles that cover centers of pixels, and these (k, 3) points; none if too
     many.
     """
@@ -95,7 +97,7 @@ def _covered_pixels(corners: NDArray) -> tuple[NDArray, NDArray[np.float64]]:
     return owner[inside], np.column_stack([points, depth])[inside]
 
 
-def _sample(corners: NDArray, areas: NDArray, count: int) -> tuple[NDArray, NDArray[np.float64]]:
+def _sample(corners: NDArray, areas: NDArray, count: int) -> tuple[NDArray, Array]:
     """Return points that are spread over the triangles' areas, and the triangle of each."""
     chance = np.random.default_rng(0)
     chosen = np.searchsorted(np.cumsum(areas), chance.random(count) * areas.sum())

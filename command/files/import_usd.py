@@ -23,6 +23,7 @@ from ...blender.scene.imports import surface_data
 from ...core.cad.obj import UPRIGHT
 from ...core.cad.surfaces import revolved_solid
 from ...core.files.findings import FILE_UNREADABLE
+from ...core.numerics.array_types import Array
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, FRAME_MEASURED, USD_CAGE, USD_UNREAD
 from .placing import place_objects, set_frame
@@ -43,10 +44,10 @@ class _Prim(NamedTuple):
     hidden: str | None
     scheme: str | None
     solid: tuple[float, float, float, str, bool] | None
-    place: NDArray[np.float64]
+    place: Array
     is_member: bool
-    points: NDArray[np.float64] | None
-    members: Mapping[str, NDArray[np.float64]] | None
+    points: Array | None
+    members: Mapping[str, Array] | None
 
 
 _SHAPELESS = "Points", "BasisCurves", "HermiteCurves", "NurbsCurves"  # have no volume
@@ -185,7 +186,7 @@ class _Stage:
             for name, fact in facts.items()
         }
 
-    def _skinned_points(self) -> dict[Any, NDArray[np.float64]]:
+    def _skinned_points(self) -> dict[Any, Array]:
         """Return the points of skinned meshes by their paths, in their own coordinates."""
         bound = [
             prim
@@ -245,7 +246,7 @@ class _Stage:
             members,
         )
 
-    def _members(self, instancer: Any) -> Iterator[tuple[Any, NDArray[np.float64]]]:
+    def _members(self, instancer: Any) -> Iterator[tuple[Any, Array]]:
         """Yield the paths of shapes that an instancer shows, and their (k, 4, 4) places in it."""
         schema = self._geom.PointInstancer(instancer)
         matrices = np.array(
@@ -266,7 +267,7 @@ class _Stage:
             for path, local in self._shapes(root, root) if root and len(chosen) else ():
                 yield path, (chosen[:, None] @ local).reshape(-1, 4, 4)
 
-    def _shapes(self, prim: Any, root: Any) -> Iterator[tuple[Any, NDArray[np.float64]]]:
+    def _shapes(self, prim: Any, root: Any) -> Iterator[tuple[Any, Array]]:
         """Yield the shapes of a prototype that are shown, and their places relative to its root."""
         imageable = self._geom.Imageable(prim)
         if imageable and (

@@ -10,10 +10,10 @@ from collections.abc import Mapping
 import bpy
 import numpy as np
 from mathutils import Matrix
-from numpy.typing import NDArray
 
 from ...blender.read.places import set_places
 from ...core.bodies.reading import float64_matrix
+from ...core.numerics.array_types import Array
 
 ANCHOR = "Imported Places"  # an empty at the world's origin
 _AGREEMENT = 1e-5  # of an axis, and of a location: larger than the rounding along chains of parents
@@ -35,7 +35,7 @@ def first_frame() -> float | None:
     return min(starts, default=None)
 
 
-def place_objects(places: Mapping[str, NDArray[np.float64]]) -> None:
+def place_objects(places: Mapping[str, Array]) -> None:
     """Give objects their (4, 4) places, and move those to them that stand elsewhere."""
     bpy.context.view_layer.update()
     wrong = []

@@ -13,14 +13,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from zipfile import is_zipfile
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ...core.density.materials import BY_NAME
 from ...core.density.polynomial import parse_polynomial
 from ...core.files.limits import file_limits
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
 from ...core.measurement.measurement import Measurement
+from ...core.numerics.array_types import Array
 from ...core.scans.numpy_files import map_array
 from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
 from ..files.suffixes import file_suffix
@@ -55,7 +53,7 @@ def prepare(options: Namespace) -> None:
         fail("argument --{}: {}".format("grid" if options.q is None else "q", error))
 
 
-def wave_vectors_of(options: Namespace) -> FrequencyGrid | NDArray[np.float64] | None:
+def wave_vectors_of(options: Namespace) -> FrequencyGrid | Array | None:
     """Return the requested wave vectors, of a grid or a .npy file, or None.
 
     Raises MeasureError and UsageError.

@@ -22,6 +22,7 @@ from ..measurement.settings import Settings
 from ..moments.affine_maps import affine_matrices
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Moments
+from ..numerics.array_types import Array
 from ..scans import Scan, read_scan, sample_matrix
 from ..scans.findings import SCAN_UNSTATED
 from ..scans.formats import place_samples, read_all_positions
@@ -51,7 +52,7 @@ from .wall import WallBody, find_walls
 COUNTED = "boundary_edges", "non_manifold_edges", "inconsistent_edges", "components"
 
 
-def read_mesh(mesh: FileMesh, upright: NDArray[np.float64]) -> Reading:
+def read_mesh(mesh: FileMesh, upright: Array) -> Reading:
     """Return the reading of a file's mesh in a place, (4, 4): a rotation.
 
     FileError if a coordinate is too large, ReadError if there are no faces.
@@ -226,7 +227,7 @@ def measure_array(
 def _threshold_body(
     name: str,
     scan: Scan,
-    matrix: NDArray[np.float64],
+    matrix: Array,
     array: ArrayOptions,
     settings: Settings,
     findings: tuple[Finding, ...],
@@ -251,7 +252,7 @@ def _threshold_body(
     slowest = np.argsort([-abs(stride) for stride in scan.samples.strides], kind="stable")
     turned = affine_matrices(np.eye(3)[:, slowest])
 
-    def values(block: NDArray) -> NDArray[np.float64]:
+    def values(block: NDArray) -> Array:
         progress(block.size)
         return block * scan.slope + scan.intercept
 

@@ -20,6 +20,7 @@ from ..density.threshold import ThresholdBody, threshold_body
 from ..measurement.measurement import Body
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Measure, Moments
+from ..numerics.array_types import Array
 from ..scans.findings import SCAN_LABELS
 from ..scans.formats import EVEN, Positions
 from ..scans.labels import count_labels
@@ -55,7 +56,7 @@ class Samples:
 
     values: Blocks | NDArray
     shape: Sequence[int]
-    matrix: NDArray[np.float64]
+    matrix: Array
     options: GridOptions = GridOptions()
     background: float | None = None
     slope: float = 1.0
@@ -66,7 +67,7 @@ class Samples:
     def _weigh(self) -> Callable[[NDArray], NDArray]:
         return density_function(self.options, self.background)
 
-    def densities(self, block: NDArray) -> NDArray[np.float64]:
+    def densities(self, block: NDArray) -> Array:
         """Return the densities, kg/m³, of a block of values."""
         scaled = self.slope != 1.0 or self.intercept != 0.0
         return self._weigh(block * self.slope + self.intercept if scaled else block)
@@ -74,7 +75,7 @@ class Samples:
     def volume_moments(self, order: int) -> Moments:
         """Return the moments of the voxels that are not empty."""
 
-        def occupied(block: NDArray) -> NDArray[np.float64]:
+        def occupied(block: NDArray) -> Array:
             return (self.densities(block) != 0.0).astype(np.float64)
 
         return replace(self.grid_moments(occupied, 1, order), measure=Measure.VOLUME)
@@ -118,7 +119,7 @@ def density_body(
     if min(samples.shape) < 1:
         raise ReadError(GRID_EMPTY)
 
-    def densities(block: NDArray) -> NDArray[np.float64]:
+    def densities(block: NDArray) -> Array:
         progress(block.size)
         return samples.densities(block)
 
@@ -157,9 +158,9 @@ class ThresholdGrid:
 
     name: str
     values: NDArray
-    matrix: NDArray[np.float64]
+    matrix: Array
     background: float | None
-    value: Callable[[NDArray], NDArray[np.float64]] | None = None
+    value: Callable[[NDArray], Array] | None = None
 
     def coarse(self) -> ThresholdGrid:
         """Return the grid with every n-th value of each axis, coarse enough to follow a slider."""

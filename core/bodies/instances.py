@@ -19,6 +19,7 @@ from ..mesh.surface import Surface
 from ..moments.affine_maps import affine_matrices, are_similarities, placed_boxes, similarity_groups
 from ..moments.images import sum_of_images
 from ..moments.moments import Moments
+from ..numerics.array_types import Array, Index
 from ..polyhedron.integration import area_of_images
 from ..solid.findings import COMPONENTS_NESTED, COMPONENTS_OVERLAP, OVERLAP_UNCHECKED
 from ..solid.nesting import classify_pairs
@@ -73,14 +74,14 @@ class PlaceComparison:
     components of the overlapping pairs, are too small to matter.
     """
 
-    nested: NDArray[np.intp]
-    overlapping: NDArray[np.intp]
+    nested: Index
+    overlapping: Index
     undecided_pairs: int
     nested_slightly: bool
     overlapping_slightly: bool
 
 
-def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]]) -> PlaceComparison:
+def compare_places(solids: Sequence[tuple[SolidIntegrals, Array]]) -> PlaceComparison:
     """Find solids that overlap or contain each other in their places, given by (k, 4, 4) maps for
     each solid.
     """
@@ -189,7 +190,7 @@ def instances_size(reading: Reading) -> float:
     return float(np.linalg.norm((centers + extents).max(axis=0) - (centers - extents).min(axis=0)))
 
 
-def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _boxes(reading: Reading) -> tuple[Array, Array]:
     """Return (k, 3) middles and (k, 3) half sides of the boxes around the places of parts."""
     centers, extents = zip(
         *[placed_boxes(part.surface.box, part.matrices) for part in reading.parts]

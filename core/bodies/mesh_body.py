@@ -17,6 +17,7 @@ from ..measurement.measurement import Body
 from ..mesh.surface import Surface, normals
 from ..moments.images import sum_of_images
 from ..moments.moments import Moments, monomials, sum_moments
+from ..numerics.array_types import Array
 from ..polyhedron import polyhedron_moments
 from ..solid.findings import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES
 from ..solid.measure import SolidIntegrals, measure_solid
@@ -54,7 +55,7 @@ class MeshBody(Body):
     any_order: ClassVar[bool] = True
     has_surface: ClassVar[bool] = True
 
-    solids: tuple[tuple[SolidIntegrals, NDArray[np.float64]], ...] = ()
+    solids: tuple[tuple[SolidIntegrals, Array], ...] = ()
     threads: int = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:

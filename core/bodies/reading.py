@@ -19,6 +19,7 @@ from ..measurement.measurement import Body, Measurement
 from ..measurement.settings import Settings, fingerprint
 from ..mesh.surface import Surface, join_surfaces
 from ..moments.affine_maps import are_singular
+from ..numerics.array_types import Array
 from ..nurbs.splines import Curve, Face
 from ..verdict.finding import Finding, MeasureError, ReadError, system_reason
 
@@ -37,7 +38,7 @@ class FaceAttributes:
 
     materials: tuple = ()
     face_slots: NDArray[np.integer] = field(default_factory=NO_SLOTS.view)
-    vertex_values: NDArray[np.float64] = field(default_factory=NO_VALUES.view)
+    vertex_values: Array = field(default_factory=NO_VALUES.view)
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +65,7 @@ class Part:
     """
 
     surface: Surface
-    matrices: NDArray[np.float64]
+    matrices: Array
     attributes: FaceAttributes = field(default_factory=FaceAttributes)
     splines: SplineReading | None = None
     source_object_name: str = ""
@@ -86,9 +87,9 @@ class Reading:
 
     name: str
     type: str
-    matrix: NDArray[np.float64]
-    rotation: NDArray[np.float64]
-    location: NDArray[np.float64]
+    matrix: Array
+    rotation: Array
+    location: Array
     parts: list[Part] = field(default_factory=list)
     curves: list[Curve] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
@@ -133,14 +134,14 @@ def attribute_to_source(result: Finding, source: str, whole: str) -> Finding:
     return result if source in ("", whole) else result.of_sources([source])
 
 
-def to_si(matrices: ArrayLike, unit: float) -> NDArray[np.float64]:
+def to_si(matrices: ArrayLike, unit: float) -> Array:
     """Return (k, 4, 4) world matrices in SI units; `unit` is in meters per Blender unit."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit
     return scaled
 
 
-def float64_matrix(matrix) -> NDArray[np.float64]:
+def float64_matrix(matrix) -> Array:
     """Return a `mathutils.Matrix` as a (4, 4) float64 array, to the bit."""
     return np.array([row[:] for row in matrix], np.float64)
 

@@ -15,7 +15,6 @@ from math import floor, inf, isfinite, log10
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
 from ..measurement.measurement import Body
@@ -25,6 +24,7 @@ from ..moments.affine_maps import placed_boxes
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.images import sum_of_images
 from ..moments.moments import Measure, Moments, monomials, sum_moments
+from ..numerics.array_types import Array
 from ..polyhedron import polyhedron_moments
 from ..solid.findings import INVERTED_COMPONENTS
 from ..solid.measure import SolidIntegrals
@@ -61,7 +61,7 @@ class WallPiece:
 
     offset: OffsetSolid
     scale: float
-    matrices: NDArray[np.float64]
+    matrices: Array
 
     def max_thickness(self, side: str) -> float:
         """Return the thickness in m from which the wall folds over."""
@@ -92,7 +92,7 @@ class WallPiece:
         """Return whether the wall intersects itself."""
         return self.offset.self_intersects(*split_thickness(side, thickness / self.scale))
 
-    def boxes(self, side: str, thickness: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def boxes(self, side: str, thickness: float) -> tuple[Array, Array]:
         """Return (k, 3) middles and (k, 3) half sides of boxes around the wall in its places,
         in m.
         """

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..files.findings import FILE_TOO_LARGE
+from ..numerics.array_types import Array
 from ..nurbs.flat_face import FlatFace
 from ..nurbs.splines import Curve, Face, Patch, patches_size
 from ..verdict.finding import FileError, finding
@@ -120,7 +121,7 @@ class IgesReader:
         self._text = IgesText(path)
         self._entries = self._text.entries
         self._refusals = Refusals()
-        self._matrices: dict[int, NDArray[np.float64] | None] = {0: np.eye(4)}
+        self._matrices: dict[int, Array | None] = {0: np.eye(4)}
         self._name = path.stem
         self._placed = 0
         self._rounding = 0.0
@@ -257,7 +258,7 @@ class IgesReader:
             raise ValueError("another entity")
         return entry
 
-    def _matrix(self, entry: Entry) -> NDArray[np.float64]:
+    def _matrix(self, entry: Entry) -> Array:
         """Return the (4, 4) matrix of an entity: its transformation, followed by the ones that this
         refers to.
         """
@@ -390,7 +391,7 @@ class IgesReader:
         self._rounding = max(self._rounding, moved)
         return moved
 
-    def _plane_normal(self, base: Entry, matrix: NDArray) -> NDArray[np.float64]:
+    def _plane_normal(self, base: Entry, matrix: NDArray) -> Array:
         """Return a vector (3,) across a plane, on the side that it faces."""
         fields = self._text.fields(base)
         if base.type == PLANE_SURFACE:

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..files.findings import FILE_UNRECOGNIZED
+from ..numerics.array_types import Array
 from ..numerics.bspline import SplineSpace, clamped_space
 from ..nurbs.blender_knots import bezier_curves
 from ..nurbs.splines import Curve
@@ -259,7 +260,7 @@ def decimal_rounding(fields: list[str]) -> float:
     return 0.5 * 10.0 ** max(last_digits) if last_digits else 0.0
 
 
-def numbers(fields: list[str]) -> NDArray[np.float64]:
+def numbers(fields: list[str]) -> Array:
     """Return the real numbers of fields, with Fortran's exponents, 0 for blank ones.
 
     ValueError if one is no number.
@@ -277,7 +278,7 @@ def numbers(fields: list[str]) -> NDArray[np.float64]:
 class CurveReader:
     """A reader of the curves of a file. matrix_of: returns the (4, 4) matrix of an entity."""
 
-    def __init__(self, text: IgesText, matrix_of: Callable[[Entry], NDArray[np.float64]]) -> None:
+    def __init__(self, text: IgesText, matrix_of: Callable[[Entry], Array]) -> None:
         self._text, self._matrix_of = text, matrix_of
         self._entries: Mapping[int, Entry] = text.entries
 

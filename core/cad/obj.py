@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from ..files.findings import FILE_TOO_LARGE
 from ..files.number_text import parse_number, parse_whole
 from ..files.text_fields import map_file, parse_decimals
+from ..numerics.array_types import Array, Index
 from ..nurbs.splines import Face
 from ..streams.file_mesh import FileMesh, name_of_file, without_repeats
 from ..verdict.finding import FileError
@@ -159,7 +160,7 @@ class ObjReader:
                 if word in _WANTED:
                     yield word, line.partition("#")[0].split()[1:]
 
-    def _points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _points(self) -> tuple[Array, Array]:
         """Return the (n, 3) vertices and their (n,) weights, NaN for a vertex with a word that is
         no number.
         """
@@ -229,7 +230,7 @@ def _indices(words: list[str], count: int) -> NDArray[np.int64]:
 
 def read_obj_faces(
     path: Path,
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], list]:
+) -> tuple[Array, NDArray[np.int64], NDArray[np.int64], list]:
     """Return (n, 3) points, (k,) corners and (m,) sides of faces; of objects the first face, first
     vertex and name.
     """
@@ -259,7 +260,7 @@ def read_obj_faces(
     return np.concatenate(points), np.concatenate(corners), np.concatenate(sides), starts
 
 
-def _read_points(lines: Lines) -> NDArray[np.float64]:
+def _read_points(lines: Lines) -> Array:
     """Return the (n, 3) vertices of a block."""
     is_vertex = lines.kinds[0]
     values, at, _ = parse_decimals(lines.keep(is_vertex))
@@ -268,7 +269,7 @@ def _read_points(lines: Lines) -> NDArray[np.float64]:
     return values[first[:, None] + np.arange(3)]
 
 
-def _read_faces(lines: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.intp]]:
+def _read_faces(lines: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64], Index]:
     """Return the (k,) vertices of the faces of a block, the (m,) counts of their corners, and their
     lines' offsets.
     """

@@ -32,6 +32,7 @@ from ..files.text_fields import (
     refuse_line,
     shorten,
 )
+from ..numerics.array_types import Mask
 
 VERTICES = {b"v": 3, b"vt": 1, b"vn": 3, b"vp": 1}  # the least count of numbers
 INDICES = {b"f": 3, b"l": 2, b"p": 1}  # the least count of indices
@@ -115,16 +116,16 @@ class Lines:
         self.before = behind - self.kinds
         self.after = behind[:, -1]
 
-    def has_kind(self, kinds: str) -> NDArray[np.bool_]:
+    def has_kind(self, kinds: str) -> Mask:
         """Return whether the (n,) lines are statements of one of some letters."""
         return np.isin(self._kind, [ord(letter) for letter in kinds])
 
-    def keep(self, is_kept: NDArray[np.bool_]) -> bytes:
+    def keep(self, is_kept: Mask) -> bytes:
         """Return the text with spaces in place of all but some (n,) lines."""
         inside = np.repeat(is_kept, self.ends - self.starts + 1)
         return np.where(inside, self.letters[:-3], np.uint8(ord(" "))).tobytes()
 
-    def indices(self, is_indexed: NDArray[np.bool_]) -> tuple[NDArray, NDArray, NDArray]:
+    def indices(self, is_indexed: Mask) -> tuple[NDArray, NDArray, NDArray]:
         """Return (n,) offsets of indices in lines, their kinds (0, 1, 2 for v, vt, vn), and their
         absolute values.
         """

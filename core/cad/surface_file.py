@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files.findings import FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
 from ..files.limits import DEFAULT_LIMITS, Limits
+from ..numerics.array_types import Array
 from ..streams.file_mesh import FileMesh, box_of_blocks
 from ..streams.measure import KINDS
 from ..verdict.finding import FileError
@@ -37,7 +37,7 @@ def read_surfaces(
     return _READERS[suffix](path, for_blender).read()
 
 
-def read_meshes(path: str | Path) -> tuple[list[FileMesh], NDArray[np.float64]]:
+def read_meshes(path: str | Path) -> tuple[list[FileMesh], Array]:
     """Return the meshes of an .stl, .ply or .obj file, in its unit, and (4, 4) the map to z up.
 
     Names and places are those of Blender's importers. Of the formats, only .obj can hold several

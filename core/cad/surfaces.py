@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..files.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
+from ..numerics.array_types import Array
 from ..numerics.bspline import SplineSpace
 from ..nurbs.blender_knots import bezier_patches, bezier_space
 from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
@@ -147,7 +148,7 @@ def placed_surface(
     knots: tuple[Sequence[float], Sequence[float]],
     orders: tuple[int, int],
     points: ArrayLike,
-    weights: NDArray[np.float64] | None,
+    weights: Array | None,
     matrix: NDArray,
 ) -> Patch:
     """Return a surface with any knots; ValueError if its data are inconsistent.

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array
 from ..nurbs.flat_face import FlatFace
 from ..nurbs.patch_moments import vector_area
 from ..nurbs.seams import nearest_parameters
@@ -198,7 +199,7 @@ class Piece:
     polygonal line.
     """
 
-    points: NDArray[np.float64]
+    points: Array
     straight: bool
 
 

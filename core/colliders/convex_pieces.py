@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from ..mesh.hulls import ConvexHull, convex_hull, hull_volumes
 from ..mesh.point_triangle import triangle_distances
 from ..mesh.surface import Surface, triangle_areas
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.graph import connected_components
 from ..numerics.quadrature import spread_directions
 from ..verdict.finding import MeasureError
@@ -81,7 +82,7 @@ def _solid_hull(points: NDArray, tolerance: float, corners: int) -> ConvexHull:
     return convex_hull(points, max_corners=corners) if hull.is_flat else hull
 
 
-def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, NDArray[np.float64]]:
+def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, Array]:
     """Return the largest reduction of hulls by a plane, on a coarse copy of the piece, and the (4,)
     plane.
 
@@ -104,7 +105,7 @@ def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, NDA
     return max(*gains, HOPE * excess), middle[int(np.argmax(gains))]
 
 
-def _best_of(coarse: Piece, piece: Piece) -> tuple[float, NDArray[np.float64]]:
+def _best_of(coarse: Piece, piece: Piece) -> tuple[float, Array]:
     """Return the largest reduction of the hulls by one plane, and the plane."""
     size = float(np.ptp(piece.points, axis=0).max())
     planes = np.concatenate([_concave_planes(piece, size), _even_planes(piece.points, SHARES)])
@@ -138,9 +139,7 @@ def _is_near_hull(piece: Piece, limit: float) -> bool:
     return True
 
 
-def distances_from_triangles(
-    points: NDArray[np.float64], corners: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def distances_from_triangles(points: Array, corners: Array) -> Array:
     """Return the (n,) distances of points from the nearest of some (m, 3, 3) triangles."""
     pairs = points.repeat(len(corners), axis=0), np.tile(corners, (len(points), 1, 1))
     return triangle_distances(*pairs).reshape(-1, len(corners)).min(axis=1)
@@ -175,7 +174,7 @@ def _coarse(piece: Piece) -> Piece:
     return moved.take(moved.start != moved.end)
 
 
-def _concave_planes(piece: Piece, size: float) -> NDArray[np.float64]:
+def _concave_planes(piece: Piece, size: float) -> Array:
     """Return (k, 4) planes through concave edges: in either face, and halfway between; the most
     important ones.
     """
@@ -217,7 +216,7 @@ def _concave_planes(piece: Piece, size: float) -> NDArray[np.float64]:
     return planes[where[np.argsort(-total, kind="stable")[:MAX_PLANES]]]
 
 
-def _even_planes(points: NDArray[np.float64], shares: NDArray[np.float64]) -> NDArray[np.float64]:
+def _even_planes(points: Array, shares: Array) -> Array:
     """Return (k, 4) planes that divide the extents along the principal axes of the points and along
     x, y and z.
     """
@@ -231,9 +230,9 @@ def _even_planes(points: NDArray[np.float64], shares: NDArray[np.float64]) -> ND
 
 def _gains(
     piece: Piece,
-    planes: NDArray[np.float64],
-    measure: Callable[..., NDArray[np.float64]] = hull_volumes,
-) -> NDArray[np.float64]:
+    planes: Array,
+    measure: Callable[..., Array] = hull_volumes,
+) -> Array:
     """Return by how much each plane reduces the volume of the hulls of connected parts, for each
     part it adds.
     """
@@ -296,9 +295,7 @@ def _directions() -> ConvexHull:
     return convex_hull(spread_directions(DIRECTIONS), 1e-9)
 
 
-def _rough_volumes(
-    points: NDArray[np.float64], starts: NDArray[np.intp], _: float
-) -> NDArray[np.float64]:
+def _rough_volumes(points: Array, starts: Index, _: float) -> Array:
     """Return about the volumes of hulls: those of polyhedra of the farthest points in some
     directions.
     """
@@ -313,9 +310,7 @@ def _rough_volumes(
     return np.einsum("ijk,ijk->i", a, np.cross(b, c)) / 6.0
 
 
-def _face_inward(
-    points: NDArray, out: NDArray, label: NDArray[np.intp], parts: int
-) -> NDArray[np.bool_]:
+def _face_inward(points: NDArray, out: NDArray, label: Index, parts: int) -> Mask:
     """Return a (parts,) mask of the parts whose faces look at the middle: walls of holes. out: (n,
     3) normals.
     """
@@ -330,9 +325,7 @@ def _face_inward(
     return flux < 0.0
 
 
-def _boxes_around(
-    points: NDArray, starts: NDArray[np.intp], plane: NDArray[np.intp], inward: NDArray[np.bool_]
-) -> NDArray[np.intp]:
+def _boxes_around(points: NDArray, starts: Index, plane: Index, inward: Mask) -> Index:
     """Return, for each set of points, itself, or of walls of a hole the set of the same plane
     around its box.
     """
@@ -353,7 +346,7 @@ def _boxes_around(
     return around
 
 
-def _merge(sets: list[NDArray[np.float64]], most: int, volume: float) -> list[NDArray[np.float64]]:
+def _merge(sets: list[Array], most: int, volume: float) -> list[Array]:
     """Merge sets of points, each time the pair whose common hull adds least, until at most so many
     are left.
 
@@ -387,7 +380,7 @@ def _merge(sets: list[NDArray[np.float64]], most: int, volume: float) -> list[ND
     return sets
 
 
-def _volumes(sets: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+def _volumes(sets: Sequence[Array]) -> Array:
     if not sets:
         return np.zeros(0)
     starts = np.cumsum([0, *(len(points) for points in sets[:-1])])

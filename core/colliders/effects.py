@@ -35,6 +35,7 @@ from ..mesh.hulls import ConvexHull, convex_hull
 from ..mesh.surface import Surface, triangle_areas
 from ..moments.exponents import monomial_count, monomials
 from ..moments.moments import SECOND_MOMENT_INDEX, Moments
+from ..numerics.array_types import Array
 from ..numerics.arrays import sums_by_index
 from ..polyhedron.integration import polyhedron_moments
 from ..robots.model import Effect, Inertial, Pose, Shape, compare, ratio
@@ -119,9 +120,7 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
     return (body.mass / shares.sum() * shares).tolist()
 
 
-def _ten_sums(
-    body: MassProperties, shapes: Sequence[Shape]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _ten_sums(body: MassProperties, shapes: Sequence[Shape]) -> tuple[Array, Array]:
     """Return (n,) volumes of colliders, and (10, n) moments by their masses, about the body's
     center.
     """
@@ -131,9 +130,7 @@ def _ten_sums(
     return volumes, raw / np.where(volumes > 0.0, volumes, 1.0)
 
 
-def _nearest(
-    rows: NDArray[np.float64], target: NDArray[np.float64], held: int, wish: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], float]:
+def _nearest(rows: Array, target: Array, held: int, wish: Array) -> tuple[Array, float]:
     """Return (n,) x ≥ 0 nearest to a wish, and how far the `held` first rows of rows @ x = target
     are from holding.
 
@@ -155,9 +152,7 @@ def _nearest(
     return x, off
 
 
-def _nonnegative(
-    system: NDArray[np.float64], target: NDArray[np.float64], x: NDArray
-) -> NDArray[np.float64]:
+def _nonnegative(system: Array, target: Array, x: NDArray) -> Array:
     """Return (n,) x ≥ 0 with the least |system @ x - target| (Lawson and Hanson 1974), from a start
     ≥ 0.
 
@@ -258,11 +253,11 @@ class _Hulls:
         for moments in fixed:
             self.fixed += moments.about_point(body.center).raw[:SUMS] / (volume * self.size**DEGREE)
 
-    def take(self, points: NDArray[np.float64]) -> list[ConvexHull]:
+    def take(self, points: Array) -> list[ConvexHull]:
         """Return the hulls of moved corners. MeasureError if one has no volume."""
         return [convex_hull(part) for part in np.split(points, self.starts[1:-1])]
 
-    def evaluate(self, points: NDArray[np.float64]) -> tuple[NDArray, NDArray, NDArray]:
+    def evaluate(self, points: Array) -> tuple[NDArray, NDArray, NDArray]:
         """Return the (10,) sums that are missing, (10, n, 3) derivatives of the sums and (n,) areas
         of corners.
         """
@@ -284,7 +279,7 @@ class _Hulls:
         return self.target - sums, gradient, areas
 
 
-def _solve(hulls: _Hulls, limit: float) -> tuple[NDArray[np.float64], float]:
+def _solve(hulls: _Hulls, limit: float) -> tuple[Array, float]:
     """Return the (n, 3) corners that have the body's sums with the least motion, or nearly, and
     what is missing.
     """
@@ -322,7 +317,7 @@ def _solve(hulls: _Hulls, limit: float) -> tuple[NDArray[np.float64], float]:
 
 def _least_moves(
     rows: NDArray, wanted: NDArray, areas: NDArray, middle: NDArray, reach: NDArray
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the (n, 3) moves with the least Σ areas |move|² that give Σ rows · moves = wanted,
     each within its ball.
 

@@ -21,6 +21,7 @@ from ..inertia.mass_properties import MassProperties
 from ..mesh.bvh import Bvh, sort_components
 from ..mesh.hulls import ConvexHull, convex_hull
 from ..mesh.surface import Surface, normals, triangle_areas
+from ..numerics.array_types import Array
 from ..numerics.quadrature import spread_directions
 from ..polyhedron.integration import volume_and_center
 from ..robots.model import Inertial, Pose, Shape
@@ -111,7 +112,7 @@ class _Fits:
     most.
     """
 
-    def __init__(self, hull: ConvexHull, axes: NDArray[np.float64], corners: int) -> None:
+    def __init__(self, hull: ConvexHull, axes: Array, corners: int) -> None:
         self.hull = hull
         self.points = hull.points
         self.axes = axes
@@ -126,7 +127,7 @@ class _Fits:
         )
 
     @cached_property
-    def circles(self) -> list[tuple[NDArray[np.float64], NDArray[np.float64], float]]:
+    def circles(self) -> list[tuple[Array, Array, float]]:
         """Axes as columns, with center and radius of the smallest circle around the points along
         the third axis.
         """
@@ -159,7 +160,7 @@ def _hull_shape(hull: ConvexHull) -> Shape:
     return Shape("mesh", surface=Surface.from_triangles(hull.points, hull.triangles))
 
 
-def _box(points: NDArray[np.float64], axes: NDArray[np.float64]) -> Shape:
+def _box(points: Array, axes: Array) -> Shape:
     """Return the box around points with these axes as columns."""
     along = points @ axes
     low, high = along.min(axis=0), along.max(axis=0)
@@ -191,13 +192,11 @@ def _volume(shape: Shape) -> float:
     return float(primitive_moments(shape).raw[0])
 
 
-def _units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+def _units(vectors: Array) -> Array:
     return vectors / np.linalg.norm(vectors, axis=1)[:, None]
 
 
-def _round_shape(
-    kind: str, points: NDArray, axes: NDArray[np.float64], middle: NDArray, radius: float
-) -> Shape:
+def _round_shape(kind: str, points: NDArray, axes: Array, middle: NDArray, radius: float) -> Shape:
     """Return the cylinder around points along the third axis, or the capsule, which is as thin."""
     along = points @ axes
     caps = np.zeros(len(points))
@@ -209,7 +208,7 @@ def _round_shape(
     return Shape(kind, (radius, max(float(high - low), 0.0)), Pose(center, axes))
 
 
-def enclosing_ball(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+def enclosing_ball(points: Array) -> tuple[Array, float]:
     """Return center and radius of the smallest ball, or circle, around (n, d) points.
 
     The farthest point outside joins the points that hold the ball, of which the ball needs at most
@@ -238,7 +237,7 @@ def enclosing_ball(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], fl
         held = held[[*chosen]]
 
 
-def _ball_through(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+def _ball_through(points: Array) -> tuple[Array, float]:
     """Return center and radius of the ball through points whose center is in their span."""
     legs = points[1:] - points[0]
     offset = np.linalg.lstsq(2.0 * legs, (legs**2).sum(axis=1), rcond=None)[0]
@@ -292,7 +291,7 @@ def distances(
     return outward, inward, max(step, own_step) + max(sags)
 
 
-def _farthest_outside(tree: Bvh, places: NDArray[np.float64], size: float, enough: float) -> float:
+def _farthest_outside(tree: Bvh, places: Array, size: float, enough: float) -> float:
     """Return the largest distance of places outside a body from it; inf if it is above `enough`.
 
     Most places are on the body or near to it, and short searches leave few for the long one.
@@ -311,9 +310,7 @@ def _farthest_outside(tree: Bvh, places: NDArray[np.float64], size: float, enoug
     return inf if len(places) else farthest
 
 
-def _outer_samples(
-    solids: Sequence[ConvexHull], size: float, fineness: int
-) -> tuple[NDArray[np.float64], float]:
+def _outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> tuple[Array, float]:
     """Return places on the surface of the union of solids, and the bound of their distances as of
     `_samples`.
     """
@@ -368,13 +365,13 @@ def _polyhedron(shape: Shape, body: ConvexHull) -> tuple[ConvexHull, float]:
     ), 0.0 if shape.kind == "box" else BALL_SAG * max(size)
 
 
-def _face_normals(hull: ConvexHull) -> NDArray[np.float64]:
+def _face_normals(hull: ConvexHull) -> Array:
     """Return the (m, 3) unit normals of a hull's faces; those of faces without area are zero."""
     normal = normals(hull.points, hull.triangles)
     return normal / np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
 
 
-def _heights(points: NDArray[np.float64], hull: ConvexHull) -> NDArray[np.float64]:
+def _heights(points: Array, hull: ConvexHull) -> Array:
     """Return (n, m) signed distances of points from the planes of a hull's faces; -inf from faces
     without area.
     """
@@ -385,7 +382,7 @@ def _heights(points: NDArray[np.float64], hull: ConvexHull) -> NDArray[np.float6
 
 def _distances_from_shape(
     points: NDArray, shape: Shape, solid: ConvexHull, nearest: NDArray, size: float
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the distances of points from a shape as `_distances_from_hull` does; exact for round
     shapes, too.
     """
@@ -404,9 +401,7 @@ def _distances_from_shape(
     return np.maximum(np.linalg.norm(np.maximum(place - core, 0.0), axis=1) - radius, 0.0)
 
 
-def _distances_from_hull(
-    points: NDArray, hull: ConvexHull, nearest: NDArray, size: float
-) -> NDArray[np.float64]:
+def _distances_from_hull(points: NDArray, hull: ConvexHull, nearest: NDArray, size: float) -> Array:
     """Return the distances of points from a hull, 0 inside; those above `nearest` may be too
     small.
     """
@@ -431,7 +426,7 @@ def _distances_from_hull(
     return distance
 
 
-def _samples(points: NDArray, triangles: NDArray, step: float) -> tuple[NDArray[np.float64], float]:
+def _samples(points: NDArray, triangles: NDArray, step: float) -> tuple[Array, float]:
     """Return places on triangles, a step apart or more, and a bound of any other place's distance
     from the nearest.
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface, normals
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.graph import connected_components
 
 ON_PLANE_RTOL = 1e-9  # relative to the size: points nearer to a plane are on it
@@ -28,11 +29,11 @@ class Piece:
     face, start, end: (e,). normals: (f, 3) of faces.
     """
 
-    points: NDArray[np.float64]
-    face: NDArray[np.intp]
-    start: NDArray[np.intp]
-    end: NDArray[np.intp]
-    normals: NDArray[np.float64]
+    points: Array
+    face: Index
+    start: Index
+    end: Index
+    normals: Array
 
     def volume(self) -> float:
         """Return the signed volume: the sum of the cones of each face's fan."""
@@ -42,13 +43,13 @@ class Piece:
         )
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
 
-    def first(self) -> NDArray[np.intp]:
+    def first(self) -> Index:
         """Return the index of one point of each face, (f,)."""
         first = np.zeros(len(self.normals), np.intp)
         first[self.face[::-1]] = self.start[::-1]
         return first
 
-    def take(self, chosen: NDArray[np.bool_]) -> Piece:
+    def take(self, chosen: Mask) -> Piece:
         """Return a piece of the chosen edges alone, with the points and faces that these use."""
         ids, ends = np.unique(np.stack([self.start[chosen], self.end[chosen]]), return_inverse=True)
         faces, face = np.unique(self.face[chosen], return_inverse=True)
@@ -69,7 +70,7 @@ def piece_from_surface(surface: Surface) -> Piece:
     return Piece(points, face, start, end, normal / np.linalg.norm(normal, axis=1)[:, None])
 
 
-def _join_open_edges(points: NDArray[np.float64], triangles: NDArray[np.intp]) -> NDArray[np.intp]:
+def _join_open_edges(points: Array, triangles: Index) -> Index:
     """Return triangles whose open edges share points that coincide: lids of curves and texts have
     points of their own.
 
@@ -87,7 +88,7 @@ def _join_open_edges(points: NDArray[np.float64], triangles: NDArray[np.intp]) -
     return number[triangles]
 
 
-def cut(piece: Piece, plane: NDArray[np.float64]) -> Iterator[Piece]:
+def cut(piece: Piece, plane: Array) -> Iterator[Piece]:
     """Yield the connected parts on both sides of a plane, (4,) its normal and offset."""
     normal = plane[:3]
     height = piece.points @ normal - plane[3]
@@ -191,9 +192,7 @@ def _join(parts: Sequence[Piece]) -> Piece:
     )
 
 
-def _joined_by_faces(
-    piece: Piece, label: NDArray[np.intp]
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _joined_by_faces(piece: Piece, label: Index) -> tuple[Index, Index]:
     """Return pairs of labels: of the holes in faces, and of the cycles around these."""
     pairs = []
     of_edge = label[piece.start]

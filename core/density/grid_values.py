@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array
 from ..scans.formats import AXES, EVEN, Positions
 from ..verdict.finding import Finding, MeasureError, ReadError, finding
 from .findings import (
@@ -32,7 +33,7 @@ def sample_positions(
     """
     if not options.sample_positions:
         return EVEN
-    rows: list[NDArray[np.float64] | None] = []
+    rows: list[Array | None] = []
     all_known = _parsed_positions(options.sample_positions)
     for axis, begin, count in zip(AXES, low, shape):
         known = None if all_known is None else all_known.get(axis)
@@ -51,7 +52,7 @@ def density_function(
     """
     pairs = parse_table(options.table) if options.table else None
 
-    def weighed(values: NDArray) -> NDArray[np.float64]:
+    def weighed(values: NDArray) -> Array:
         if pairs is not None and not np.isfinite(values).all():
             raise ReadError(DENSITY_NON_FINITE)
         densities = values * options.value_density if pairs is None else np.interp(values, *pairs)
@@ -87,7 +88,7 @@ def positions_text(positions: Positions) -> str:
     return json.dumps(known, separators=(",", ":")) if known else ""
 
 
-def _parsed_positions(text: str) -> dict[str, NDArray[np.float64]] | None:
+def _parsed_positions(text: str) -> dict[str, Array] | None:
     """Return the positions by axis, or None if `positions_text` cannot have written the text."""
     try:
         rows = {axis: np.array(row, np.float64) for axis, row in json.loads(text).items()}
@@ -99,7 +100,7 @@ def _parsed_positions(text: str) -> dict[str, NDArray[np.float64]] | None:
     return rows if ascending and all(np.isfinite(row).all() for row in rows.values()) else None
 
 
-def parse_table(text: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def parse_table(text: str) -> tuple[Array, Array]:
     """Return (n,) values, ascending, and (n,) densities in kg/m³; MeasureError if the text is no
     such table.
     """

@@ -36,6 +36,7 @@ from ..moments.moments import (
     monomial_index,
     monomials,
 )
+from ..numerics.array_types import Array, Mask
 from ..solid.orientation import ClosedParts
 
 TRIANGLES_PER_BLOCK = 4096  # triangles whose table of 20 monomials stays in the cache
@@ -97,7 +98,7 @@ def sheet_mass_moments(
 
 def _accumulate(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, solid: bool
-) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
+) -> tuple[Array, float, Array]:
     """Return (K,) Σ ρ h weight, Σ ρ |weight| and (3,) Σ ρ τ; weights are determinants or, for
     sheets, doubled areas.
     """
@@ -132,7 +133,7 @@ def _accumulate(
     return np.add.reduce(np.array(block_sums)), sizes, tau
 
 
-def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> NDArray[np.float64]:
+def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> Array:
     """Return (K, k) ρ h_α of each triangle with corners (3 axes, 3 corners, k)."""
     table = np.zeros((monomial_count(order), corners.shape[2]))
     table[0] = density
@@ -141,7 +142,7 @@ def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> NDA
     return table
 
 
-def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> NDArray[np.float64]:
+def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> Array:
     """Return (K, k) h_(α,1) of each triangle with corners (3 axes, 3 corners, k) of density (3
     corners, k).
     """
@@ -164,7 +165,7 @@ def _multiply_by_geometric_series(table: NDArray, vertex: NDArray, order: int) -
                 table[at] += vertex[axis] * table[monomial_index(*lower)]
 
 
-def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.float64]:
+def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> Array:
     """Return the (3,) largest distances of a corner from the reference point along each axis."""
     reach = np.zeros(3)
     for start in range(0, len(triangles), CORNERS_PER_BLOCK):
@@ -174,7 +175,7 @@ def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.f
     return reach * (1.0 + 4.0 * U)
 
 
-def _relative_rounding(count: int, order: int) -> NDArray[np.float64]:
+def _relative_rounding(count: int, order: int) -> Array:
     """Return the (K,) rounding errors relative to the sum of the terms' sizes."""
     return U * (
         27.0 * (monomials(order).sum(axis=1) + 1)
@@ -184,7 +185,7 @@ def _relative_rounding(count: int, order: int) -> NDArray[np.float64]:
     )
 
 
-def _monomial_bounds(reach: NDArray, order: int) -> NDArray[np.float64]:
+def _monomial_bounds(reach: NDArray, order: int) -> Array:
     """Return the (K,) largest values of the monomials within reach."""
     return np.multiply.reduce(reach ** monomials(order), axis=1)
 
@@ -208,16 +209,16 @@ class PartDensities:
     most_by_area: the range of its faces' densities, and the largest density, times the part's area.
     """
 
-    density: NDArray[np.float64]
-    has_several_materials: NDArray[np.bool_]
-    has_foreign_cavity_material: NDArray[np.bool_]
+    density: Array
+    has_several_materials: Mask
+    has_foreign_cavity_material: Mask
     first_face: NDArray[np.integer]
-    range_by_area: NDArray[np.float64]
-    most_by_area: NDArray[np.float64]
+    range_by_area: Array
+    most_by_area: Array
 
 
 def part_densities(
-    parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None
+    parts: ClosedParts, faces: Array, linear: NDArray | None = None
 ) -> PartDensities:
     """Return one density for each part: the mean of the (f,) face densities by area under the
     linear map.

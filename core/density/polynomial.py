@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.exponents import monomial_count, monomial_index, monomials, order_from_count
 from ..moments.moments import U
+from ..numerics.array_types import Array
 from ..numerics.arrays import power_table
 from ..verdict.finding import MeasureError
 from .findings import (
@@ -72,7 +73,7 @@ class Polynomial:
         """The largest p+q+r; 0 if there are no terms."""
         return max((sum(powers) for powers in self.terms), default=0)
 
-    def coefficients(self) -> NDArray[np.float64]:
+    def coefficients(self) -> Array:
         """Return (K,) coefficients in the order of `monomials`, each rounded once."""
         values = np.zeros(monomial_count(self.degree))
         for powers, value in self.float_terms().items():
@@ -96,7 +97,7 @@ class Polynomial:
                 terms = _translate(terms, axis, Fraction(value))
         return Polynomial(terms)
 
-    def __call__(self, points: NDArray) -> NDArray[np.float64]:
+    def __call__(self, points: NDArray) -> Array:
         """Return the (n,) values at (n, 3) points."""
         points = np.asarray(points, np.float64)
         coefficients = self.coefficients()

@@ -19,6 +19,7 @@ from ..moments.affine_maps import (
 from ..moments.exponents import monomial_count, monomials, order_from_count, product_indices
 from ..moments.images import MAPS_PER_BLOCK
 from ..moments.moments import Measure, Moments, U, measure_scale_factors
+from ..numerics.array_types import Array
 from ..numerics.rotations import polar_rotation
 from .polynomial import Polynomial
 
@@ -54,9 +55,7 @@ def polynomial_mass_of_images(
     point = moments.about[:, None]
     extent = np.abs(moments.about)[:, None]
     origins = (linear * point).sum(axis=1) + offsets
-    center: NDArray[np.float64] = (
-        origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
-    )
+    center: Array = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
     origins_local = (turn * point).sum(axis=1) + shift
     origin = origins_local.mean(axis=1)
     terms = density.translate(origin).float_terms()
@@ -150,7 +149,7 @@ def _mass_functional(
 
 def _apply_polynomial(
     values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, NDArray]
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the (K, k) products of a functional, (K',), with Σ c l0^p l1^q l2^r in the k columns
     of linear forms.
     """
@@ -177,7 +176,7 @@ def _apply_polynomial(
     return out
 
 
-def local_coordinates(matrices: NDArray) -> NDArray[np.float64]:
+def local_coordinates(matrices: NDArray) -> Array:
     """Return (k, 4, 4) maps from a body's coordinates to lengths along its own axes, under (k, 4,
     4) transforms.
     """

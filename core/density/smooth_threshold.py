@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Moments
+from ..numerics.array_types import Array
 from .threshold import ThresholdBody, threshold_body
 
 MAX_SAMPLES = 1 << 24  # Limit for the finest grid.
@@ -63,7 +64,7 @@ def smooth_threshold_body(
         parts = 2 * parts
 
 
-def spline_values(coefficients: NDArray, order: int, parts: int) -> NDArray[np.float64]:
+def spline_values(coefficients: NDArray, order: int, parts: int) -> Array:
     """Return a uniform spline's values (parts (nx - 1) + 1, …) at its (nx, ny, nz) coefficients and
     between them.
     """

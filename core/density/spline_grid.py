@@ -29,6 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arguments import float_array, number_array
+from ..numerics.array_types import Array
 from ..verdict.finding import MeasureError
 from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 
@@ -198,13 +199,13 @@ def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, in
             yield (i, j, 0), coefficients[i : i + planes, j : j + columns]
 
 
-def contract(block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
+def contract(block: NDArray, factors: list[NDArray]) -> Array:
     """Return (n, n, n) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
     partial = np.stack([np.einsum("ijk,k->ij", block, row) for row in factors[2]])
     return np.einsum("rqi,pi->pqr", np.einsum("rij,qj->rqi", partial, factors[1]), factors[0])
 
 
-def _absolute_from_even(axis: SplineAxis, order: int, center: float) -> NDArray[np.float64]:
+def _absolute_from_even(axis: SplineAxis, order: int, center: float) -> Array:
     """Return the (order + 1, order + 1) matrix that turns even moments into bounds of the absolute
     moments.
     """
@@ -226,7 +227,7 @@ class SplineAxis:
     the order make no such space.
     """
 
-    knots: NDArray[np.float64]
+    knots: Array
     order: int
 
     def __post_init__(self) -> None:
@@ -282,7 +283,7 @@ class SplineAxis:
         """Return the largest |t - center| in any support."""
         return float(np.abs(self.knots[[0, -1]] - center).max())
 
-    def table(self, degree: int, center: float = 0.0) -> NDArray[np.float64]:
+    def table(self, degree: int, center: float = 0.0) -> Array:
         """Return (degree + 1, count) ∫ (t - center)^l B_i(t) dt; `rounding_counts` bounds their
         roundings.
         """
@@ -293,7 +294,7 @@ class SplineAxis:
         return 2 * (self.order + 1) + 3 * degree + 6
 
 
-def full_support_integrals(knots: ArrayLike, order: int, degree: int) -> NDArray[np.float64]:
+def full_support_integrals(knots: ArrayLike, order: int, degree: int) -> Array:
     """Return (degree + 1, n) ∫ t^l B_i over full supports, by a closed form; knots may be
     repeated.
     """

@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arguments import float_array, number_array
+from ..numerics.array_types import Array, Mask
 from ..numerics.arrays import power_table
 from ..numerics.quadrature import gauss_legendre
 from ..verdict.finding import MeasureError
@@ -171,7 +172,7 @@ def threshold_body(
 
 def _slabs(
     samples: NDArray, background: float | None, value: Callable[[NDArray], NDArray] | None
-) -> Iterator[tuple[int, NDArray[np.float64]]]:
+) -> Iterator[tuple[int, Array]]:
     """Yield slabs: the first index, and the planes up to the first of the next slab, padded by the
     background.
     """
@@ -188,13 +189,13 @@ def _slabs(
         yield first, slab
 
 
-def _reaches_edge(inside: NDArray[np.bool_], first: bool, last: bool) -> bool:
+def _reaches_edge(inside: Mask, first: bool, last: bool) -> bool:
     sides = (inside[:, 0], inside[:, -1], inside[:, :, 0], inside[:, :, -1])
     ends = ([inside[0]] if first else []) + ([inside[-1]] if last else [])
     return any(side.any() for side in (*sides, *ends))
 
 
-def _corner_counts(inside: NDArray[np.bool_]) -> NDArray[np.int8]:
+def _corner_counts(inside: Mask) -> NDArray[np.int8]:
     """Return the number of inside corners of each cell."""
     counts = inside.view(np.int8)
     counts = counts[1:] + counts[:-1]
@@ -220,12 +221,12 @@ class _Sums:
         )
         self.terms = 0
 
-    def rounding_error(self, measure: str) -> NDArray[np.float64]:
+    def rounding_error(self, measure: str) -> Array:
         """Return the error bounds of "volume", "area" or "mass"."""
         units = (60 + 8 * self.order + np.log2(self.terms + 1.0)) * U
         return getattr(self, measure + "_estimate") + units * getattr(self, measure + "_size")
 
-    def add_whole_cells(self, values: NDArray, whole: NDArray[np.bool_], origin: NDArray) -> None:
+    def add_whole_cells(self, values: NDArray, whole: Mask, origin: NDArray) -> None:
         """Add cells of the grid that lie entirely inside."""
         if not whole.any():
             return
@@ -252,7 +253,7 @@ class _Sums:
             self.mass += self._contract(block, factors)
             self.mass_size += self._contract(np.abs(block), sizes)
 
-    def _contract(self, block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
+    def _contract(self, block: NDArray, factors: list[NDArray]) -> Array:
         """Return (K,) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
         return contract(block, factors)[tuple(self.powers.T)]
 
@@ -394,7 +395,7 @@ class _Sums:
             total += np.einsum("ki,i->k", largest, amounts)
 
 
-def _interval_moments(first: NDArray, order: int) -> NDArray[np.float64]:
+def _interval_moments(first: NDArray, order: int) -> Array:
     """Return (order + 1, n) ∫ t^l over the unit intervals that start at n points, by an exact
     rule.
     """

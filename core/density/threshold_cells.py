@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index
 from ..numerics.quadrature import gauss_legendre
 
 # By the axis of a cell's columns: the axes along which x, y and the columns run.
@@ -24,9 +25,9 @@ class Cells:
     (n,) edges.
     """
 
-    corners: NDArray[np.float64]
-    origin: NDArray[np.float64]
-    size: NDArray[np.float64]
+    corners: Array
+    origin: Array
+    size: Array
 
     @classmethod
     def of_grid(cls, values: NDArray, places: tuple[NDArray, ...], origin: NDArray) -> Cells:
@@ -67,7 +68,7 @@ class Cells:
         ]
         return Cells.join(parts)
 
-    def column_axes(self) -> NDArray[np.intp]:
+    def column_axes(self) -> Index:
         """Return for n cells the axis along which the density is most clearly monotone, -1 if it is
         along none.
         """
@@ -90,16 +91,16 @@ class Columns:
     column does not cross it. density: density minus threshold at z = 0. growth: its slope along z.
     """
 
-    cell: NDArray[np.intp]
-    x: NDArray[np.float64]
-    y: NDArray[np.float64]
-    weight: NDArray[np.float64]
-    low: NDArray[np.float64]
-    high: NDArray[np.float64]
-    level: NDArray[np.float64]
-    slope: NDArray[np.float64]
-    density: NDArray[np.float64]
-    growth: NDArray[np.float64]
+    cell: Index
+    x: Array
+    y: Array
+    weight: Array
+    low: Array
+    high: Array
+    level: Array
+    slope: Array
+    density: Array
+    growth: Array
 
 
 def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
@@ -153,13 +154,13 @@ def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
     return Columns(cell, x, y, weight, low, high, level, slope, density, growth)
 
 
-def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> NDArray[np.float64]:
+def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> Array:
     (xx, xy, xz), (_, yy, yz), (_, _, zz) = metric
     square = xx * x * x + yy * y * y + zz * z * z
     return square if not (xy or xz or yz) else square + 2.0 * (xy * x * y + xz * x * z + yz * y * z)
 
 
-def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[NDArray[np.intp], NDArray, NDArray]:
+def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[Index, NDArray, NDArray]:
     """Cut [0, 1] at roots of linear functions with end values (n, k); return row, start and length
     of each interval.
     """
@@ -171,7 +172,7 @@ def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[NDArray[np.intp], ND
     return row, edges[row, column], (ends - edges)[row, column]
 
 
-def amounts_of(columns: Columns, cells: Cells) -> NDArray[np.float64]:
+def amounts_of(columns: Columns, cells: Cells) -> Array:
     """Return a (2, n) array: the volume inside each cell, and the area of the surface in the
     cell.
     """
@@ -184,7 +185,7 @@ def amounts_of(columns: Columns, cells: Cells) -> NDArray[np.float64]:
 
 def compare_rules(
     cells: Cells, turn: tuple, rules: Sequence[int], metric: NDArray
-) -> tuple[Columns, NDArray[np.float64]]:
+) -> tuple[Columns, Array]:
     """Return the columns of the last rule, and (2, n) differences of cells' volumes and areas from
     the first rule.
     """

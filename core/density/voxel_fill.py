@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arguments import float_array
+from ..numerics.array_types import Array
 from ..numerics.arrays import batches, power_table
 from ..numerics.quadrature import triangle_rule
 from ..verdict.finding import MeasureError
@@ -98,7 +99,7 @@ def inside_moments(
     return Moments(total, about, Measure.MASS, units * U * size), volume
 
 
-def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[np.float64]]:
+def _sums_below(densities: NDArray, center: float, order: int) -> list[Array]:
     """Return for each power r the (nx, ny, nz) integrals of ρ (z - center)^r over the voxels below
     each voxel.
     """
@@ -113,7 +114,7 @@ def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[n
     return sums
 
 
-def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
+def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> Array:
     """Return the (m, 3, 3) triangles cut along every plane between voxels, and along the sides of
     the grid.
     """
@@ -132,7 +133,7 @@ def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
     return triangles
 
 
-def _split_triangles(triangles: NDArray, axis: int, plane: NDArray) -> NDArray[np.float64]:
+def _split_triangles(triangles: NDArray, axis: int, plane: NDArray) -> Array:
     """Cut each triangle by the plane through it into three; fewer if a corner is on the plane."""
     side = triangles[:, :, axis] > plane[:, None]
     alone = np.where(side.sum(axis=1) == 1, side.argmax(axis=1), (~side).argmax(axis=1))

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index
 from ..verdict.finding import FileError
 from .findings import LINE_MISREAD
 from .number_text import parse_number, parse_whole
@@ -97,7 +97,7 @@ def refuse_line(data: Data, at: int, fault: Fault) -> NoReturn:
     raise FileError(LINE_MISREAD, line=line, text=fault[0], expected=fault[1])
 
 
-def parse_decimals(text: bytes) -> tuple[NDArray[np.float64], NDArray[np.intp], int]:
+def parse_decimals(text: bytes) -> tuple[Array, Index, int]:
     """Return the (n,) decimal numbers of a text, the offsets of their first letters, and the count
     of exponents.
 

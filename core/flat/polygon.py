@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..moments.exponents import monomial_count, monomial_index
 from ..moments.moments import Measure, Moments
 from ..numerics.arguments import float_array, index_array
+from ..numerics.array_types import Array, Index
 from ..numerics.arrays import segment_ranges, sums_by_index
 from ..numerics.graph import connected_components
 from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, multi_indices
@@ -82,13 +83,13 @@ def area_moments(
 
 def edge_arrays(
     points: ArrayLike, edges: ArrayLike, dimension: int = 2
-) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+) -> tuple[Array, NDArray[np.integer]]:
     """Return (n, 2) points, or in space (n, 3), and (m, 2) edges between them as arrays."""
     points = float_array("points", points, "n", dimension)
     return points, index_array("edges", edges, "m", 2, count=len(points))
 
 
-def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
+def directed_edges(loops: Sequence[ArrayLike]) -> Index:
     """Return the edges of loops, in the direction of each.
 
     Parameters
@@ -111,7 +112,7 @@ def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
     return np.concatenate(loop_edges).astype(np.intp) if loop_edges else np.empty((0, 2), np.intp)
 
 
-def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
+def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> Index:
     """Return (m, 2) edges of loops, (k,) indices each, so that points in an odd number of loops are
     left of them.
     """
@@ -139,7 +140,7 @@ def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.in
     return directed_edges(order)
 
 
-def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
+def outline_areas(points: NDArray, edges: NDArray) -> Array:
     """Return the (k,) signed areas of outlines, negative ones of holes; outlines that share a point
     count as one.
     """
@@ -175,7 +176,7 @@ def find_defects(points: ArrayLike, edges: ArrayLike, error: float = 0.0) -> Out
     )
 
 
-def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> NDArray[np.float64]:
+def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> Array:
     """Return (k,) winding numbers of the edges about query points; on an edge, the mean of both
     sides.
     """
@@ -394,9 +395,7 @@ def region_moments(
     return Moments(raw, np.append(flat.about, 0.0), Measure.AREA, rounding, moved)
 
 
-def _swept(
-    points: NDArray, edges: NDArray, about: NDArray, step: float, order: int
-) -> NDArray[np.float64]:
+def _swept(points: NDArray, edges: NDArray, about: NDArray, step: float, order: int) -> Array:
     """Return (k,) bounds of the changes of moments if every coordinate of every point moves by
     `step`.
     """

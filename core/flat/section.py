@@ -16,6 +16,7 @@ from ..mesh.surface import normals
 from ..mesh.welding import first_at_equal_position
 from ..moments.moments import U
 from ..numerics.arguments import check_type, float_array, index_array
+from ..numerics.array_types import Array, Index
 from ..polyhedron.n_dimensions import facet_moments
 from ..verdict.finding import MeasureError
 from .findings import SECTION_ENCLOSES_NOTHING, SECTION_NO_AREA, SECTION_NOT_FLAT
@@ -31,13 +32,13 @@ MIN_AXIS_SHARE = (
 )
 
 
-def project(plane: Plane, points: ArrayLike) -> NDArray[np.float64]:
+def project(plane: Plane, points: ArrayLike) -> Array:
     """Return the (n, 2) coordinates of points along the plane's x and y axes."""
     x, y, z = (float_array("points", points, "n", 3) - plane.origin).T
     return np.stack([x * a[0] + y * a[1] + z * a[2] for a in plane.axes.T[:2]], axis=1)
 
 
-def foot(plane: Plane, point: ArrayLike) -> NDArray[np.float64]:
+def foot(plane: Plane, point: ArrayLike) -> Array:
     """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
     return np.append(project(plane, np.asarray(point, np.float64)[None])[0], 0.0)
 
@@ -110,7 +111,7 @@ def fit_plane(
     return Plane(origin + distance * normal, axes, off, named)
 
 
-def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
+def _axes(normal: NDArray, prefer: NDArray) -> tuple[Array, str]:
     inside = [axis - normal * (normal @ axis) for axis in prefer.T]
     first = int(np.sqrt(inside[0] @ inside[0]) <= MIN_AXIS_SHARE)
     x = inside[first] / np.sqrt(inside[first] @ inside[first])
@@ -120,7 +121,7 @@ def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
 
 def region(
     plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float
-) -> tuple[NDArray[np.intp], int]:
+) -> tuple[Index, int]:
     """Return (m, 2) edges around the triangles, and the number of faces that look against the plane
     and are turned.
     """

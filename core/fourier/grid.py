@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface
 from ..moments.moments import Measure
 from ..numerics.arguments import check_type
+from ..numerics.array_types import Array, Index
 from ..numerics.compensated import compensated_normals
 from ..numerics.quadrature import gauss_legendre, triangle_rule
 from .transform import Transform
@@ -86,7 +87,7 @@ class GridTransform(Transform):
         # Allowed errors of a D, and of the transform.
         self.each = allowed * largest / 2.0
         self.joint_count = allowed * faces.area / ERROR_SAFETY_FACTOR
-        self.fine: list[tuple[int, NDArray[np.intp]]] = []
+        self.fine: list[tuple[int, Index]] = []
 
     def _assign_triangles(self) -> Iterator[float]:
         """Set `fine`, the triangles by number of points, and `direct`, the triangles that keep
@@ -128,7 +129,7 @@ class GridTransform(Transform):
         return bound
 
     def _sum_over(
-        self, triangle_rows: NDArray[np.intp], q: NDArray
+        self, triangle_rows: Index, q: NDArray
     ) -> Generator[float, None, NDArray[np.complex128]]:
         """Return (k,) Σ (q·N) D / |q|, or Σ |N| D, over some triangles at wave vectors (k, 3), in
         closed form.
@@ -148,7 +149,7 @@ class GridTransform(Transform):
         return result
 
     def _points_over(
-        self, triangle_rows: NDArray[np.intp], n: int, q: NDArray
+        self, triangle_rows: Index, n: int, q: NDArray
     ) -> Generator[float, None, NDArray[np.complex128]]:
         """Return the sums of `_sum_over` by quadrature, with n points along a side of each
         triangle.
@@ -165,7 +166,7 @@ class GridTransform(Transform):
             yield 0.0
         return total
 
-    def _weights(self, vectors: NDArray, q: NDArray) -> NDArray[np.float64]:
+    def _weights(self, vectors: NDArray, q: NDArray) -> Array:
         """Return (k, m) (q·N) / |q|, or (1, m) |N|, for normals (3, m) and wave vectors (3, k)."""
         if self.measure == Measure.AREA:
             return np.sqrt((vectors**2).sum(axis=0))[None]
@@ -268,7 +269,7 @@ def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
     return np.searchsorted(np.maximum.accumulate(limits), spans) + 1
 
 
-def _trial_vectors(grid: FrequencyGrid) -> NDArray[np.float64]:
+def _trial_vectors(grid: FrequencyGrid) -> Array:
     """Return (k, 3) wave vectors of all sizes in a grid, along its axes and diagonals and between
     them.
     """
@@ -277,7 +278,7 @@ def _trial_vectors(grid: FrequencyGrid) -> NDArray[np.float64]:
     return np.concatenate([size * along for size in shells])
 
 
-def _sample_indices(grid: FrequencyGrid) -> NDArray[np.intp]:
+def _sample_indices(grid: FrequencyGrid) -> Index:
     """Return indices of sample places on a grid: on axes and diagonals, where faces show most, and
     random ones.
     """
@@ -291,7 +292,7 @@ def _sample_indices(grid: FrequencyGrid) -> NDArray[np.intp]:
     return (positions[:, 0] * n + positions[:, 1]) * n + positions[:, 2]
 
 
-def aliasing(half: int, width: int) -> NDArray[np.float64]:
+def aliasing(half: int, width: int) -> Array:
     """Return (half + 1,) error bounds of the sums for |k| ≤ half along an axis, as shares of Σ |c|,
     by aliases of k.
     """
@@ -323,7 +324,7 @@ class Spreading:
         # along x some more cells, so that a block of neighbors covers one run of them
         self.cells = [np.zeros((self.side + width) * self.side**2) for _ in range(count)]
 
-    def add(self, angles: NDArray[np.float64], strengths: NDArray[np.float64]) -> None:
+    def add(self, angles: Array, strengths: Array) -> None:
         """Spread points at angles (3, p), in rad, with strengths (count, p)."""
         positions = angles * (self.side / (2.0 * np.pi)) % self.side
         positions[positions >= self.side] = 0.0  # Rounding makes tiny negative angles a full turn.
@@ -374,13 +375,13 @@ class Spreading:
             yield part
 
 
-def _kernel(z: NDArray, width: int) -> NDArray[np.float64]:
+def _kernel(z: NDArray, width: int) -> Array:
     """Return the kernel at z, from -1 to 1 but for rounding."""
     inside = np.maximum(1.0 - z * z, 0.0)
     return np.exp(BETA * width * (np.sqrt(inside) - 1.0))
 
 
-def _kernel_transform(frequencies: NDArray, width: int) -> NDArray[np.float64]:
+def _kernel_transform(frequencies: NDArray, width: int) -> Array:
     """Return ∫ kernel(2 t / width) exp(-2πi f t) dt over its support, by Gauss's rule."""
     nodes, weights = gauss_legendre(8 * width + 32)
     z = 2.0 * nodes - 1.0

@@ -19,6 +19,7 @@ from ..mesh.surface import Surface
 from ..moments.affine_maps import distinct_linear_parts
 from ..moments.moments import Measure
 from ..numerics.arguments import check_type, float_array
+from ..numerics.array_types import Array
 from ..numerics.compensated import phase_factors
 from ..verdict.finding import MeasureError
 from ..verdict.findings import NO_FACES
@@ -94,9 +95,7 @@ class BodyTransform:
         return cast("Spectrum", self.spectrum)  # there are parts, and each has added to it
 
 
-def _distinct_images(
-    surface: Surface, matrices: NDArray
-) -> Iterator[tuple[Surface, NDArray[np.float64]]]:
+def _distinct_images(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, Array]]:
     """Yield the surface about its center under each different linear map, and the places of the
     images, (k, 3).
     """

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import U
 from ..numerics.arguments import check_filled, float_array
+from ..numerics.array_types import Array
 from ..numerics.compensated import phase_factors
 from .transform import ROUNDING_FACTOR, ZERO_WAVE_NUMBER
 from .triangle_kernel import PAIRS_PER_BLOCK
@@ -137,11 +138,11 @@ class RegionTransform:
         return Spectrum(q, values, error, float(self.input_error))
 
 
-def half_of_grid(grid: FrequencyGrid) -> NDArray[np.float64]:
+def half_of_grid(grid: FrequencyGrid) -> Array:
     """Return ((2h+1)(h+1), 2) wave vectors of a grid with y ≥ 0; the values at the others are
     conjugates.
     """
-    steps: NDArray[np.float64] = np.arange(-grid.half, grid.half + 1, dtype=np.float64) * grid.step
+    steps: Array = np.arange(-grid.half, grid.half + 1, dtype=np.float64) * grid.step
     return np.stack(np.meshgrid(steps, steps[grid.half :], indexing="ij"), axis=-1).reshape(-1, 2)
 
 
@@ -162,7 +163,7 @@ def _edge_sum(
     return 1j * (across * (v + (1.0 + v) * less)).sum(axis=1) / square
 
 
-def _sinc_minus_one(t: NDArray) -> NDArray[np.float64]:
+def _sinc_minus_one(t: NDArray) -> Array:
     """Return sin(t) / t - 1, accurate to its last digits."""
     square = np.minimum(t * t, 1.0)
     total = np.zeros_like(t)

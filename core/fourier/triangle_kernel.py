@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..numerics.arguments import check_type
+from ..numerics.array_types import Array, Index
 from ..numerics.arrays import indices_in_range, spread_bits
 from ..numerics.compensated import compensated_normals
 from ..verdict.finding import MeasureError
@@ -120,7 +121,7 @@ class SortedTriangles:
             for i in range(0, len(self.triangles), size)
         ]
 
-    def select(self, selection: NDArray[np.intp]) -> SortedTriangles:
+    def select(self, selection: Index) -> SortedTriangles:
         """Return selected triangles, at the same scale."""
         some = copy(self)
         some.triangles = self.triangles[selection]
@@ -180,7 +181,7 @@ class PhaseMeans:
             self.middle = waves.phase_factors(part, block.middles)
             self.along = waves.dot(part, block.halves)
 
-    def __call__(self, wave_rows: slice) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def __call__(self, wave_rows: slice) -> tuple[Array, Array]:
         """Return (m, k) real and imaginary parts of D - 1/2 for some rows of the part."""
         vectors = self.waves.vectors(wave_rows)
         a, b, spare = (np.empty((vectors.shape[1], len(self.block.lengths))) for _ in range(3))

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import U
+from ..numerics.array_types import Array
 from ..verdict.finding import MeasureError
 from .findings import FREQUENCY_COUNT, FREQUENCY_RANGE, WAVE_VECTORS_RANGE, WAVE_VECTORS_SHAPE
 
@@ -75,11 +76,11 @@ class FrequencyGrid:
         """The distance between neighbors along an axis, rad per unit of length."""
         return self.largest / self.half
 
-    def axis(self) -> NDArray[np.float64]:
+    def axis(self) -> Array:
         """Return the (count,) frequencies along each axis."""
         return (np.arange(self.count, dtype=np.float64) - self.half) * self.step
 
-    def vectors(self) -> NDArray[np.float64]:
+    def vectors(self) -> Array:
         """Return every wave vector, (count³, 3) or (count², 2), the last axis fastest."""
         axes = np.meshgrid(*[self.axis()] * self.dimension, indexing="ij")
         return np.stack(axes, axis=-1).reshape(-1, self.dimension)
@@ -100,7 +101,7 @@ class FrequencyGrid:
         return full.reshape(-1)
 
 
-def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
+def wave_vectors(q: ArrayLike, dimension: int) -> Array:
     """Return a user's (M, dimension) wave vectors as float64; MeasureError if shape, type or range
     is wrong.
     """
@@ -122,12 +123,12 @@ class ListWaves:
 
     columns = 1
 
-    def __init__(self, q: NDArray[np.float64]):
+    def __init__(self, q: Array):
         self.order = np.argsort(np.sqrt((q * q).sum(axis=1)), kind="stable")
         self.q = np.ascontiguousarray(q[self.order].T)
         self.rows = len(q)
 
-    def vectors(self, wave_rows: slice) -> NDArray[np.float64]:
+    def vectors(self, wave_rows: slice) -> Array:
         """Return the (3, m) wave vectors of some rows."""
         return self.q[:, wave_rows]
 
@@ -171,7 +172,7 @@ class GridWaves:
         self.depth = self.side[grid.half :]
         self.rows, self.columns = len(self.side) ** 2, len(self.depth)
 
-    def vectors(self, wave_rows: slice) -> NDArray[np.float64]:
+    def vectors(self, wave_rows: slice) -> Array:
         """Return the (3, m) wave vectors of some rows."""
         x, y = self.side[
             np.stack(np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side)))
@@ -238,9 +239,9 @@ class Spectrum:
     q. `method`: "exact" or "approximate".
     """
 
-    q: NDArray[np.float64]
+    q: Array
     values: NDArray[np.complex128]
-    error: NDArray[np.float64]
+    error: Array
     input_error: float = 0.0
     method: str = EXACT
 

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, sum_moments
 from ..numerics.arguments import check_type, float_array
+from ..numerics.array_types import Array, Mask
 from ..numerics.arrays import PerBody
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError
@@ -59,8 +60,8 @@ class MassProperties:
     """
 
     mass: PerBody
-    center: NDArray[np.float64]
-    inertia: NDArray[np.float64]
+    center: Array
+    inertia: Array
     principal: PrincipalFrame
     rounding_error: dict[str, PerBody]
     input_error: dict[str, PerBody]
@@ -144,13 +145,13 @@ class MassProperties:
             pick(self.mass), self.center[which], self.inertia[which], principal, rounding, inputs
         )
 
-    def inertia_about(self, point: ArrayLike) -> NDArray[np.float64]:
+    def inertia_about(self, point: ArrayLike) -> Array:
         """Return the (3, 3) tensor about another point, by the parallel-axis theorem."""
         arm = float_array("point", point, 3) - self.center
         return self.inertia + self.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
 
     @property
-    def radii_of_gyration(self) -> NDArray[np.float64]:
+    def radii_of_gyration(self) -> Array:
         """(3,) sqrt(I/m) about the principal axes."""
         return np.sqrt(self.principal.moments / self.mass)
 
@@ -261,9 +262,7 @@ def affine_image(
     )
 
 
-def are_physical(
-    volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | Array) -> Mask:
     """Return an (n,) mask of the bodies with a possible center and second moments for their mass
     and (n, 3) boxes.
     """
@@ -328,7 +327,7 @@ def _propagate_errors(
     return rounding, moved
 
 
-def _lengths(vectors: NDArray) -> NDArray[np.float64]:
+def _lengths(vectors: NDArray) -> Array:
     """Return the lengths (...,) of (..., k) vectors with squares that may underflow."""
     lengths = [math.hypot(*vector) for vector in vectors.reshape(-1, vectors.shape[-1]).tolist()]
     return np.array(lengths).reshape(vectors.shape[:-1])

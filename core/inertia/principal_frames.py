@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..moments.affine_maps import affine_matrices
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type, float_array
+from ..numerics.array_types import Array
 from ..numerics.arrays import PerBody
 from ..numerics.rotations import quaternion, rotation_array
 from ..verdict.finding import MeasureError, finding
@@ -64,15 +65,15 @@ class PrincipalFrame:
     the moments show.
     """
 
-    moments: NDArray[np.float64]
-    axes: NDArray[np.float64]
+    moments: Array
+    axes: Array
     symmetry: PerBody
     is_unique: PerBody
     finding: PerBody
     undetermined_axes: PerBody = ()
 
     @property
-    def quaternion(self) -> NDArray[np.float64]:
+    def quaternion(self) -> Array:
         """(..., 4) w, x, y, z that turn the coordinate axes into the principal ones."""
         return quaternion(self.axes)
 
@@ -204,7 +205,7 @@ def zhang_chen_frame(
     return PrincipalFrame(fixed.moments[0], axes, SYMMETRIES[0], True, None)
 
 
-def pose_matrix(center: ArrayLike, axes: ArrayLike) -> NDArray[np.float64]:
+def pose_matrix(center: ArrayLike, axes: ArrayLike) -> Array:
     """Return the matrix that brings the center to the origin and the axes along x, y and z.
 
     Parameters

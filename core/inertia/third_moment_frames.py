@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX, Moments
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import cross_rows, lengths
 from .plain_body import EQUAL_AXES, EQUAL_MOMENTS_RTOL, EQUAL_TRACE_ATOL, SYMMETRIES
 
@@ -51,8 +52,8 @@ class SecondMomentAxes:
     turned the other axes. noise: normalized third moments that differ by less are equal.
     """
 
-    axes: NDArray[np.float64]
-    size: NDArray[np.float64]
+    axes: Array
+    size: Array
     undetermined_axes: tuple[int, ...]
     step: float
     tilt: float = 0.0
@@ -73,17 +74,17 @@ class ThirdMomentFrames:
     `skewness`, `skewness_error`: (n, 3) the skewness along the axes, and its noise.
     """
 
-    is_body: NDArray[np.bool_]
-    moments: NDArray[np.float64]
-    axes: NDArray[np.float64]
-    size: NDArray[np.float64]
-    symmetry: NDArray[np.intp]
-    step: NDArray[np.float64]
-    tilt: NDArray[np.float64]
+    is_body: Mask
+    moments: Array
+    axes: Array
+    size: Array
+    symmetry: Index
+    step: Array
+    tilt: Array
     noise: float
-    allowed: NDArray[np.bool_]
-    skewness: NDArray[np.float64]
-    skewness_error: NDArray[np.float64]
+    allowed: Mask
+    skewness: Array
+    skewness_error: Array
 
     def free(self, i: int) -> tuple[int, ...]:
         """Return the axes of one body that equal moments leave free."""
@@ -95,7 +96,7 @@ class ThirdMomentFrames:
         tilt = float(self.tilt[i])
         return SecondMomentAxes(self.axes[i], self.size[i], self.free(i), step, tilt, self.noise)
 
-    def frames(self, i: int) -> NDArray[np.float64]:
+    def frames(self, i: int) -> Array:
         """Return the (k, 3, 3) right-handed frames of one body that third moments allow: signs of
         its axes.
         """
@@ -105,7 +106,7 @@ class ThirdMomentFrames:
 @np.errstate(all="ignore")  # callers check for overflow
 def third_moment_frames(
     moments: Moments,
-    refine: Callable[[NDArray[np.intp]], Moments] | None = None,
+    refine: Callable[[Index], Moments] | None = None,
     noise_factor: float = 1.0,
 ) -> ThirdMomentFrames:
     """Find the frames, as far as second and third moments fix them, of n bodies with positive
@@ -196,9 +197,7 @@ def third_moment_frames(
     )
 
 
-def _are_decided(
-    size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: Mask) -> Mask:
     """Return an (n,) mask of bodies with frames that more exact third moments could not change."""
     clear = size - error > noise
     below = size + error <= noise
@@ -217,7 +216,7 @@ def _are_decided(
 
 
 def _third_scores(
-    moments: Moments, shift: NDArray, size: NDArray, axes: NDArray, symmetry: NDArray[np.intp]
+    moments: Moments, shift: NDArray, size: NDArray, axes: NDArray, symmetry: Index
 ) -> tuple[NDArray, NDArray]:
     """Return (n, 3, 3) normalized M_iii, M_ijj, M_ikk of axes i (means if j and k are free), and
     error bounds.
@@ -255,7 +254,7 @@ def _third_scores(
     return scores, score_error
 
 
-def _allowed_signs(scores: NDArray, unsure: NDArray) -> NDArray[np.bool_]:
+def _allowed_signs(scores: NDArray, unsure: NDArray) -> Mask:
     """Return an (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores; (n,) `unsure` is
     their noise.
     """
@@ -268,9 +267,7 @@ def _allowed_signs(scores: NDArray, unsure: NDArray) -> NDArray[np.bool_]:
     return ((HALF_TURN_SIGNS * scores[:, None] > 0.0) | ~counts[:, None]).all(axis=2)
 
 
-def complete_free_axes(
-    frames: NDArray, free: tuple[int, ...], preferred_axes: NDArray
-) -> NDArray[np.float64]:
+def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: NDArray) -> Array:
     """Return the (..., 3, 3) frames with their free axes, if any, turned nearest to the preferred
     ones.
     """
@@ -301,14 +298,12 @@ def complete_free_axes(
     return completed
 
 
-def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
+def _across(vectors: NDArray, axis: NDArray) -> Array:
     """Return the (..., 3) parts of vectors perpendicular to unit vectors."""
     return vectors - axis * np.einsum("...a,...a->...", axis, vectors)[..., None]
 
 
-def nearest_frames(
-    candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
-) -> NDArray[np.float64]:
+def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike) -> Array:
     """Return (m, 3, 3) frames, one of each row of (m, k, 3, 3) candidates, nearest to the (m, 3, 3)
     preferred axes.
 

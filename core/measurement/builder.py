@@ -18,6 +18,7 @@ from ..inertia.principal_frames import PrincipalFrame
 from ..mesh.surface import Surface
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Measure, Moments, U, monomial_count
+from ..numerics.array_types import Array
 from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.health import MeshHealth
@@ -131,7 +132,7 @@ def measure_body(
 def measure_total(
     mass: Moments,
     *,
-    rotation: NDArray[np.float64],
+    rotation: Array,
     volume: Extent = (0.0, 0.0, 0.0),
     area: Extent = (0.0, 0.0, 0.0),
     health: MeshHealth | None = None,
@@ -188,7 +189,7 @@ def find_large_bounds(
     return found
 
 
-def _total_moments(extent: Extent, about: NDArray[np.float64], measure: Measure) -> Moments:
+def _total_moments(extent: Extent, about: Array, measure: Measure) -> Moments:
     """Return moments with a known total and its bounds; all others are zero."""
     raw, rounding, inputs = np.zeros((3, monomial_count(KNOWN_ORDER)))
     raw[0], rounding[0], inputs[0] = extent

@@ -10,12 +10,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..inertia.mass_properties import MassProperties
 from ..mesh.surface import Surface
 from ..moments.moments import Measure, Moments
+from ..numerics.array_types import Array
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method
@@ -118,8 +116,8 @@ class Measurement:
     mass_moments: tuple[Moments, float]
     health: MeshHealth
     findings: tuple[Finding, ...]
-    rotation: NDArray[np.float64]
-    location: NDArray[np.float64]
+    rotation: Array
+    location: Array
     error_bound: dict
     fingerprint: str
     density_from: Finding = DENSITY_FROM_VALUE

@@ -27,6 +27,7 @@ from ..inertia.mass_properties import MassProperties, combine
 from ..moments.complex_form import Invariant
 from ..moments.exponents import monomial_index
 from ..moments.moments import Moments, U, monomials
+from ..numerics.array_types import Array
 from ..polyhedron.n_dimensions import multi_indices
 from ..verdict.finding import Finding, MeasureError, Severity
 from ..verdict.sentences import sentence, severity
@@ -179,7 +180,7 @@ def _point(
     measurement: Measurement,
     properties: MassProperties,
     frame: str,
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the (3,) coordinates of the point `about` in the frame, by default the frame's
     origin.
     """
@@ -225,7 +226,7 @@ def flat_record(
     invariants: Sequence[Invariant] = (),
     more: dict[str, Any] | None = None,
     about: str | Sequence[float] | None = None,
-    frame: tuple[str, NDArray[np.float64], NDArray[np.float64]] = ("world", np.eye(3), np.zeros(3)),
+    frame: tuple[str, Array, Array] = ("world", np.eye(3), np.zeros(3)),
 ) -> dict[str, Any]:
     """Return one shape's record.
 
@@ -236,7 +237,7 @@ def flat_record(
     """
     axes, location = (np.eye(3), np.zeros(3)) if frame[0] == "world" else frame[1:]
 
-    def to_frame(point: NDArray) -> NDArray[np.float64]:
+    def to_frame(point: NDArray) -> Array:
         return axes.T @ (point - location)
 
     centroid = plane.origin + plane.axes @ moments.center
@@ -276,7 +277,7 @@ def flat_record(
     return plain(entry) | described(findings)
 
 
-def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict[str, float]:
+def _bounds(central: Moments, bounds: Array, shift: float) -> dict[str, float]:
     """Return bounds of area, centroid coordinates and second moments. bounds: of the central
     moments.
     """
@@ -297,7 +298,7 @@ def _plane_point(
     axes: NDArray,
     location: NDArray,
     own: NDArray,
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the (3,) world position of the point `about`, not yet on the plane. own: the object's
     origin.
     """

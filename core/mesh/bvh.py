@@ -18,6 +18,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import following_pairs, segment_ranges, spread_bits
 from .point_triangle import triangle_distances
 
@@ -37,18 +38,18 @@ class SortedComponents:
     """
 
     triangles: NDArray[np.integer]
-    component: NDArray[np.intp]
-    start: NDArray[np.intp]
-    low: NDArray[np.float64]
-    high: NDArray[np.float64]
-    volume: NDArray[np.float64]
-    area: NDArray[np.float64]
+    component: Index
+    start: Index
+    low: Array
+    high: Array
+    volume: Array
+    area: Array
 
 
 def sort_components(
     points: NDArray[np.floating],
     triangles: NDArray[np.integer],
-    component: NDArray[np.intp],
+    component: Index,
     number: int,
 ) -> SortedComponents:
     """Sort triangles by component, and measure each component about one of its own vertices."""
@@ -87,7 +88,7 @@ def sort_components(
     return SortedComponents(triangles, component, start, low.T, high.T, volume / 6.0, area / 2.0)
 
 
-def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
+def radix_argsort(values: NDArray[np.integer]) -> Index:
     """Return the stable order of integers below 2^32, 16 bits at a time: numpy sorts 16-bit
     integers by counting.
     """
@@ -111,7 +112,7 @@ class Bvh:
         self,
         points: NDArray[np.floating],
         components: SortedComponents,
-        selected: NDArray[np.bool_],
+        selected: Mask,
     ) -> None:
         self.origin = (
             components.low[selected].min(axis=0) + components.high[selected].max(axis=0)
@@ -119,7 +120,7 @@ class Bvh:
         self.vertex_columns = np.ascontiguousarray(points.T, np.float64) - self.origin[:, None]
         self._build_nodes(self._sort(components, selected), selected)
 
-    def _sort(self, components: SortedComponents, selected: NDArray[np.bool_]) -> NDArray[np.intp]:
+    def _sort(self, components: SortedComponents, selected: Mask) -> Index:
         """Sort the triangles by selected component and Morton order, set their boxes, and return
         (m,) components.
         """
@@ -155,7 +156,7 @@ class Bvh:
         self.top = high[:, order]
         return component
 
-    def _build_nodes(self, component: NDArray[np.intp], selected: NDArray[np.bool_]) -> None:
+    def _build_nodes(self, component: Index, selected: Mask) -> None:
         """Build the nodes over the sorted triangles of these (m,) components."""
         present = np.flatnonzero(selected)
         begin = np.searchsorted(component, present)
@@ -189,12 +190,12 @@ class Bvh:
             self.low[node] = np.minimum(self.low[child], self.low[child + 1])
             self.high[node] = np.maximum(self.high[child], self.high[child + 1])
 
-    def corners(self, triangle: NDArray[np.intp]) -> NDArray[np.float64]:
+    def corners(self, triangle: Index) -> Array:
         """Return the (3, 3, k) coordinates, about `origin`, of the corners of sorted triangles."""
         return self.vertex_columns.take(self.ids.take(triangle, axis=1), axis=1)
 
     @cached_property
-    def _shadows(self) -> NDArray[np.float64]:
+    def _shadows(self) -> Array:
         """The (5, n) top heights of the nodes' boxes, and the least and largest `_across`
         coordinates in them.
         """
@@ -207,8 +208,8 @@ class Bvh:
         return np.stack([top, *sides[0], *sides[1]])
 
     def winding_numbers(
-        self, query_points: NDArray[np.float64], component: NDArray[np.intp], tolerance: float
-    ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+        self, query_points: Array, component: Index, tolerance: float
+    ) -> tuple[Index, Mask]:
         """Return (k,) winding numbers of components around places, and whether each is sure."""
         winding = np.zeros(len(query_points), np.intp)
         sure = np.ones(len(query_points), bool)
@@ -287,9 +288,7 @@ class Bvh:
         above = height > 0.0
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
 
-    def distances(
-        self, query_points: NDArray[np.float64], component: NDArray[np.intp], within: float = np.inf
-    ) -> NDArray[np.float64]:
+    def distances(self, query_points: Array, component: Index, within: float = np.inf) -> Array:
         """Return the (k,) distances of places (about `origin`) from the surfaces of components; inf
         beyond `within`.
         """
@@ -321,7 +320,7 @@ class Bvh:
 
 def intersecting_pairs(
     tree: Bvh, first: NDArray, second: NDArray, tolerance: float, vertex: NDArray | None = None
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+) -> tuple[Mask, Mask]:
     """Return (k,) masks of pairs in which an edge pierces the other by the tolerance, and of
     undecided pairs.
     """
@@ -405,9 +404,7 @@ def _intersect_leaves(
         corner, plane = plane, corner
 
 
-def _edges_cross_triangles(
-    corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance: float
-) -> NDArray[np.intp]:
+def _edges_cross_triangles(corner: Array, plane: Array, tolerance: float) -> Index:
     """Return the indices of triangles (3, k, 3) with an edge through their partner by over the
     tolerance.
     """
@@ -445,7 +442,7 @@ def _edges_cross_triangles(
     return at[depth > tolerance]
 
 
-def _across(places: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _across(places: Array) -> tuple[Array, Array]:
     """Return the points in which the rays through places, (3, ...), meet the plane z = 0."""
     return places[0] - RAY_SLOPES[0] * places[2], places[1] - RAY_SLOPES[1] * places[2]
 
@@ -455,11 +452,11 @@ def _batches(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArra
     return [tuple(array[k : k + size] for array in arrays) for k in range(0, len(arrays[0]), size)]
 
 
-def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[Index, Index]:
     """Return (k,) boxes, sorted along the best axis, and (k,) counts of later boxes that begin
     before each one ends.
     """
-    sweeps: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
+    sweeps: list[tuple[Index, Index]] = []
     for axis in range(3):
         order = np.argsort(low[:, axis], kind="stable")
         last = np.searchsorted(low[order, axis], high[order, axis] - margin)

@@ -17,12 +17,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index
+
 # hardly any mesh has points that coincide along this direction
 DIRECTION = np.array([0.7071, 0.5477, 0.4472])
 MAX_CANDIDATES = 500  # similarities that are compared in full
 PROBES = 6  # vertices that are compared first
 RESEMBLANCE = 20.0  # the scores of equal vertices differ by at most so many tolerances
-Indices = NDArray[np.intp]
+Indices = Index
 
 
 class Elements:
@@ -33,9 +35,7 @@ class Elements:
     similarity changes.
     """
 
-    def __init__(
-        self, points: NDArray[np.float64], edges: Indices, corners: Indices, starts: Indices
-    ):
+    def __init__(self, points: Array, edges: Indices, corners: Indices, starts: Indices):
         self.points = points
         self.edges = edges
         self.corners = corners
@@ -60,8 +60,8 @@ class Correspondence:
     vertices, edges, faces, corners: the other mesh's index for each element.
     """
 
-    linear: NDArray[np.float64]
-    offset: NDArray[np.float64]
+    linear: Array
+    offset: Array
     vertices: Indices
     edges: Indices
     faces: Indices
@@ -136,7 +136,7 @@ def _first_near(points: NDArray, targets: NDArray, tolerance: float) -> Indices:
 
 def _candidate_turns(
     points: NDArray, targets: NDArray, scores: list[NDArray], tolerance: float
-) -> Iterator[NDArray[np.float64]]:
+) -> Iterator[Array]:
     """Yield orthogonal (3, 3) maps that may lay points onto targets with the same scores: turns
     first, least first.
     """
@@ -185,7 +185,7 @@ def _anchors(points: NDArray, scores: NDArray, near: float) -> tuple[int, int] |
     return a, int(np.where(across >= min(0.1, across.max()), count, len(points) + 1).argmin())
 
 
-def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+def _frames(first: NDArray, second: NDArray) -> Array:
     """Return (k, 3, 3) right-handed frames, as columns: x along `first`, `second` in the plane of x
     and y.
     """

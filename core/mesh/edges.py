@@ -25,6 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import NEXT_AXIS, first_occurrence, sums_by_index
 from ..numerics.graph import EDGES_PER_BLOCK, connected_components
 from .surface import Surface, face_of_each
@@ -77,7 +78,7 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
 
 def _sides_at(
     surface: Surface, corners: NDArray[np.integer]
-) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
+) -> Callable[[int], tuple[NDArray[np.int32], Mask]] | None:
     """Return a function from a block's first corner to faces and directions of its corners; None if
     they do not fit.
     """
@@ -104,7 +105,7 @@ def _sides_at(
         return None
     faces = np.repeat(np.arange(EDGES_PER_BLOCK // size, dtype=np.int32), size)
 
-    def sides_at(start: int) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
+    def sides_at(start: int) -> tuple[NDArray[np.int32], Mask]:
         vertices = corners[start : start + EDGES_PER_BLOCK]
         upward = np.empty(len(vertices), bool)
         np.less(vertices[:-1], vertices[1:], out=upward[:-1])
@@ -116,7 +117,7 @@ def _sides_at(
 
 def ring_sizes(
     triangle_faces: NDArray[np.integer], quad_faces: NDArray[np.integer], count: int = 0
-) -> NDArray[np.intp]:
+) -> Index:
     """Return (count or more,) corner counts of mesh faces, found from their triangles or quads; 0
     for missing faces.
     """
@@ -136,25 +137,25 @@ class Edges:
     the higher; first: (e,) the first side of each edge, ascending; count: (e,) number of sides.
     """
 
-    of_side: NDArray[np.intp]
-    upward: NDArray[np.bool_]
-    first: NDArray[np.intp]
-    count: NDArray[np.intp]
+    of_side: Index
+    upward: Mask
+    first: Index
+    count: Index
 
-    def signed_use_count(self, flipped: NDArray[np.bool_]) -> NDArray[np.float64]:
+    def signed_use_count(self, flipped: Mask) -> Array:
         """Return (e,) upward sides minus downward sides of each edge, once the `flipped` triangles
         are reversed.
         """
         return sums_by_index(self.of_side, np.where(self.upward ^ np.repeat(flipped, 3), 1.0, -1.0))
 
-    def manifold_side_pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def manifold_side_pairs(self) -> tuple[Index, Index]:
         """Return the two sides of every edge that has exactly two."""
         two = self.count == 2
         last = np.empty(len(two), np.intp)
         last[self.of_side] = np.arange(len(self.of_side))  # the last write to equal indices wins
         return self.first[two], last[two]
 
-    def adjacency(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def adjacency(self) -> tuple[Index, Index]:
         """Return pairs of triangles as two (k,) arrays; the pairs connect all triangles at an
         edge.
         """
@@ -163,7 +164,7 @@ class Edges:
         later = first != side
         return first[later] // 3, side[later] // 3
 
-    def boundary_sides(self) -> NDArray[np.intp]:
+    def boundary_sides(self) -> Index:
         """Return the sides of edges that have only one, ascending."""
         return self.first[self.count == 1]
 
@@ -208,7 +209,7 @@ def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
 
 def uncancelled_sides(
     triangles: NDArray[np.integer], owner: NDArray[np.integer]
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+) -> tuple[Index, Index, Index]:
     """Return (k,) owners, starts and ends of the sides of (m, 3) triangles that no opposite one of
     their owner cancels.
 
@@ -233,9 +234,9 @@ def consistent_orientation(
     count: int,
     a: NDArray[np.integer],
     b: NDArray[np.integer],
-    misoriented: NDArray[np.bool_],
-    weight: NDArray[np.float64],
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    misoriented: Mask,
+    weight: Array,
+) -> tuple[Mask, Mask]:
     """Return (count,) masks of faces to turn, the smaller area (weight), and of faces that cannot
     agree.
     """
@@ -258,9 +259,7 @@ def consistent_orientation(
     return flipped & ~twisted, twisted
 
 
-def group_components(
-    edges: Edges, part: NDArray[np.intp], parts: int, even: NDArray[np.bool_]
-) -> tuple[NDArray[np.intp], int]:
+def group_components(edges: Edges, part: Index, parts: int, even: Mask) -> tuple[Index, int]:
     """Return (m,) components of triangles, made of whole parts, and their number.
 
     part: (m,) parts connected across edges of two sides; even: (e,) mask of edges of one side that
@@ -324,7 +323,7 @@ class _Table:
 
     def places(
         self, row: NDArray[np.integer], other: NDArray[np.integer], factor: np.uint32
-    ) -> NDArray[np.intp]:
+    ) -> Index:
         """Return the table slots of the sides with these end vertices."""
         place = row.astype(np.intp)
         place <<= self.bits
@@ -334,7 +333,7 @@ class _Table:
         place += hashes
         return place
 
-    def at(self, places: NDArray[np.intp]) -> NDArray[np.int32]:
+    def at(self, places: Index) -> NDArray[np.int32]:
         """Return the sides in these slots, NOBODY for an empty slot."""
         return self.sides.take(places, mode="clip") - np.int32(1)
 

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import float_array
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import NEXT_AXIS, batches, segment_ranges
 from ..numerics.vectors import cross
 from ..verdict.finding import MeasureError
@@ -41,10 +42,10 @@ class ConvexHull:
     corners was reached.
     """
 
-    points: NDArray[np.float64]
-    indices: NDArray[np.intp]
-    triangles: NDArray[np.intp]
-    neighbors: NDArray[np.intp]
+    points: Array
+    indices: Index
+    triangles: Index
+    neighbors: Index
     is_flat: bool
     gap: float
 
@@ -117,9 +118,7 @@ def convex_hull(
     )
 
 
-def hull_volumes(
-    points: NDArray[np.float64], starts: NDArray[np.intp], tolerance: float
-) -> NDArray[np.float64]:
+def hull_volumes(points: Array, starts: Index, tolerance: float) -> Array:
     """Return the hull volumes of (k,) sets of points, which begin at the rows `starts`; all hulls
     grow at once.
 
@@ -159,7 +158,7 @@ def hull_volumes(
     return volumes
 
 
-def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
+def _first_corners(grid: Array, least: float) -> list[int]:
     """Return four points that span a volume; three or two if all are nearer than `least` to their
     plane or line.
     """
@@ -202,9 +201,7 @@ class _GrowingHull:
     distances of all points from the middle.
     """
 
-    def __init__(
-        self, grid: NDArray[np.int64], first: NDArray[np.intp], owner: NDArray[np.intp], step: float
-    ) -> None:
+    def __init__(self, grid: NDArray[np.int64], first: Index, owner: Index, step: float) -> None:
         self.grid, self.step = grid, step
         self.reach = ((grid.astype(np.float64) - 2.0 ** (GRID_BITS - 1)) ** 2).sum(axis=1)
         self.corners = first[:, [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]].reshape(-1, 3)
@@ -216,7 +213,7 @@ class _GrowingHull:
             every, np.full(len(every), 4), 4 * owner[every]
         )
 
-    def _set_normals(self, kept: NDArray[np.int64], added: NDArray[np.intp]) -> None:
+    def _set_normals(self, kept: NDArray[np.int64], added: Index) -> None:
         """Set the normals of the faces: `kept`, then the normals of new ones, below 2^60, so
         exact.
         """
@@ -224,7 +221,7 @@ class _GrowingHull:
         self.normals = np.concatenate([kept, np.stack(cross(b - a, c - a), axis=1)])
         self.lengths = np.linalg.norm(self.normals.astype(np.float64), axis=1)
 
-    def _heights(self, points: NDArray[np.intp], faces: NDArray[np.intp]) -> NDArray[np.float64]:
+    def _heights(self, points: Index, faces: Index) -> Array:
         """Return (k,) normal · (point - corner), rounded but of the right sign; zero only in the
         plane.
         """
@@ -235,9 +232,7 @@ class _GrowingHull:
         high += low >> GRID_BITS
         return high.astype(np.float64) * 2.0**GRID_BITS + (low & LOW_BITS).astype(np.float64)
 
-    def _highest(
-        self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
-    ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
+    def _highest(self, points: Index, counts: Index, firsts: Index) -> tuple[Index, Index, Array]:
         """Return outside points, the highest face below each (of `counts` from `firsts` on), and
         their heights.
         """
@@ -282,9 +277,7 @@ class _GrowingHull:
         self._replace_faces(apexes, visible, horizon[np.argsort(horizon[:, 0], kind="stable")])
         return True
 
-    def _visible_faces(
-        self, apexes: NDArray[np.intp], faces: NDArray[np.intp]
-    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def _visible_faces(self, apexes: Index, faces: Index) -> tuple[Index, Index]:
         """Return (k, 2) pairs of an apex and a visible face, and (l, 3) borders: apex, visible face
         and its side.
         """
@@ -304,9 +297,7 @@ class _GrowingHull:
             front = np.stack(np.divmod(new, size), axis=1)
         return np.stack(np.divmod(known, size), axis=1), np.concatenate(edges)
 
-    def _independent(
-        self, count: int, visible: NDArray[np.intp], horizon: NDArray[np.intp]
-    ) -> NDArray[np.bool_]:
+    def _independent(self, count: int, visible: Index, horizon: Index) -> Mask:
         """Return a (count,) mask of the apexes that no earlier apex disturbs."""
         beyond = self.neighbors[horizon[:, 1], horizon[:, 2]]
         seen_by = np.full(len(self.corners), count)
@@ -316,9 +307,7 @@ class _GrowingHull:
         keeps[horizon[seen_by[beyond] < horizon[:, 0], 0]] = False
         return keeps
 
-    def _replace_faces(
-        self, apexes: NDArray[np.intp], visible: NDArray[np.intp], horizon: NDArray[np.intp]
-    ) -> None:
+    def _replace_faces(self, apexes: Index, visible: Index, horizon: Index) -> None:
         """Replace the faces that each apex sees by a cone to that apex. horizon: sorted by apex."""
         apex, face, side = horizon.T
         size = len(self.corners)
@@ -356,7 +345,7 @@ class _GrowingHull:
         self.height = np.concatenate([self.height[stays], height])
 
 
-def _flat_hull(points: NDArray[np.float64], corners: list[int], tolerance: float) -> ConvexHull:
+def _flat_hull(points: Array, corners: list[int], tolerance: float) -> ConvexHull:
     """Return both sides of the polygon around points in the plane of three of them."""
     a, b, c = points[corners]
     normal = np.cross(b - a, c - a)
@@ -382,7 +371,7 @@ def _flat_hull(points: NDArray[np.float64], corners: list[int], tolerance: float
     return ConvexHull(points[indices], indices, triangles, neighbors, is_flat=True, gap=gap)
 
 
-def convex_polygon(points: NDArray[np.float64], tolerance: float = 0.0) -> NDArray[np.intp]:
+def convex_polygon(points: Array, tolerance: float = 0.0) -> Index:
     """Return (k,) indices of the counter-clockwise corners of (n, 2) points; two on a line, one if
     all are the same.
     """

@@ -21,6 +21,7 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import segment_ranges, segment_starts, sums_by_index
 from ..numerics.vectors import cross, dot
 from .edges import ring_sizes
@@ -58,7 +59,7 @@ class _PlanarityPartial:
     count: int
     non_planar_count: int
     volume_spread: float
-    undecided: NDArray[np.intp]
+    undecided: Index
 
 
 class PlanarityAccumulator:
@@ -146,9 +147,7 @@ class PlanarityAccumulator:
         volume_spread = (seen_volume + float(np.ldexp(total_volume, 3 * self.exponent))) / 6.0
         return Planarity(int(non_planar_count), volume_spread, np.sort(degenerate))
 
-    def _polygon_tetrahedra(
-        self, pieces: NDArray[np.integer]
-    ) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
+    def _polygon_tetrahedra(self, pieces: NDArray[np.integer]) -> tuple[Index, NDArray[np.integer]]:
         """Return (m,) faces and (m, 4) corners of the polygons' tetrahedra. pieces: the triangles
         of each mesh face.
         """
@@ -167,11 +166,11 @@ class StackPlanarity:
     such faces.
     """
 
-    non_planar_counts: NDArray[np.intp]
-    volume_spread: NDArray[np.float64]
-    is_degenerate: NDArray[np.bool_]
-    has_degenerate: NDArray[np.bool_]
-    face_stops: NDArray[np.intp]
+    non_planar_counts: Index
+    volume_spread: Array
+    is_degenerate: Mask
+    has_degenerate: Mask
+    face_stops: Index
 
     def at(self, i: int) -> Planarity:
         """Return the planarity of one surface."""
@@ -235,7 +234,7 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
 
 def _classify_rows(
     points: NDArray, corners: NDArray, pairs: tuple, error: float | NDArray, exponent: int | NDArray
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+) -> tuple[Array, Mask]:
     """Return (m,) 6 times the scaled tetrahedra of faces' corners, 0 if flat, and a mask of faces
     without area.
     """
@@ -264,7 +263,7 @@ def _classify_rows(
 
 def _tetrahedra(
     ring: NDArray[np.integer], begin: NDArray[np.integer], sizes: NDArray[np.integer]
-) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
+) -> tuple[Index, NDArray[np.integer]]:
     """Return (m,) polygons and (m, 4) corners of the tetrahedra of polygons that stand in `ring`
     from `begin` on.
     """
@@ -274,7 +273,7 @@ def _tetrahedra(
     return row, np.stack([ring[begin[row]], ring[begin[row] + 1], ring[at], ring[at + 1]], axis=1)
 
 
-def _sum_in_order(volumes: NDArray[np.float64]) -> float:
+def _sum_in_order(volumes: Array) -> float:
     """Return the sum, added one by one as in a stack of bodies; `np.add.reduce` adds in another
     order.
     """

@@ -17,12 +17,13 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.array_types import Array
 from ..numerics.vectors import cross, dot, subtract
 
 TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 
-def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float64]:
+def triangle_distances(points: ArrayLike, corners: NDArray) -> Array:
     """Return the (m,) distances of (m, 3) points, or of one point, each from its own of (m, 3, 3)
     triangles.
     """
@@ -59,9 +60,7 @@ def winding_number(
     ) / (4.0 * math.pi)
 
 
-def solid_angles(
-    points: NDArray, triangles: NDArray[np.integer], point: ArrayLike = 0.0
-) -> NDArray[np.float64]:
+def solid_angles(points: NDArray, triangles: NDArray[np.integer], point: ArrayLike = 0.0) -> Array:
     """Return (m,) signed solid angles of triangles seen from a point, by van Oosterom and Strackee
     (1983), eq. 8.
     """

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import batches, segment_ranges, sums_by_index
 from .surface import Surface, flipped_quads
 
@@ -46,10 +47,10 @@ class LineGrids:
     column of the center, counted from 0. `rows`, `columns`: the largest numbers of any body.
     """
 
-    axes: NDArray[np.intp]
-    center: NDArray[np.float64]
-    cell: NDArray[np.float64]
-    origin: NDArray[np.float64]
+    axes: Index
+    center: Array
+    cell: Array
+    origin: Array
     rows: int
     columns: int
 
@@ -70,7 +71,7 @@ class LineGrids:
         return cls(axes, center, width / np.array([rows, columns]).T, origin, *size.tolist())
 
     @classmethod
-    def through_points(cls, points: NDArray[np.float64], sizes: NDArray[np.float64]) -> LineGrids:
+    def through_points(cls, points: Array, sizes: Array) -> LineGrids:
         """Make a grid of a single line for each body, through (b, 3) points; sizes: (b,) of the
         bodies.
         """
@@ -78,9 +79,7 @@ class LineGrids:
         cell = np.repeat(4.0 * sizes[:, None], 2, axis=1)
         return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
 
-    def places(
-        self, points: NDArray[np.floating], body: NDArray[np.integer] | None
-    ) -> NDArray[np.float64]:
+    def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> Array:
         """Return the (3, n) rows, columns and lengths along the lines of points. body: (n,), None
         for a single body.
         """
@@ -105,11 +104,11 @@ class LineGrids:
 
     def squared_distances(
         self,
-        body: NDArray[np.intp],
-        row: NDArray[np.intp],
-        column: NDArray[np.intp],
-        along: NDArray[np.float64],
-    ) -> NDArray[np.float64]:
+        body: Index,
+        row: Index,
+        column: Index,
+        along: Array,
+    ) -> Array:
         """Return the (k,) squared distances of places on lines from the centers of their bodies
         (unit²).
         """
@@ -128,16 +127,16 @@ class Crossings:
     outward. `rows_apart`: (b,) distance of the rows that were taken.
     """
 
-    body: NDArray[np.intp]
-    row: NDArray[np.intp]
-    column: NDArray[np.intp]
-    triangle: NDArray[np.intp]
-    along: NDArray[np.float64]
-    sign: NDArray[np.intp]
-    rows_apart: NDArray[np.intp]
+    body: Index
+    row: Index
+    column: Index
+    triangle: Index
+    along: Array
+    sign: Index
+    rows_apart: Index
 
 
-def line_counts(triangles: NDArray[np.integer]) -> NDArray[np.intp]:
+def line_counts(triangles: NDArray[np.integer]) -> Index:
     """Return (b,) numbers of lines for bodies of these numbers of triangles."""
     return np.clip(LINES_PER_SQRT * np.sqrt(triangles), MIN_LINES, MAX_LINES).astype(np.intp)
 
@@ -205,9 +204,7 @@ def _cells(
     return cells[0], cells[1]
 
 
-def _count_faces(
-    surface: Surface, body: NDArray[np.integer] | None, bodies: int
-) -> NDArray[np.intp]:
+def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int) -> Index:
     """Return the (b,) numbers of triangles of the bodies."""
     if body is None:
         return np.array([surface.triangle_count])
@@ -218,9 +215,7 @@ def _count_faces(
     return triangles + 2 * quads
 
 
-def _rows_apart(
-    work: NDArray[np.float64], limit: tuple[int, float], faces: NDArray[np.intp]
-) -> NDArray[np.intp]:
+def _rows_apart(work: Array, limit: tuple[int, float], faces: Index) -> Index:
     """Return the (b,) distances, in rows, between the scanned rows of bodies, so that the work
     stays within a limit.
     """
@@ -229,7 +224,7 @@ def _rows_apart(
 
 def _crossed_triangles(
     surface: Surface, cells: tuple[NDArray[np.integer], NDArray[np.integer]]
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+) -> tuple[Index, Index]:
     """Return (3, k) corners, and indices, of the triangles, or halves of quads, that span several
     rows and columns.
     """
@@ -257,7 +252,7 @@ def _crossed_triangles(
     return np.concatenate(triangles, axis=1), np.concatenate(number)
 
 
-def _differ(cell: NDArray[np.integer], corners: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _differ(cell: NDArray[np.integer], corners: Index) -> Mask:
     """Return a (k,) mask of faces whose corners, (3 or 4, k), are in different rows, or columns."""
     first = cell.take(corners[0])
     differ = cell.take(corners[1]) != first
@@ -267,12 +262,12 @@ def _differ(cell: NDArray[np.integer], corners: NDArray[np.intp]) -> NDArray[np.
 
 
 def _cross_row(
-    places: NDArray[np.float64],
-    corners: NDArray[np.intp],
-    which: NDArray[np.intp],
-    higher: NDArray[np.bool_],
-    row: NDArray[np.intp],
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
+    places: Array,
+    corners: Index,
+    which: Index,
+    higher: Mask,
+    row: Index,
+) -> tuple[Array, Array, Index]:
     """Return the points, (2, k), at which a row enters and leaves triangles, and the sign of the
     crossings.
     """

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import float_array, has_form, index_array, number_array
+from ..numerics.array_types import Array, Mask
 from ..numerics.arrays import cross_rows, lengths
 from ..numerics.vectors import cross, dot
 
@@ -76,7 +77,7 @@ class Surface:
     quad_faces: NDArray[np.integer] | None = None
     corner_vertices: NDArray[np.integer] | None = None
     corner_edges: NDArray[np.integer] | None = None
-    displacement: NDArray[np.float64] | None = None
+    displacement: Array | None = None
 
     def __post_init__(self) -> None:
         if not has_form(self.points, POINT_TYPES, (3,)):
@@ -99,7 +100,7 @@ class Surface:
             )
 
     @cached_property
-    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def box(self) -> tuple[Array, Array]:
         """Smallest and largest coordinates of the points, (3,) each, unused points included; NaN if
         any is NaN.
         """
@@ -110,7 +111,7 @@ class Surface:
         ).astype(np.float64)
 
     @cached_property
-    def coordinate_error(self) -> NDArray[np.float64]:
+    def coordinate_error(self) -> Array:
         """The (3,) bounds of the points' shift by storing: half an ulp of the largest float32
         coordinate by axis.
 
@@ -194,15 +195,13 @@ def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.inte
     )
 
 
-def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Array:
     """Return (m, 3) normals of triangles, each twice as long as its triangle's area."""
     a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
     return cross_rows(b - a, c - a)
 
 
-def triangle_areas(
-    points: NDArray[np.floating], triangles: NDArray[np.integer]
-) -> NDArray[np.float64]:
+def triangle_areas(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Array:
     """Return (m,) areas of triangles."""
     return 0.5 * lengths(normals(points, triangles))[:, 0]
 
@@ -231,7 +230,7 @@ def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
     )
 
 
-def half_ulp(largest: NDArray[np.float64]) -> NDArray[np.float64]:
+def half_ulp(largest: Array) -> Array:
     """Return half an ulp of float32 numbers.
 
     From 2^127 on it is that of 2^127, which stays finite.
@@ -246,14 +245,14 @@ def turned_quads(points: NDArray, quads: NDArray) -> NDArray:
     return np.where(flipped_quads(points, quads)[:, None], quads.take(NEXT_CORNER, 1), quads)
 
 
-def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
+def flipped_quads(points: NDArray, quads: NDArray) -> Mask:
     """Return a (q,) mask of quads that Blender (is_quad_flip_v3_first_third_fast) cuts from the
     second corner on.
     """
     return has_flipped_corners(*(points[quads[:, i]].T for i in range(4)))
 
 
-def has_flipped_corners(a: NDArray, b: NDArray, c: NDArray, d: NDArray) -> NDArray[np.bool_]:
+def has_flipped_corners(a: NDArray, b: NDArray, c: NDArray, d: NDArray) -> Mask:
     """Return the mask of `flipped_quads` from the coordinates of corners, (3, q) each."""
     with np.errstate(over="ignore", invalid="ignore"):
         a, b, c, d = (corner.astype(np.float32, copy=False) for corner in (a, b, c, d))

@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import as_unsigned, segment_starts
 from ..numerics.graph import connected_components
 from .edges import ring_sizes
@@ -28,14 +29,14 @@ class TriangleStack:
     """
 
     points: NDArray[np.floating]
-    triangles: NDArray[np.intp]
-    point_counts: NDArray[np.intp]
-    triangle_counts: NDArray[np.intp]
+    triangles: Index
+    point_counts: Index
+    triangle_counts: Index
 
     def __len__(self) -> int:
         return len(self.point_counts)
 
-    def some(self, which: NDArray[np.intp]) -> TriangleStack:
+    def some(self, which: Index) -> TriangleStack:
         """Return the triangles of some of the surfaces, in ascending order."""
         if len(which) == len(self):
             return self
@@ -47,29 +48,29 @@ class TriangleStack:
             self.triangle_counts[which],
         )
 
-    def owned(self, which: NDArray[np.intp]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    def owned(self, which: Index) -> tuple[Mask, Mask]:
         """Return masks of the points, (p,), and of the triangles, (t,), of some of the surfaces."""
         chosen = np.zeros(len(self), bool)
         chosen[which] = True
         return np.repeat(chosen, self.point_counts), np.repeat(chosen, self.triangle_counts)
 
     @cached_property
-    def first_point(self) -> NDArray[np.intp]:
+    def first_point(self) -> Index:
         """The (n,) indices of the surfaces' first points."""
         return np.cumsum(self.point_counts) - self.point_counts
 
     @cached_property
-    def first_triangle(self) -> NDArray[np.intp]:
+    def first_triangle(self) -> Index:
         """The (n,) indices of the surfaces' first triangles."""
         return np.cumsum(self.triangle_counts) - self.triangle_counts
 
     @cached_property
-    def point_owners(self) -> NDArray[np.intp]:
+    def point_owners(self) -> Index:
         """The (p,) indices of the points' surfaces."""
         return np.repeat(np.arange(len(self)), self.point_counts)
 
     @cached_property
-    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def box(self) -> tuple[Array, Array]:
         """The smallest and the largest coordinates of the surfaces, (n, 3) each."""
         rows = np.ascontiguousarray(self.points.T)
         starts = self.first_point
@@ -78,7 +79,7 @@ class TriangleStack:
         return low.T.astype(np.float64), high.T.astype(np.float64)
 
     @cached_property
-    def coordinate_error(self) -> NDArray[np.float64]:
+    def coordinate_error(self) -> Array:
         """(n, 3) half an ulp of each surface's largest coordinate on each axis: its
         `Surface.coordinate_error`.
         """
@@ -98,15 +99,15 @@ class SurfaceStack(TriangleStack):
     there.
     """
 
-    triangle_faces: NDArray[np.intp]
-    quads: NDArray[np.intp]
-    quad_faces: NDArray[np.intp]
-    corner_vertices: NDArray[np.intp]
-    corner_edges: NDArray[np.intp]
-    quad_counts: NDArray[np.intp]
-    corner_counts: NDArray[np.intp]
-    face_counts: NDArray[np.intp]
-    edge_counts: NDArray[np.intp]
+    triangle_faces: Index
+    quads: Index
+    quad_faces: Index
+    corner_vertices: Index
+    corner_edges: Index
+    quad_counts: Index
+    corner_counts: Index
+    face_counts: Index
+    edge_counts: Index
 
     @staticmethod
     def takes(surfaces: Sequence[Surface], most: int) -> list[bool]:
@@ -204,18 +205,18 @@ class SurfaceStack(TriangleStack):
         )
 
     @cached_property
-    def first_face(self) -> NDArray[np.intp]:
+    def first_face(self) -> Index:
         """The (n,) indices of the surfaces' first faces."""
         return np.cumsum(self.face_counts) - self.face_counts
 
     @cached_property
-    def face_sizes(self) -> NDArray[np.intp]:
+    def face_sizes(self) -> Index:
         """The (f,) corner counts of faces, found from their triangles and quads; 0 for faces
         without any.
         """
         return ring_sizes(self.triangle_faces, self.quad_faces, int(self.face_counts.sum()))
 
-    def uses_all_points(self) -> NDArray[np.bool_]:
+    def uses_all_points(self) -> Mask:
         """Return an (n,) mask of the surfaces with all points used as corners of faces."""
         used = np.zeros(len(self.points), bool)
         used[self.triangles] = True
@@ -278,8 +279,8 @@ class Connections:
     side, for the open surfaces.
     """
 
-    is_closed: NDArray[np.bool_]
-    is_open: NDArray[np.bool_]
-    component_counts: NDArray[np.intp]
-    component: NDArray[np.intp]
-    open_sides: NDArray[np.intp]
+    is_closed: Mask
+    is_open: Mask
+    component_counts: Index
+    component: Index
+    open_sides: Index

@@ -15,6 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import NEXT_AXIS, first_occurrence, hash_uint64, lengths
 from ..numerics.graph import connected_components
 
@@ -26,7 +27,7 @@ CELL_DIAGONAL = 3.5  # tolerances, two to a side: farther apart than any two poi
 WELD_LIMIT_RTOL = 1e-3  # relative to the smallest triangle at a vertex: larger gaps stay
 
 
-def first_at_equal_position(points: NDArray[np.floating]) -> NDArray[np.intp]:
+def first_at_equal_position(points: NDArray[np.floating]) -> Index:
     """Return the (n,) first points at exactly the same places as the points; -0.0 equals 0.0."""
     # -0.0 + 0.0 = 0.0
     return first_occurrence(*(points[:, k].astype(np.float64) + 0.0 for k in range(3)))
@@ -34,9 +35,9 @@ def first_at_equal_position(points: NDArray[np.floating]) -> NDArray[np.intp]:
 
 def may_have_neighbor(
     points: NDArray[np.floating],
-    reach: float | NDArray[np.float64],
+    reach: float | Array,
     owner: NDArray[np.integer] | None = None,
-) -> NDArray[np.bool_]:
+) -> Mask:
     """Return an (n,) mask of all points with another point of their owner within `reach`, and of
     some more points.
     """
@@ -53,9 +54,7 @@ def may_have_neighbor(
     return result
 
 
-def first_at_near_position(
-    points: NDArray[np.floating], tolerance: NDArray[np.float64]
-) -> NDArray[np.intp]:
+def first_at_near_position(points: NDArray[np.floating], tolerance: Array) -> Index:
     """Return (n,) for each point the first of its cluster of points nearer to each other than (n,)
     tolerances.
     """
@@ -71,9 +70,7 @@ def first_at_near_position(
     return _first_of_clusters(place, tolerance, cell)
 
 
-def _first_of_clusters(
-    place: NDArray[np.float64], tolerance: NDArray[np.float64], cell: float
-) -> NDArray[np.intp]:
+def _first_of_clusters(place: Array, tolerance: Array, cell: float) -> Index:
     """Return the (n,) points of `first_at_near_position`, on grids of cells of this size."""
     left, right = [], []
     for shift in np.ndindex(2, 2, 2):
@@ -96,7 +93,7 @@ def vertex_tolerance(
     triangles: NDArray[np.integer],
     vertices: NDArray[np.integer],
     tolerance: float,
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the (k,) distances that `vertices` may move: `tolerance`, less if the triangles around
     them are small.
     """
@@ -110,9 +107,7 @@ def vertex_tolerance(
     return np.minimum(tolerance, WELD_LIMIT_RTOL * size[vertices])
 
 
-def same_vertices_groups(
-    triangles: NDArray[np.integer], faces: NDArray[np.integer]
-) -> NDArray[np.intp]:
+def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integer]) -> Index:
     """Return for m triangles the first mesh faces on the same vertices as their own mesh faces,
     `faces` (m,).
     """

@@ -16,6 +16,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import segment_ranges, segment_starts
 from .exponents import (
     count_of_degree,
@@ -39,7 +40,7 @@ HIGHEST_ODD = (
 )
 
 
-def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def to_trailing_axis(matrices: NDArray) -> tuple[Array, Array]:
     """Return (3, 3, k) and (3, k): the linear parts and the offsets of (k, 4, 4) maps."""
     affine = np.ascontiguousarray(np.asarray(matrices, np.float64)[:, :3].transpose(1, 2, 0))
     return affine[:, :3], affine[:, 3]
@@ -47,7 +48,7 @@ def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np
 
 def distinct_linear_parts(
     matrices: NDArray,
-) -> Iterator[tuple[NDArray[np.float64], NDArray[np.intp]]]:
+) -> Iterator[tuple[Array, Index]]:
     """Yield each distinct (3, 3) linear part of (k, 4, 4) maps with the (j,) indices of the maps
     that have it.
     """
@@ -56,7 +57,7 @@ def distinct_linear_parts(
         yield row.reshape(3, 3), np.flatnonzero(which.ravel() == i)
 
 
-def similarity_groups(matrices: NDArray) -> Iterator[tuple[NDArray[np.intp], bool]]:
+def similarity_groups(matrices: NDArray) -> Iterator[tuple[Index, bool]]:
     """Yield the indices of all similarities of (k, 4, 4) maps and True, then of each uneven linear
     part and False.
     """
@@ -67,7 +68,7 @@ def similarity_groups(matrices: NDArray) -> Iterator[tuple[NDArray[np.intp], boo
     yield from ((uneven[members], False) for _, members in distinct_linear_parts(matrices[uneven]))
 
 
-def affine_matrices(linear: NDArray, offsets: ArrayLike = 0.0) -> NDArray[np.float64]:
+def affine_matrices(linear: NDArray, offsets: ArrayLike = 0.0) -> Array:
     """Return (..., 4, 4) maps with these (..., 3, 3) linear parts and (..., 3) offsets, either of
     which may be one.
     """
@@ -78,9 +79,7 @@ def affine_matrices(linear: NDArray, offsets: ArrayLike = 0.0) -> NDArray[np.flo
     return matrices
 
 
-def placed_boxes(
-    box: tuple[NDArray, NDArray], matrices: NDArray
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def placed_boxes(box: tuple[NDArray, NDArray], matrices: NDArray) -> tuple[Array, Array]:
     """Return (k, 3) middles and half sides of boxes around the images of a box, (3,) and (3,), by
     (k, 4, 4) maps.
     """
@@ -89,9 +88,7 @@ def placed_boxes(
     return linear @ ((low + high) / 2.0) + matrices[:, :3, 3], np.abs(linear) @ ((high - low) / 2.0)
 
 
-def transform_by_horner(
-    values: NDArray, order: int, linear: NDArray, offset: NDArray
-) -> NDArray[np.float64]:
+def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> Array:
     """Return (K, k) images of functionals, (K, 1) or (K, k), under maps with (3, 3, k) `linear` and
     (3, k) `offset`.
     """
@@ -110,9 +107,7 @@ def transform_by_horner(
     return out
 
 
-def multiply_by_linear_form(
-    form: tuple[NDArray, ...], values: NDArray, order: int
-) -> NDArray[np.float64]:
+def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: int) -> Array:
     """Return a functional times the linear form (t, a, b, c), one order shorter: empty if `order`
     is 0.
     """
@@ -128,7 +123,7 @@ def multiply_by_linear_form(
     return image
 
 
-def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
+def apply_linear(values: NDArray, order: int, linear: NDArray) -> Array:
     """Map functionals (..., m, K): the first of m by the map (..., 3, 3), its bounds by the map's
     absolute value.
     """
@@ -141,7 +136,7 @@ def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.flo
     return out
 
 
-def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.float64]:
+def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> Array:
     """Return (..., K) moments of bodies after rotations (..., 3, 3), from their moments `raw`; no
     error bounds.
     """
@@ -160,7 +155,7 @@ def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.fl
     return out
 
 
-def _image_coefficients(forms: NDArray, order: int) -> Iterator[tuple[slice, NDArray[np.float64]]]:
+def _image_coefficients(forms: NDArray, order: int) -> Iterator[tuple[slice, Array]]:
     """Yield, by degree from 1, the slice of its monomials, and the (..., rows, rows) coefficients
     of their images.
     """
@@ -170,7 +165,7 @@ def _image_coefficients(forms: NDArray, order: int) -> Iterator[tuple[slice, NDA
         yield slice(monomial_count(degree - 1), monomial_count(degree)), table
 
 
-def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:
+def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> Array:
     """Return (..., rows, rows) coefficients of the images of a degree's monomials. table: those one
     degree lower.
     """
@@ -197,7 +192,7 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[n
 @lru_cache
 def _terms(
     order: int,
-) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]]:
+) -> list[tuple[Index, Index, Array, Index]]:
     """Return, by axis, the terms of all shifted monomials: (t,) old indices, powers, binomials;
     (K,) first terms.
     """
@@ -217,7 +212,7 @@ def _terms(
     return tables
 
 
-def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
+def apply_translation(values: NDArray, order: int, offsets: NDArray) -> Array:
     """Return (..., K) values F[(x+t)^α] of functionals F, (..., K), each with its own offset t,
     (..., 3).
     """
@@ -241,7 +236,7 @@ def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[
     return values.reshape(*lead, -1)
 
 
-def are_singular(linear: NDArray) -> NDArray[np.bool_]:
+def are_singular(linear: NDArray) -> Mask:
     """Return a (k,) mask of the (k, 3, 3) maps that are singular to the accuracy of float32
     entries.
     """
@@ -261,7 +256,7 @@ def are_singular(linear: NDArray) -> NDArray[np.bool_]:
     return np.abs(volume) <= SINGULAR_RTOL
 
 
-def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
+def absolute_moments(raw: NDArray, order: int) -> Array:
     """Return (..., K) upper bounds of ∫ |x^p y^q z^r|; of odd highest order they are estimates."""
     out = np.abs(raw)
     largest = [
@@ -283,7 +278,7 @@ def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
     return out
 
 
-def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
+def are_similarities(linear: NDArray) -> Mask:
     """Return a (k,) mask of the (k, 3, 3) maps that are similarities to the accuracy of float32
     entries.
     """
@@ -293,7 +288,7 @@ def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
     )
 
 
-def anisotropy(linear: NDArray) -> NDArray[np.float64]:
+def anisotropy(linear: NDArray) -> Array:
     """Return (k,) bounds of the variation of (3, 3, k) maps' squared stretch, relative to its mean;
     infinite for 0.
     """

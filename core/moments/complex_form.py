@@ -18,6 +18,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array
 from ..verdict.finding import MeasureError
 from .affine_maps import apply_translation
 from .exponents import monomial_index, monomials
@@ -74,7 +75,7 @@ class Invariant:
 
 
 def complex_moments(
-    moments: Moments, bounds: NDArray[np.float64] | None = None
+    moments: Moments, bounds: Array | None = None
 ) -> dict[tuple[int, int], ComplexBound]:
     """Return {(p, q): c_pq}, p ≥ q, of a plane shape (z = 0). bounds: (K,) errors, by default
     `rounding_error`.

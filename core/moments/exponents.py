@@ -11,9 +11,11 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array
+
 KNOWN_ORDER = 3  # every body has its moments to this order
 
-Index = TypeVar("Index", int, NDArray[np.int64])  # an index, or an array of indices
+AnyIndex = TypeVar("AnyIndex", int, NDArray[np.int64])  # an index, or an array of indices
 
 
 @lru_cache
@@ -46,7 +48,7 @@ def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int,
     return powers
 
 
-def monomial_index(p: Index, q: Index, r: Index) -> Index:
+def monomial_index(p: AnyIndex, q: AnyIndex, r: AnyIndex) -> AnyIndex:
     """Return the index of the monomial x^p y^q z^r, sorted by degree, within a degree by (q + r,
     r).
     """
@@ -85,7 +87,7 @@ def monomials(order: int) -> NDArray[np.int64]:
     return table
 
 
-def monomial_values(points: NDArray[np.float64], order: int) -> NDArray[np.float64]:
+def monomial_values(points: Array, order: int) -> Array:
     """Return (n, K) the monomials to an order at points (n, 3)."""
     powers = np.ones((order + 1, 3, len(points)))
     powers[1:] = points.T
@@ -94,7 +96,7 @@ def monomial_values(points: NDArray[np.float64], order: int) -> NDArray[np.float
     return (powers[p, 0] * powers[q, 1] * powers[r, 2]).T
 
 
-def factorial_ratios(exponents: NDArray[np.integer], more: int) -> NDArray[np.float64]:
+def factorial_ratios(exponents: NDArray[np.integer], more: int) -> Array:
     """Return (K,) α! / (|α| + `more`)! of (K, n) exponents, correctly rounded."""
     return np.array(
         [prod(map(factorial, row)) / factorial(sum(row) + more) for row in exponents.tolist()]

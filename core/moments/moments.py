@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import check_filled, float_array, shape_error
+from ..numerics.array_types import Array
 from ..numerics.arrays import PerBody, as_rows
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError
@@ -110,12 +111,12 @@ class Moments:
     8850.0
     """
 
-    raw: NDArray[np.float64]
-    about: NDArray[np.float64]
+    raw: Array
+    about: Array
     measure: Measure = Measure.VOLUME
     # zeros after `__post_init__`
-    rounding_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)
-    input_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)
+    rounding_error: Array = cast("Array", None)
+    input_error: Array = cast("Array", None)
 
     def __post_init__(self) -> None:
         raw = float_array("raw", self.raw, *(getattr(self.raw, "shape", ()) or (..., "K")))
@@ -163,7 +164,7 @@ class Moments:
     def __iter__(self) -> Iterator[tuple[int, int, int]]:
         return (tuple(row) for row in monomials(self.order).tolist())
 
-    def to_dense(self) -> NDArray[np.float64]:
+    def to_dense(self) -> Array:
         """Return (order + 1, order + 1, order + 1) array[p, q, r] as in `skimage.measure.moments`;
         0 elsewhere.
         """
@@ -189,15 +190,15 @@ class Moments:
         )
 
     @property
-    def center(self) -> NDArray[np.float64]:
+    def center(self) -> Array:
         """The (3,) centroid, in the coordinates of `about`. The total must not be zero."""
         return self.about + self.raw[..., 1:4] / self.raw[..., :1]
 
-    def second(self) -> NDArray[np.float64]:
+    def second(self) -> Array:
         """Return the (3, 3) second moments about `about`."""
         return self.raw[..., SECOND_MOMENT_INDEX]
 
-    def third(self) -> NDArray[np.float64]:
+    def third(self) -> Array:
         """Return the (3, 3, 3) third moments about `about`."""
         return self.raw[..., THIRD_MOMENT_INDEX]
 
@@ -290,11 +291,11 @@ class Moments:
 
 
 def unchecked_moments(
-    raw: NDArray[np.float64],
-    about: NDArray[np.float64],
+    raw: Array,
+    about: Array,
     measure: Measure,
-    rounding_error: NDArray[np.float64],
-    input_error: NDArray[np.float64],
+    rounding_error: Array,
+    input_error: Array,
 ) -> Moments:
     """Return moments of float64 arrays that fit each other, as the core computes them, without a
     check.

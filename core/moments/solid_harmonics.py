@@ -20,6 +20,7 @@ from math import comb, factorial, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index
 from .exponents import monomial_count, monomial_index, product_indices
 
 Multiplets = dict[tuple[int, int], NDArray[np.complex128]]
@@ -56,7 +57,7 @@ def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]
     return np.concatenate([half[:0:-1].conj() * sign, half])
 
 
-def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
+def couple(a: NDArray, b: NDArray, c: NDArray) -> Array:
     """Return (…) Σ (l l' l''; m m' m'') a_m b_m' c_m'' of multiplets (2l+1, …); a pseudoscalar for
     odd l + l' + l''.
     """
@@ -98,15 +99,13 @@ def circular_coefficients(plus: int, minus: int) -> tuple[complex, ...]:
 
 
 @lru_cache(maxsize=256)
-def _nonzero_three_j(
-    a: int, b: int, c: int
-) -> tuple[NDArray[np.float64], tuple[NDArray[np.intp], ...]]:
+def _nonzero_three_j(a: int, b: int, c: int) -> tuple[Array, tuple[Index, ...]]:
     """Return the nonzero Wigner 3j symbols and their indices."""
     table = _three_j(a, b, c)
     return table[table != 0.0], np.nonzero(table)
 
 
-def _three_j(a: int, b: int, c: int) -> NDArray[np.float64]:
+def _three_j(a: int, b: int, c: int) -> Array:
     """Return (2a+1, 2b+1, 2c+1) Wigner's 3j symbols, by Racah's sum."""
     table = np.zeros((2 * a + 1, 2 * b + 1, 2 * c + 1))
     triangle = (

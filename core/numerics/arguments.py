@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .array_types import Array
 from .arrays import indices_in_range
 
 Length = int | str | EllipsisType
@@ -31,9 +32,7 @@ def number_array(
     return array
 
 
-def float_array(
-    name: str, values: ArrayLike, *shape: Length, finite: bool = False
-) -> NDArray[np.float64]:
+def float_array(name: str, values: ArrayLike, *shape: Length, finite: bool = False) -> Array:
     """Return a parameter as an array of float64."""
     if (
         isinstance(values, np.ndarray)

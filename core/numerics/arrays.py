@@ -12,6 +12,8 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from .array_types import Array, Index
+
 # A number, text or the like for one body; for a stack of bodies, an array with one entry for each.
 PerBody: TypeAlias = Any
 
@@ -61,25 +63,23 @@ def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
     return (value | value << 2) & 0x09249249
 
 
-def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
+def segment_ranges(counts: NDArray) -> Index:
     """Return 0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, and so on."""
     starts = segment_starts(counts)
     return np.arange(int(np.add.reduce(counts))) - np.repeat(starts, counts)
 
 
-def segment_starts(counts: NDArray) -> NDArray[np.intp]:
+def segment_starts(counts: NDArray) -> Index:
     """Return 0, counts[0], counts[0] + counts[1], …: the start of each segment of these lengths."""
     return counts.cumsum() - counts
 
 
-def sums_by_index(
-    indices: NDArray[np.integer], weights: NDArray, count: int = 0
-) -> NDArray[np.float64]:
+def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> Array:
     """Return (count or more,) sums of the weights of each index: `bincount`, typed."""
-    return cast("NDArray[np.float64]", np.bincount(indices, weights, count))
+    return cast("Array", np.bincount(indices, weights, count))
 
 
-def power_table(values: NDArray[np.float64], order: int) -> list[NDArray[np.float64]]:
+def power_table(values: Array, order: int) -> list[Array]:
     """Return order + 1 arrays: the powers of `values` from 0 to `order`."""
     powers = [np.ones_like(values)]
     for _ in range(order):
@@ -100,9 +100,7 @@ def batches(weights: NDArray, size: float) -> Iterator[slice]:
         start = stop
 
 
-def following_pairs(
-    order: NDArray[np.intp], counts: NDArray[np.intp], size: int
-) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+def following_pairs(order: Index, counts: Index, size: int) -> Iterator[tuple[Index, Index]]:
     """Yield pairs of each item of `order`, (n,), with the next `counts`, (n,), items, about `size`
     at a time.
     """
@@ -112,9 +110,7 @@ def following_pairs(
             yield order[row], order[row + 1 + segment_ranges(counts[part])]
 
 
-def first_occurrence(
-    *columns: NDArray, slots: NDArray[np.integer] | None = None
-) -> NDArray[np.intp]:
+def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None) -> Index:
     """Return (n,) indices of the first row with the bits of each row. slots: (n,) hash slots of the
     first round.
     """
@@ -159,7 +155,7 @@ def hash_uint64(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
     return z ^ (z >> np.uint64(31))
 
 
-def unique_pairs(pairs: NDArray[np.integer]) -> NDArray[np.intp]:
+def unique_pairs(pairs: NDArray[np.integer]) -> Index:
     """Return (k, 2) rows of two numbers from 0 to 2³¹, sorted, each once: as `np.unique` along an
     axis, but faster.
     """
@@ -168,7 +164,7 @@ def unique_pairs(pairs: NDArray[np.integer]) -> NDArray[np.intp]:
     return np.stack(np.divmod(key, width), axis=1).astype(np.intp, copy=False)
 
 
-def distinct_arrays(arrays: NDArray, within: float) -> NDArray[np.float64]:
+def distinct_arrays(arrays: NDArray, within: float) -> Array:
     """Return the (n, ...) vectors or matrices that differ from all earlier ones by at least
     `within` in some entry.
     """

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .arguments import float_array
+from .array_types import Array
 
 
 @dataclass(frozen=True)
@@ -91,12 +92,12 @@ class SplineSpace:
         return j[knots[j] < knots[j + 1]]
 
     @cached_property
-    def intervals(self) -> NDArray[np.float64]:
+    def intervals(self) -> Array:
         """The (s, 2) bounds of the spans."""
         knots = np.asarray(self.knots)
         return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
 
-    def uniform_parameters(self, per_span: int) -> NDArray[np.float64]:
+    def uniform_parameters(self, per_span: int) -> Array:
         """Return (spans * per_span + 1,) parameters at equal steps in every span, both ends of the
         domain included.
         """
@@ -105,7 +106,7 @@ class SplineSpace:
         return np.append(inner.ravel(), high[-1])
 
     @cached_property
-    def end_weights(self) -> NDArray[np.float64]:
+    def end_weights(self) -> Array:
         """(2, count) weights of the control points at the domain's ends."""
         return self.collocation_matrix(np.array(self.domain))
 
@@ -115,15 +116,13 @@ class SplineSpace:
         return self.controls_of_spans(self.spans)
 
     @cached_property
-    def bezier_extraction(self) -> NDArray[np.float64]:
+    def bezier_extraction(self) -> Array:
         """(s, order, order) weights of the acting control points in each Bézier control point of a
         span.
         """
         return self.bezier_weights(self.spans, self.intervals)
 
-    def bezier_weights(
-        self, spans: NDArray[np.integer], intervals: ArrayLike
-    ) -> NDArray[np.float64]:
+    def bezier_weights(self, spans: NDArray[np.integer], intervals: ArrayLike) -> Array:
         """Return (s, order, order) weights of the acting control points in the Bézier control
         points of intervals.
 
@@ -158,7 +157,7 @@ class SplineSpace:
 
     def derivatives(
         self, spans: NDArray[np.integer], parameters: NDArray, highest: int
-    ) -> list[NDArray[np.float64]]:
+    ) -> list[Array]:
         """Return `highest` + 1 arrays (..., order): values and derivatives of the basis functions
         that act in spans.
 
@@ -200,7 +199,7 @@ class SplineSpace:
 
     def collocation_matrix(
         self, parameters: ArrayLike, derivative: int = 0, spans: NDArray[np.integer] | None = None
-    ) -> NDArray[np.float64]:
+    ) -> Array:
         """Return (n, count) weights of the control points in the value, or a derivative, at n
         parameters.
 

@@ -9,6 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .array_types import Array
+
 SPLITTER = 2.0**27 + 1.0
 
 
@@ -35,7 +37,7 @@ def _split(a: NDArray) -> tuple[NDArray, NDArray]:
     return high, a - high
 
 
-def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
+def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> Array:
     """Return (3, k) (b-a) x (c-a) for corners (3, k), relatively accurate to about u however thin
     the triangles are.
     """

@@ -14,6 +14,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
+from .array_types import Index
+
 # Links, or corners of faces, at a time: enough for threads to help; a multiple of 3 and 4, so that
 # no face is split.
 EDGES_PER_BLOCK = 3 << 16
@@ -22,7 +24,7 @@ NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 
 def connected_components(
     count: int, a: NDArray[np.integer], b: NDArray[np.integer]
-) -> tuple[NDArray[np.intp], int]:
+) -> tuple[Index, int]:
     """Return (count,) components of nodes joined by links a-b, (k,), numbered by first nodes, and
     their number.
     """
@@ -54,7 +56,7 @@ def connected_components(
             return label.astype(np.intp), number
 
 
-def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
+def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[Index, int]:
     """Return (n,) components of nodes with (n, k) neighbors, and their number; each link is listed
     at both its ends.
     """

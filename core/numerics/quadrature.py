@@ -10,11 +10,12 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
-from numpy.typing import NDArray
+
+from .array_types import Array
 
 
 @lru_cache
-def gauss_legendre(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def gauss_legendre(points: int) -> tuple[Array, Array]:
     """Return read-only nodes and weights, (points,), of the rule on [0, 1] that is exact to degree
     2 points - 1.
     """
@@ -26,7 +27,7 @@ def gauss_legendre(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64
 
 
 @lru_cache
-def gauss_legendre_with_ends(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def gauss_legendre_with_ends(points: int) -> tuple[Array, Array]:
     """Return the rule of `gauss_legendre` with the nodes 0 and 1 of weight 0 added at its ends;
     read-only.
     """
@@ -38,7 +39,7 @@ def gauss_legendre_with_ends(points: int) -> tuple[NDArray[np.float64], NDArray[
 
 
 @lru_cache
-def triangle_rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def triangle_rule(n: int) -> tuple[Array, Array]:
     """Return (3, k) barycentric points and (k,) weights, of sum 1/2, of a rule exact to degree 2n -
     1 over a triangle.
 
@@ -75,7 +76,7 @@ def triangle_rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 @lru_cache
-def spread_directions(count: int) -> NDArray[np.float64]:
+def spread_directions(count: int) -> Array:
     """Return read-only (count, 3) unit directions, spread evenly over the sphere: Fibonacci's
     lattice.
     """

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .arguments import float_array
+from .array_types import Array, Mask
 
 ROTATION_ATOL = 1e-5  # a rotation matrix of float32 numbers is orthonormal to about 1e-7
 
 
-def rotation_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+def rotation_array(name: str, values: ArrayLike) -> Array:
     """Return a parameter as (..., 3, 3) rotations, right-handed and orthonormal as far as float32
     goes.
     """
@@ -25,7 +26,7 @@ def rotation_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return rotation
 
 
-def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
+def rotation_matrix(quaternion: ArrayLike) -> Array:
     """Convert quaternions (..., 4), w, x, y, z of any length but zero, to rotation matrices (...,
     3, 3).
     """
@@ -39,7 +40,7 @@ def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
     return np.array(rows).T.swapaxes(-1, -2)
 
 
-def quaternion(rotation: ArrayLike) -> NDArray[np.float64]:
+def quaternion(rotation: ArrayLike) -> Array:
     """Convert a rotation matrix to a unit quaternion.
 
     Parameters
@@ -98,7 +99,7 @@ OFF_DIAGONAL = 1.0 - np.eye(3)
 MAX_AXIS_COSINE = 1e-5  # float32 rotations never have axes with a larger cosine
 
 
-def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def polar_rotation(matrices: NDArray) -> tuple[Array, Mask]:
     """Return (k, 3, 3) polar axes (Higham 1986) of (k, 4, 4) maps, left-handed if mirrored, and
     (k,) who shears.
     """
@@ -113,7 +114,7 @@ def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.b
     return columns, skew > MAX_AXIS_COSINE
 
 
-def along_x(axis: NDArray) -> NDArray[np.float64]:
+def along_x(axis: NDArray) -> Array:
     """Return a (3, 3) rotation with a unit vector as its first column."""
     second = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
     second = second / np.linalg.norm(second)

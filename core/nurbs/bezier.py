@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.exponents import monomial_count
+from ..numerics.array_types import Array, Index
 from ..numerics.bspline import SplineSpace, clamped_space
 from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
 from .splines import Patch
@@ -30,7 +31,7 @@ ROUNDING = (
 )
 # along s and t the points of a Gauss rule, or of two side by side
 Rule = tuple[tuple[int, ...], tuple[int, ...]]
-Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
+Weights = tuple[Array, Array]
 # Up to this many cells of a patch keep a common anchor: none is so small that rounding by the
 # patch's size matters.
 SMALL_CELL_COUNT = 32
@@ -50,8 +51,8 @@ class BezierCells:
     along t. reach: bound of the distance of any point from the reference point.
     """
 
-    net: NDArray[np.float64]
-    anchor: NDArray[np.float64]
+    net: Array
+    anchor: Array
     constant_weights: tuple[bool, bool]
     reach: float
 
@@ -96,7 +97,7 @@ class BezierCells:
 
     def evaluate(
         self, rule: Rule, most: int = 1, ends: bool = False
-    ) -> tuple[list[NDArray[np.float64]], Weights]:
+    ) -> tuple[list[Array], Weights]:
         """Evaluate the patches and their derivatives at the points of Gauss rules; return them and
         the points' weights.
 
@@ -169,7 +170,7 @@ def _cells_of_group(
             yield cells_of_nets(nets, anchor, spaces, spans, some[0].constant_weights, reach)
 
 
-def homogeneous(points: NDArray, weights: NDArray) -> NDArray[np.float64]:
+def homogeneous(points: NDArray, weights: NDArray) -> Array:
     """Return (..., 4) homogeneous coordinates: points times their weights, and the weights."""
     net = np.empty((*weights.shape, 4))
     net[..., 3] = weights
@@ -181,7 +182,7 @@ def cells_of_nets(
     nets: NDArray,
     anchor: NDArray,
     spaces: tuple[SplineSpace, SplineSpace],
-    spans: tuple[slice | NDArray[np.intp], slice | NDArray[np.intp]],
+    spans: tuple[slice | Index, slice | Index],
     constant_weights: tuple[bool, bool],
     reach: float,
 ) -> BezierCells:
@@ -221,7 +222,7 @@ def _join(parts: Sequence[BezierCells]) -> BezierCells:
 @lru_cache(maxsize=128)
 def bernstein(
     order: int, rule: tuple[int, ...], most: int = 1, ends: bool = False
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Array, Array]:
     """Return the derivatives (most + 1, n, order) of Bernstein polynomials at Gauss points, and
     weights (n, rules).
     """
@@ -239,7 +240,7 @@ def bernstein(
 
 
 @lru_cache
-def halves(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def halves(order: int) -> tuple[Array, Array]:
     """Return the two matrices from the control points of a Bézier curve to those of its halves (de
     Casteljau).
     """
@@ -250,7 +251,7 @@ def halves(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return first, first[::-1, ::-1].copy()
 
 
-def _quotient_derivatives(derivatives: list[NDArray]) -> list[NDArray[np.float64]]:
+def _quotient_derivatives(derivatives: list[NDArray]) -> list[Array]:
     """Return derivatives of a quotient in place, from those of numerator (rows 0 to 2) and
     denominator (row 3).
     """
@@ -270,9 +271,7 @@ def _quotient_derivatives(derivatives: list[NDArray]) -> list[NDArray[np.float64
 Integrand = Callable[[BezierCells, Rule], NDArray]
 
 
-def integrand_in_blocks(
-    cells: BezierCells, rule: Rule, integrand: Integrand
-) -> NDArray[np.float64]:
+def integrand_in_blocks(cells: BezierCells, rule: Rule, integrand: Integrand) -> Array:
     """Return (rules, K, c) values of an integrand for cells, evaluated in blocks."""
     step = max(1, POINTS_PER_BLOCK // (sum(rule[0]) * sum(rule[1])))
     if len(cells) <= step:
@@ -283,9 +282,7 @@ def integrand_in_blocks(
     )
 
 
-def weighted_monomials(
-    place: NDArray, density: NDArray, order: int, more: int = 0
-) -> NDArray[np.float64]:
+def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> Array:
     """Return (K + more, ...) the density times the monomials of points (3, ...), then rows of zeros
     to be filled.
     """
@@ -307,7 +304,7 @@ def weighted_monomials(
     return terms
 
 
-def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
+def sum_over_points(terms: NDArray, weights: Weights) -> Array:
     """Return (rules, K, c) sums of terms (K, m, c, n) over points, with weights (m, 1 or rules) and
     (n, 1 or rules).
     """
@@ -318,7 +315,7 @@ def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
     return sums.transpose(1, 3, 0, 2).reshape(-1, count, c)
 
 
-def undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
+def undersampled_areas(cells: BezierCells, steep: float) -> Array:
     """Return (c,) squared diagonals of cells whose weights differ by a factor above `steep`, else
     0.
     """

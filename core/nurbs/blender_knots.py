@@ -23,6 +23,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array
 from ..numerics.bspline import SplineSpace
 from .bezier import homogeneous
 from .splines import Curve, Patch
@@ -41,9 +42,7 @@ def is_valid(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool)
     )
 
 
-def blender_knots(
-    count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool
-) -> NDArray[np.float64]:
+def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> Array:
     """Return the knot vector of a valid direction: count + order knots, and order - 1 more if it is
     cyclic.
     """
@@ -85,7 +84,7 @@ def blender_space(
     return SplineSpace(tuple(knots.tolist()), order, count)
 
 
-def display_parameters(space: SplineSpace, resolution: int) -> NDArray[np.float64]:
+def display_parameters(space: SplineSpace, resolution: int) -> Array:
     """Return (count * resolution,) parameters of Blender's display mesh, with the drift of its
     float32 sums.
     """
@@ -98,7 +97,7 @@ def display_parameters(space: SplineSpace, resolution: int) -> NDArray[np.float6
     return np.add.accumulate(steps, dtype=np.float32).astype(np.float64)
 
 
-def display_table(space: SplineSpace, parameters: NDArray) -> NDArray[np.float64]:
+def display_table(space: SplineSpace, parameters: NDArray) -> Array:
     """Return (n, count) weights of the control points in Blender's display mesh at n parameters."""
     table = space.collocation_matrix(np.minimum(parameters, space.domain[1]))
     past = (parameters > space.domain[1]) & (space.knots[-1] > space.domain[1])
@@ -164,7 +163,7 @@ def bezier_space(count: int, order: int) -> SplineSpace:
     )
 
 
-def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[NDArray[np.float64]]:
+def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[Array]:
     """Yield, for each piece without a jump, (n, count) the weights of the old control points in the
     new ones.
     """
@@ -178,7 +177,7 @@ def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[ND
     weights = space.bezier_weights(spans, edges)
     controls = space.controls_of_spans(spans)
     knots = np.asarray(space.knots)
-    rows: list[NDArray[np.float64]] = []
+    rows: list[Array] = []
     for edge, block, columns in zip(edges, weights, controls):
         dense = np.zeros((space.order, space.count))
         np.add.at(dense.T, columns, block.T)

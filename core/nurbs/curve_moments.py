@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arguments import check_type
+from ..numerics.array_types import Array
 from ..numerics.vectors import cross, dot
 from ..verdict.tolerances import check_size
 from .bezier import ROUNDING, VOLUME_RTOL, bernstein, halves, homogeneous
@@ -38,7 +39,7 @@ MAX_WEIGHT_RATIO = (
 )
 
 
-def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
+def curves_center(curves: Sequence[Curve]) -> Array:
     """Return the (3,) middle of the box around all control points: the reference point."""
     for curve in curves:
         check_type("curves", curve, Curve)
@@ -90,7 +91,7 @@ def plane_moments(
     """Return the area moments of the plane region between curves, counter-clockwise about the (3,)
     unit normal.
     """
-    center: NDArray[np.float64] = (
+    center: Array = (
         np.mean([curve.points.mean(axis=0) for curve in curves], axis=0)
         if about is None
         else np.asarray(about)
@@ -186,7 +187,7 @@ def _integrate(
     return values, estimate, whole
 
 
-def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[Array, Array]:
     """Return control points (c, order, 3 or 4) of Bézier pieces from anchors (c, 3), and the
     anchors, from `about`.
     """
@@ -199,9 +200,7 @@ def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], N
     return _about_first_control(net, np.tile(origin - about, (len(net), 1)))
 
 
-def _about_first_control(
-    net: NDArray, anchor: NDArray
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _about_first_control(net: NDArray, anchor: NDArray) -> tuple[Array, Array]:
     """Return the control points and anchors of Bézier curves, anchored anew at their first control
     points.
     """
@@ -211,7 +210,7 @@ def _about_first_control(
     return np.concatenate([points, net[..., 3:]], axis=2), anchor + first[:, 0]
 
 
-def _doubtful_lengths(net: NDArray, kinks: bool, largest: float) -> NDArray[np.float64]:
+def _doubtful_lengths(net: NDArray, kinks: bool, largest: float) -> Array:
     """Return (c,) bounds of the length that rules may miss: if pieces may turn back, or have very
     unequal weights.
     """
@@ -230,7 +229,7 @@ def _doubtful_lengths(net: NDArray, kinks: bool, largest: float) -> NDArray[np.f
 
 def _piece_integrals(
     net: NDArray, anchor: NDArray, points: int, density: Callable, order: int
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Array, Array]:
     """Return the (c, K) contributions of pieces of a curve by a Gauss rule, and (c,) their
     lengths.
     """

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..flat.polygon import orient_loops
 from ..mesh.bvh import overlapping_box_pairs
 from ..moments.moments import Measure, Moments, U, monomials
+from ..numerics.array_types import Array
 from ..numerics.bspline import SplineSpace
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import WELDING_RTOL
@@ -43,7 +44,7 @@ class FlatFace:
     """
 
     loops: tuple[tuple[Curve, ...], ...]
-    normal: NDArray[np.float64]
+    normal: Array
 
     @classmethod
     def within(cls, loops: Sequence[Sequence[Curve]], toward: ArrayLike) -> FlatFace:
@@ -70,12 +71,12 @@ class FlatFace:
         return tuple(curve.space for curve in self.curves)
 
     @property
-    def points(self) -> NDArray[np.float64]:
+    def points(self) -> Array:
         """(n, 1, 3) control points of the boundary."""
         return np.concatenate([curve.points for curve in self.curves])[:, None]
 
     @cached_property
-    def center(self) -> NDArray[np.float64]:
+    def center(self) -> Array:
         """(3,) the mean control point, which is in the plane."""
         return self.points.mean(axis=(0, 1))
 
@@ -132,7 +133,7 @@ class FlatFace:
         )
         return Moments(np.asarray(raw), about, Measure.VOLUME, np.asarray(error))
 
-    def quads(self, each: int) -> NDArray[np.float64]:
+    def quads(self, each: int) -> Array:
         """Return (n, 4, 3) corners of trapezoids that fill the polygon through `each` samples per
         span.
         """
@@ -151,7 +152,7 @@ class FlatFace:
         high = np.maximum(begin[:, 1], end[:, 1])
         with np.errstate(divide="ignore", invalid="ignore"):
             slope = (end[:, 0] - begin[:, 0]) / (end[:, 1] - begin[:, 1])
-        found: list[NDArray[np.float64]] = []
+        found: list[Array] = []
         step = max(1, PAIRS_PER_BLOCK // len(low))
         for start in range(0, len(heights) - 1, step):
             bottom = heights[start : start + step]
@@ -175,7 +176,7 @@ class FlatFace:
         return np.concatenate(found) @ self._frame.T + self.center
 
     @cached_property
-    def _frame(self) -> NDArray[np.float64]:
+    def _frame(self) -> Array:
         """(3, 2) two unit vectors along the plane; the normal is their cross product."""
         along = np.cross(self.normal, np.eye(3)[np.argmin(np.abs(self.normal))])
         along /= np.linalg.norm(along)
@@ -189,9 +190,7 @@ def split_faces(faces: Sequence[Face]) -> tuple[list[Patch], list[FlatFace]]:
     ]
 
 
-def planar_region(
-    curves: Sequence[Curve], stored: float = 0.0
-) -> tuple[list[Curve], NDArray[np.float64]]:
+def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], Array]:
     """Return the curves oriented around a plane region, outer ones counter-clockwise, holes
     clockwise, and its normal.
 
@@ -206,7 +205,7 @@ def planar_region(
 
 def planar_loops(
     loops: Sequence[Sequence[Curve]], stored: float = 0.0
-) -> tuple[list[list[Curve]], NDArray[np.float64]]:
+) -> tuple[list[list[Curve]], Array]:
     """Return loops of curves end to end, oriented as by `planar_region`, and the normal of their
     plane.
     """
@@ -266,7 +265,7 @@ def self_intersects(loop: NDArray, tolerance: float) -> bool:
     )
 
 
-def _without_repeats(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
+def _without_repeats(loop: NDArray, tolerance: float) -> Array:
     """Return a polygon without repeated points."""
     return loop[np.linalg.norm(loop - np.roll(loop, 1, axis=0), axis=1) > tolerance]
 
@@ -295,6 +294,6 @@ def chords_cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True)
     return bool((apart & far[0] & far[1] & far[2] & far[3]).any())
 
 
-def _side(a: NDArray, b: NDArray, point: NDArray) -> NDArray[np.float64]:
+def _side(a: NDArray, b: NDArray, point: NDArray) -> Array:
     u, v = b - a, point - a
     return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]

@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials, sum_moments
+from ..numerics.array_types import Array
 from ..numerics.bspline import SplineSpace
 from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
 from ..numerics.vectors import cross, dot
@@ -76,7 +77,7 @@ class Integral:
     cells' total size.
     """
 
-    values: NDArray[np.float64]
+    values: Array
     estimate: float
     size: float
     converged: bool
@@ -124,9 +125,7 @@ def volume_moments(
     return sum_moments([curved, *(face.volume_moments(order, about) for face in flat)]), converged
 
 
-def flux_sums(
-    cells: BezierCells, rule: Rule, order: int, area: bool = False
-) -> NDArray[np.float64]:
+def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) -> Array:
     """Return (rules, K + 1, c) fluxes of monomials times position; the last row: area or its bound
     ∫ |S_s| |S_t|.
     """
@@ -170,7 +169,7 @@ def area_moments(
     return sum_moments([curved, *of_flat]), integral.converged
 
 
-def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
+def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> Array:
     """Return (c,) areas between neighboring points with opposed normals (3, m, c, n): rules may
     miss such kinks.
     """
@@ -238,7 +237,7 @@ def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, N
 
 def _slope_of_tile(
     along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the (3, k, k') gradient of the area by control points, which are times their weights
     if rational.
     """
@@ -323,7 +322,7 @@ def sheet_moments(
     return sum_moments([curved, *of_flat]), integral.converged
 
 
-def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
+def vector_area(patches: Sequence[Patch]) -> Array:
     """Return the (3,) integral of the unit normals: exact along directions of constant weights,
     else estimated.
     """
@@ -470,12 +469,12 @@ def _rules(
 
 
 @lru_cache
-def _degrees(order: int) -> NDArray[np.float64]:
+def _degrees(order: int) -> Array:
     """Return the (K,) degrees of the monomials."""
     return monomials(order).sum(axis=1).astype(np.float64)
 
 
-def _length(a: NDArray) -> NDArray[np.float64]:
+def _length(a: NDArray) -> Array:
     return np.sqrt(dot(a, a))
 
 

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Index, Mask
 from ..numerics.bspline import clamped_space
 from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
@@ -63,16 +64,16 @@ class PatchTopology:
     surface.
     """
 
-    component: NDArray[np.intp]
+    component: Index
     number: int
-    flipped: NDArray[np.bool_]
+    flipped: Mask
     loops: tuple[BoundaryLoop, ...]
     open_sides: int
     non_manifold_sides: int
     misoriented_sides: int
     seam_gap: float
-    seams: NDArray[np.intp]
-    unclosable: NDArray[np.bool_]
+    seams: Index
+    unclosable: Mask
 
 
 def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
@@ -146,7 +147,7 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
 
 
 def _find_loops(
-    points: NDArray, free: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
+    points: NDArray, free: Index, forward: Mask, tolerance: float
 ) -> list[tuple[list[int], bool]]:
     """Join open sides to chains; return the side indices of each chain, and True if it is
     closed.
@@ -184,7 +185,7 @@ def _cap_loop(
     curves: Sequence[Curve],
     component: int,
     points: NDArray,
-    forward: NDArray[np.bool_],
+    forward: Mask,
     tolerance: float,
 ) -> BoundaryLoop:
     """Close a loop by the cone to its centroid, and return the loop with its caps."""

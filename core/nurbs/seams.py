@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.bvh import overlapping_box_pairs
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import following_pairs
 from ..numerics.bspline import SplineSpace
 from ..numerics.graph import connected_components
@@ -50,20 +51,18 @@ class Sides:
     non_manifold: as in PatchTopology.
     """
 
-    points: NDArray[np.float64]
-    left: NDArray[np.intp]
-    right: NDArray[np.intp]
-    same: NDArray[np.bool_]
-    turned: NDArray[np.bool_]
-    free: NDArray[np.bool_]
+    points: Array
+    left: Index
+    right: Index
+    same: Mask
+    turned: Mask
+    free: Mask
     open_length: float
     gap: float
     non_manifold: int
 
 
-def join_sides(
-    curves: Sequence[Curve], owner: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
-) -> Sides:
+def join_sides(curves: Sequence[Curve], owner: Index, forward: Mask, tolerance: float) -> Sides:
     """Find the sides that coincide. owner: (n,) patch of each side; forward: (n,) whether the patch
     is on its left.
     """
@@ -124,7 +123,7 @@ def cut_open_sides(curves: Sequence[Curve], sides: Sides, tolerance: float) -> l
 
 
 @lru_cache(maxsize=64)
-def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
+def _uniform_table(space: SplineSpace, count: int) -> Array:
     """Return (count, k) weights of k control points at equal steps of the domain; cached: do not
     modify.
     """
@@ -133,7 +132,7 @@ def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
 
 
 def _coincident_sides(
-    curves: Sequence[Curve], points: NDArray, wide: NDArray[np.intp], tolerance: float
+    curves: Sequence[Curve], points: NDArray, wide: Index, tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
     """Return pairs of coinciding sides, nearest first: distance, two indices, whether their curves
     run the same way.
@@ -168,11 +167,11 @@ def _coincident_sides(
 
 def _pair_sides(
     coincident: Sequence[tuple[float, int, int, bool]],
-    times: NDArray[np.intp],
+    times: Index,
     points: NDArray,
-    owner: NDArray[np.intp],
-    forward: NDArray[np.bool_],
-) -> tuple[list[tuple[float, int, int, bool]], NDArray[np.bool_]]:
+    owner: Index,
+    forward: Mask,
+) -> tuple[list[tuple[float, int, int, bool]], Mask]:
     """Return the joined pairs, and a (patches,) mask of the ones to turn. times: number of pairs
     with each side.
 
@@ -246,7 +245,7 @@ def _pair_sides(
     return pairs, np.array([root(patch)[1] for patch in range(count)], bool)
 
 
-def close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def close_pairs(keys: NDArray, limit: float) -> tuple[Index, Index]:
     """Return pairs i < j of rows of (n, d) keys with no coordinate that differs by more than a
     limit.
     """
@@ -312,9 +311,7 @@ def _overlapping_sides(
     return [(max(gaps), i, j, ways[0] > 0.0)]
 
 
-def nearest_parameters(
-    curve: Curve, samples: NDArray, points: NDArray, tolerance: float
-) -> NDArray[np.float64]:
+def nearest_parameters(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) -> Array:
     """Return (n,) parameters of the curve points nearest to points; samples: (m, 3) of the curve,
     at equal steps.
     """
@@ -352,7 +349,7 @@ def sharpest_crease(faces: Sequence[Face], topology: PatchTopology) -> float:
     return worst
 
 
-def _along_side(patch: Face, number: int) -> NDArray[np.float64]:
+def _along_side(patch: Face, number: int) -> Array:
     """Return (m, 3) a face's unit normals along a side, at the samples of the side's curve; zero at
     poles.
     """
@@ -385,7 +382,7 @@ def _inner_crease_angle(patch: Patch) -> float:
     return worst
 
 
-def _normals(patch: Patch, *parameters: tuple[NDArray, NDArray | None]) -> NDArray[np.float64]:
+def _normals(patch: Patch, *parameters: tuple[NDArray, NDArray | None]) -> Array:
     """Return (m, n, 3) unit normals at parameters (values, spans or None) of s and of t; zero if
     undefined.
     """

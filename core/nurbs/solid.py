@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from ..mesh.bvh import SortedComponents, sort_components
 from ..moments.moments import Moments, sum_moments
 from ..numerics.arguments import check_filled
+from ..numerics.array_types import Array, Index, Mask
 from ..solid.findings import (
     CAVITIES_BREAK_THROUGH,
     CAVITIES_SUBTRACTED,
@@ -82,7 +83,7 @@ class PatchIntegrals:
     method: Procedure
     findings: tuple[Finding, ...]
     patches: tuple[Face, ...]
-    signs: NDArray[np.float64]
+    signs: Array
     topology: PatchTopology
 
 
@@ -260,7 +261,7 @@ def measure_sheet(
 
 
 def _compare_parts(
-    parts: Sequence[list[Face]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
+    parts: Sequence[list[Face]], total: NDArray, solid: Mask, tolerance: float
 ) -> ComponentComparison | None:
     """Compare parts with each other and find the ones to turn; None for a single part, or if none
     is solid.
@@ -325,7 +326,7 @@ def _component_findings(comparison: ComponentComparison | None, size: float) -> 
 
 
 def _classify_parts(
-    parts: Sequence[Sequence[Face]], solid: NDArray[np.bool_], each: int, tolerance: float
+    parts: Sequence[Sequence[Face]], solid: Mask, each: int, tolerance: float
 ) -> tuple[SortedComponents, ComponentRelations]:
     """Return components sampled `each` times per span, and their relations."""
     points = []
@@ -352,7 +353,7 @@ def _classify_parts(
     )
 
 
-def _sampled(face: Face, each: int) -> tuple[NDArray, NDArray[np.intp], float]:
+def _sampled(face: Face, each: int) -> tuple[NDArray, Index, float]:
     """Return points (n, 3) of a face, quads (f, 4) between them, and a bound of the face's distance
     from the quads.
     """
@@ -412,7 +413,7 @@ def _orientation_findings(
 
 
 def _closing_findings(
-    closure: PatchTopology, solid: NDArray[np.bool_], area: float, volume: float, size: float
+    closure: PatchTopology, solid: Mask, area: float, volume: float, size: float
 ) -> list[Finding]:
     """Return findings about open, flat and capped parts; solid: (c,) the parts with a volume."""
     findings = []

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import check_type, float_array
+from ..numerics.array_types import Array
 from ..numerics.bspline import SplineSpace
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import check_size
@@ -47,7 +48,7 @@ def _freeze_points(part: Curve | Patch, *shape: int) -> None:
         object.__setattr__(part, "weights", None if (weights == weights.flat[0]).all() else weights)
 
 
-def _frozen_copy(values: NDArray[np.float64]) -> NDArray[np.float64]:
+def _frozen_copy(values: Array) -> Array:
     copy = np.array(values, order="C")
     copy.setflags(write=False)
     return copy
@@ -84,18 +85,18 @@ class Curve:
     """
 
     space: SplineSpace
-    points: NDArray[np.float64]
-    weights: NDArray[np.float64] | None = None
+    points: Array
+    weights: Array | None = None
 
     def __post_init__(self) -> None:
         check_type("space", self.space, SplineSpace)
         _freeze_points(self, self.space.count)
 
-    def evaluate(self, parameters: ArrayLike) -> NDArray[np.float64]:
+    def evaluate(self, parameters: ArrayLike) -> Array:
         """Return the (n, 3) points of the curve at n parameters."""
         return self.apply_weights(self.space.collocation_matrix(parameters))
 
-    def apply_weights(self, table: NDArray) -> NDArray[np.float64]:
+    def apply_weights(self, table: NDArray) -> Array:
         """Return the (n, 3) points given by a table (n, count) of weights of its control points."""
         if self.weights is not None:
             table = table * self.weights
@@ -103,7 +104,7 @@ class Curve:
         origin = self.points[0]
         return np.einsum("ni,id->nd", table, self.points - origin) + origin
 
-    def velocity(self, parameters: ArrayLike) -> NDArray[np.float64]:
+    def velocity(self, parameters: ArrayLike) -> Array:
         """Return the (n, 3) derivatives at n parameters."""
         values, slopes = (self.space.collocation_matrix(parameters, k) for k in (0, 1))
         points = self.points - self.points[0]
@@ -136,7 +137,7 @@ class Curve:
             None if self.weights is None else self.weights[order],
         )
 
-    def samples(self, each: int) -> NDArray[np.float64]:
+    def samples(self, each: int) -> Array:
         """Return (spans * each + 1, 3) points at equal steps in every span, both ends included."""
         return self.evaluate(self.space.uniform_parameters(each))
 
@@ -177,8 +178,8 @@ class Patch:
     """
 
     spaces: tuple[SplineSpace, SplineSpace]
-    points: NDArray[np.float64]
-    weights: NDArray[np.float64] | None = None
+    points: Array
+    weights: Array | None = None
 
     def __post_init__(self) -> None:
         for space in self.spaces:
@@ -207,13 +208,13 @@ class Patch:
             None if self.weights is None else self.weights.T,
         )
 
-    def evaluate_grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
+    def evaluate_grid(self, s: ArrayLike, t: ArrayLike) -> Array:
         """Return the (len(s), len(t), 3) points at all pairs of parameters from s and t."""
         return self.apply_weights(
             *(space.collocation_matrix(values) for space, values in zip(self.spaces, (s, t)))
         )
 
-    def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
+    def apply_weights(self, *tables: NDArray) -> Array:
         """Return the (m, n, 3) points given by tables (m, count_s) and (n, count_t) of basis
         function values.
         """
@@ -231,7 +232,7 @@ class Patch:
         """Return the boundary curve at the first (end 0) or last (end 1) s (axis 0) or t (axis
         1).
         """
-        weigh: NDArray[np.float64] = self.spaces[axis].end_weights[end]
+        weigh: Array = self.spaces[axis].end_weights[end]
         points, weights = self.points, self.weights
         if weights is None:
             return Curve(self.spaces[1 - axis], np.tensordot(weigh, points, (0, axis)))
@@ -246,7 +247,7 @@ class Patch:
         """
         return tuple((self.side(axis, end), forward) for axis, end, forward in SIDES)
 
-    def samples(self, each: int) -> NDArray[np.float64]:
+    def samples(self, each: int) -> Array:
         """Return a grid of points that divide every span of both directions into `each` equal
         steps, ends included.
         """
@@ -254,14 +255,14 @@ class Patch:
 
 
 @lru_cache(maxsize=64)
-def _sample_table(space: SplineSpace, each: int) -> NDArray[np.float64]:
+def _sample_table(space: SplineSpace, each: int) -> Array:
     """Return (n, count) weights of control points at `each` equal steps in every span; cached: do
     not modify.
     """
     return space.collocation_matrix(space.uniform_parameters(each))
 
 
-def control_box(patches: Sequence[Face]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def control_box(patches: Sequence[Face]) -> tuple[Array, Array]:
     """Return the least (3,) and the largest (3,) coordinates of all control points."""
     for patch in patches:
         if not hasattr(patch, "sides"):
@@ -272,7 +273,7 @@ def control_box(patches: Sequence[Face]) -> tuple[NDArray[np.float64], NDArray[n
     )
 
 
-def patches_center(patches: Sequence[Face]) -> NDArray[np.float64]:
+def patches_center(patches: Sequence[Face]) -> Array:
     """Return the (3,) middle of the box around all control points: the reference point."""
     low, high = control_box(patches)
     return low + (high - low) / 2.0

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials, sum_moments
+from ..numerics.array_types import Array
 from ..numerics.bspline import SplineSpace
 from ..verdict.method import Procedure
 from ..verdict.tolerances import welding_tolerance
@@ -135,7 +136,7 @@ def _fixed_part(patches: Sequence[Patch]) -> list[tuple[tuple[SplineSpace, Splin
     ]
 
 
-def _largest_moments(patches: Sequence[Patch], about: NDArray, area: float) -> NDArray[np.float64]:
+def _largest_moments(patches: Sequence[Patch], about: NDArray, area: float) -> Array:
     """Return (K,) upper bounds of the moments of a body."""
     reach = max(
         float(np.sqrt(((patch.points - about) ** 2).sum(axis=2).max())) for patch in patches

@@ -17,6 +17,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array
 from ..numerics.bspline import SplineSpace
 from ..numerics.quadrature import gauss_legendre
 from .sheynin_tuzikov_2001 import _exponents_to
@@ -24,7 +25,7 @@ from .sheynin_tuzikov_2001 import _exponents_to
 MAX_ENTRIES = 2e6
 
 
-def phi(spaces: tuple[SplineSpace, SplineSpace], order: int) -> NDArray[np.float64]:
+def phi(spaces: tuple[SplineSpace, SplineSpace], order: int) -> Array:
     """Return the tensor Φ of a patch's function spaces.
 
     Parameters
@@ -94,7 +95,7 @@ def phi_moments(points: NDArray, tensors: tuple[NDArray, ...]) -> dict[tuple[int
     return moments
 
 
-def _integrals(space: SplineSpace, order: int) -> NDArray[np.float64]:
+def _integrals(space: SplineSpace, order: int) -> Array:
     """Return ∫ B'_i B_j B_l ... of one parameter, (count, count, count, ...)."""
     nodes, weights = gauss_legendre((3 + order) * (space.order - 1) // 2 + 1)
     low, high = space.intervals.T

@@ -41,6 +41,7 @@ from ..moments.exponents import (
     quotient_indices,
 )
 from ..moments.moments import Measure, Moments, U, unchecked_moments
+from ..numerics.array_types import Array
 from ..numerics.arrays import batches, indices_in_range
 from ..numerics.vectors import cross, dot
 from ..verdict.finding import MeasureError
@@ -60,7 +61,7 @@ TRIANGLES_PER_BLOCK = 512  # triangles whose levels stay in the cache
 
 
 @lru_cache
-def area_factors(order: int) -> NDArray[np.float64]:
+def area_factors(order: int) -> Array:
     """Return the (K,) factors p! q! r! / (p+q+r+2)! of the monomials."""
     return factorial_ratios(monomials(order), 2)
 
@@ -82,7 +83,7 @@ class _FaceBatch:
     points: NDArray
     faces: NDArray
     size: int
-    half_ulp: NDArray[np.float64]
+    half_ulp: Array
 
 
 class _CompensatedSum:
@@ -130,7 +131,7 @@ class StreamIntegrator:
     area: bool
     threads: int
     progress: Callable[[int], None] | None
-    center: NDArray[np.float64] | Any
+    center: Array | Any
     reach: InitVar[float | None]
 
     def __post_init__(self, reach: float | None) -> None:
@@ -278,7 +279,7 @@ class StreamIntegrator:
             np.ldexp(moved, powers),
         )
 
-    def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
+    def _input_error(self, total: _CompensatedSum, of: Measure) -> Array:
         """Return bounds of the change if vertices move by half ulps, from the swept volume or the
         added area.
         """
@@ -345,7 +346,7 @@ def extend_small_moments(
     )
 
 
-def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:
+def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> Array:
     """Return the (K, t) S_α of triangles with corners (3, t)."""
     vectors = np.stack([a, c, b], axis=1)
     out = np.empty((monomial_count(order), a.shape[1]))

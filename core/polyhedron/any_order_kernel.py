@@ -32,6 +32,7 @@ from numpy.typing import NDArray
 
 from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
 from ..moments.moments import U
+from ..numerics.array_types import Array
 from .workspace import Workspace, gather
 
 FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates
@@ -48,7 +49,7 @@ UNDERFLOW_BOUND = (
 
 
 @lru_cache
-def multinomials(degree: int) -> NDArray[np.float64]:
+def multinomials(degree: int) -> Array:
     """Return (rows, 1) n! / α!, exact to degree 30."""
     return np.array(
         [
@@ -69,9 +70,9 @@ class Sums:
     (3,) of the coordinates.
     """
 
-    sums: NDArray[np.float64]
-    chunks: NDArray[np.float64]
-    half_ulp: NDArray[np.float64]
+    sums: Array
+    chunks: Array
+    half_ulp: Array
 
 
 @lru_cache
@@ -288,7 +289,7 @@ class _Block:
             )
         self._append_call(_add_last, sums, grown, degree, self.total[:, known:])
 
-    def _room(self, *shape: int) -> NDArray[np.float64]:
+    def _room(self, *shape: int) -> Array:
         return self.room[: prod(shape) * self.k].reshape(*shape, self.k)
 
     def _append_dot(self, products: str, weights: NDArray, terms: NDArray, out: NDArray) -> None:
@@ -359,7 +360,7 @@ class AnyOrderKernel:
         np.subtract(block.corners, (center * scale)[:, None, None], out=block.corners)
 
 
-def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
+def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> Array:
     """Return (sets, K) Σ weight reach^α over the chunks of blocks of one kind, for each set of
     weights.
 

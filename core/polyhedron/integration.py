@@ -23,6 +23,7 @@ from ..mesh.surface import Surface
 from ..moments.exponents import monomial_count
 from ..moments.moments import Measure, Moments, U
 from ..numerics.arguments import check_order, check_type, float_array, number_array
+from ..numerics.array_types import Array
 from ..numerics.arrays import indices_in_range
 from ..numerics.vectors import cross, dot
 from ..verdict.finding import MeasureError
@@ -174,7 +175,7 @@ def _as_surface(piece: Surface | NDArray) -> Surface:
     return Surface(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
 
 
-def _center(surfaces: list[Surface]) -> NDArray[np.float64] | None:
+def _center(surfaces: list[Surface]) -> Array | None:
     """Return the (3,) center of the box around all surfaces; None if there are no points."""
     boxes = [finite_box(surface) for surface in surfaces if len(surface.points)]
     if not boxes:
@@ -213,7 +214,7 @@ def _sum_to_third_order(
     return total or nothing(THIRD, about)
 
 
-def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
+def volume_and_center(surface: Surface) -> tuple[float, Array]:
     """Return the volume that a closed surface encloses, negative if inside out, and its (3,)
     centroid, if finite.
     """
@@ -229,13 +230,13 @@ def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
         return float(sums[0] / 6.0), middle + sums[1:] / (4.0 * sums[0])
 
 
-def _triangles(points: NDArray[np.float64], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+def _triangles(points: Array, triangles: NDArray[np.integer]) -> Array:
     """Return (4,): 6 times the volume and 24 times the three first moments. points: (3, n)."""
     a, b, c = (points.take(corner, axis=1) for corner in triangles.T)
     return _sums((dot(cross(b, c), a), a + b + c))
 
 
-def _quads(points: NDArray[np.float64], quads: NDArray[np.integer]) -> NDArray[np.float64]:
+def _quads(points: Array, quads: NDArray[np.integer]) -> Array:
     a, b, c, d = (points.take(corner, axis=1) for corner in quads.T)
     u = b - a
     v = d - a
@@ -253,7 +254,7 @@ def _quads(points: NDArray[np.float64], quads: NDArray[np.integer]) -> NDArray[n
     return _sums((first, a + b + c), (second, a + c + d))
 
 
-def _sums(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> NDArray[np.float64]:
+def _sums(*parts: tuple[Array, Array]) -> Array:
     """Return the (4,) sums of volumes, and of volumes times sums of corners, (3, k)."""
     return sum(
         [
@@ -264,7 +265,7 @@ def _sums(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> NDArray[np
     )
 
 
-def area_of_images(surface: Surface, linear: NDArray[np.float64]) -> Moments:
+def area_of_images(surface: Surface, linear: Array) -> Moments:
     """Return the total area, order 0, of a surface's images under (k, 3, 3) maps, which may stretch
     it unevenly.
 

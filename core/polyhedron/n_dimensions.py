@@ -29,6 +29,7 @@ from ..inertia.findings import MOMENTS_OVERFLOW
 from ..moments.exponents import check_exponents, factorial_ratios
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, U
 from ..numerics.arguments import check_filled, check_order, float_array, index_array
+from ..numerics.array_types import Array, Index
 from ..verdict.finding import MeasureError
 from ..verdict.findings import OBJECT_TOO_SMALL
 from .findings import BOUNDARY_OPEN
@@ -46,10 +47,10 @@ class SimplexMoments:
     bounds of |raw - exact| for the coordinates and the point as given.
     """
 
-    raw: NDArray[np.float64]
-    about: NDArray[np.float64]
+    raw: Array
+    about: Array
     order: int
-    rounding_error: NDArray[np.float64]
+    rounding_error: Array
 
     def __getitem__(self, exponents: tuple[int, ...]) -> float:
         return float(self.raw[self._position(exponents)])
@@ -230,7 +231,7 @@ def _measure(
     return SimplexMoments(raw, center, order, error + np.finfo(np.float64).smallest_subnormal)
 
 
-def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
+def _recursion(corners: NDArray, order: int) -> Array:
     """Return (K, k) S_α of k simplices; corners: (n corners, n coordinates, k)."""
     dimension = corners.shape[1]
     starts, raised = _degree_steps(dimension, order)
@@ -245,9 +246,7 @@ def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
     return table
 
 
-def _weights(
-    corners: NDArray, edges: NDArray, enclosed: bool
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[Array, Array]:
     """Return (k,) det or |N| of each simplex, and (k,) the same expressions in absolute values."""
     normal, size = _normals(edges)
     nothing = np.zeros(edges.shape[2])
@@ -321,9 +320,7 @@ def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDAr
     return starts, raised
 
 
-def facets_of(
-    points: ArrayLike, simplices: ArrayLike
-) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
+def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.integer], Array]:
     """Return the facets around full simplices, with signs that make the enclosed volume positive.
 
     Parameters
@@ -356,7 +353,7 @@ def facets_of(
 
 def simplex_arrays(
     points: ArrayLike, simplices: ArrayLike, more: int = 0
-) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+) -> tuple[Array, NDArray[np.integer]]:
     """Return (m, n) points and (k, n + `more`) simplices as arrays."""
     points = float_array("points", points, "m", "n")
     check_filled("points", points.T)
@@ -379,9 +376,7 @@ def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = No
     return not np.bincount(which.reshape(-1), uses).any()
 
 
-def outer_facets(
-    points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None
-) -> NDArray[np.intp]:
+def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> Index:
     """Return the (j, n) facets that bound simplices on one side only; a pair of opposite facets
     cancels.
     """
@@ -393,7 +388,7 @@ def outer_facets(
 
 def _sorted_corners(
     points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
+) -> tuple[Index, Index, Array]:
     """Return the facets with an extent, their sorted corners with equal points merged, and
     orientations, 1 or -1.
     """

@@ -38,6 +38,7 @@ from ..mesh.planarity import PlanarityAccumulator
 from ..mesh.surface import Surface, has_flipped_corners
 from ..moments.exponents import monomial_count, monomials
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, unchecked_moments
+from ..numerics.array_types import Array, Index
 from ..numerics.arrays import batches, indices_in_range
 from ..numerics.vectors import cross
 from ..verdict.tolerances import check_size
@@ -82,7 +83,7 @@ LOCAL_CUBE = CUBE - CUBE // 9 * 3  # in a table without x, y, z
 
 # Sums of s segments: (s, 20) Σ w f, which `DIVISORS` turn into moments; the same with doubled
 # areas, or (s, 0); (s, 3) largest components of b-a and of c-a; (s, 2) Σ |w| and Σ doubled area.
-_Sums = tuple[NDArray[np.float64], ...]
+_Sums = tuple[Array, ...]
 
 
 def integrate(
@@ -195,13 +196,13 @@ def small_moments(
     points: NDArray,
     triangles: NDArray[np.integer],
     counts: NDArray[np.integer],
-    center: NDArray[np.float64],
-    reach: NDArray[np.float64],
-    half_ulp: NDArray[np.float64],
+    center: Array,
+    reach: Array,
+    half_ulp: Array,
     *,
     area: bool,
     area_moments: bool,
-) -> tuple[Moments, Moments, NDArray[np.float64]]:
+) -> tuple[Moments, Moments, Array]:
     """Return stacked volumes and areas of n bodies, and (n, 2) sums of the cones over faces,
     positive and signed.
 
@@ -229,12 +230,12 @@ def small_moments(
     )
 
 
-def _products(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+def _products(first: NDArray, second: NDArray) -> Array:
     """Return (6, t) products xx, xy, xz, yy, yz, zz of (3, t) vectors."""
     return np.concatenate([first[0] * second, first[1] * second[1:], first[2:] * second[2:]])
 
 
-def _segment_counts(count: int) -> NDArray[np.intp]:
+def _segment_counts(count: int) -> Index:
     """Return the number of triangles in each segment of a block of `count` triangles."""
     starts = np.arange(0, count, MAX_SMALL_TRIANGLES)
     return np.minimum(count - starts, MAX_SMALL_TRIANGLES)
@@ -278,7 +279,7 @@ def _segment_sums(
 
     is_even = len(center) == 1 < len(counts) and counts[-1] == MAX_SMALL_TRIANGLES
 
-    def scalar_products(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+    def scalar_products(first: NDArray, second: NDArray) -> Array:
         """Return the (m n, s) scalar products of m rows with n in each segment."""
         count = len(first) * len(second)
         if not is_even:
@@ -290,7 +291,7 @@ def _segment_sums(
         second = second.reshape(shape)
         return np.add.reduce(np.einsum("msjt,nsjt->mnst", first, second), axis=3).reshape(count, -1)
 
-    def weighted_sums(weight: NDArray) -> NDArray[np.float64]:
+    def weighted_sums(weight: NDArray) -> Array:
         heavy = nodes * weight
         heavy[:, 1] *= 2.0
         table = np.empty((9, len(weight)))  # H and Z
@@ -323,15 +324,15 @@ def _segment_sums(
 def _moments(
     blocks: Sequence[_Sums],
     widths: NDArray[np.integer],
-    starts: NDArray[np.intp],
-    center: NDArray[np.float64],
-    reach: NDArray[np.float64],
-    half_ulp: NDArray[np.float64],
+    starts: Index,
+    center: Array,
+    reach: Array,
+    half_ulp: Array,
     *,
     area: bool,
     area_moments: bool,
     exact: bool,
-) -> tuple[Moments, Moments, NDArray[np.float64]]:
+) -> tuple[Moments, Moments, Array]:
     """Return the stacked volumes, areas and sums of cones of n bodies from the sums of their
     segments, `widths` triangles each; `starts` are the bodies' first segments.
     """
@@ -339,7 +340,7 @@ def _moments(
         blocks[0] if len(blocks) == 1 else map(np.concatenate, zip(*blocks))
     )
 
-    def total(values: NDArray) -> NDArray[np.float64]:
+    def total(values: NDArray) -> Array:
         if len(starts) == len(values):
             return values
         return np.add.reduceat(np.ascontiguousarray(values.T), starts, axis=1).T
@@ -397,7 +398,7 @@ def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:
     return Moments(zeros, about, Measure.VOLUME), Moments(zeros, about, Measure.AREA)
 
 
-def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def finite_box(surface: Surface) -> tuple[Array, Array]:
     """Return the least and the largest coordinates. ValueError if they are not finite."""
     low, high = surface.box
     if not all(map(isfinite, low.tolist() + high.tolist())):
@@ -405,7 +406,7 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
     return low, high
 
 
-def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
+def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> Array:
     """Return the center of a box of points, rounded for float32 ones so that subtracting it is
     exact.
     """
@@ -461,7 +462,7 @@ def error_bounds(
     counts: NDArray,
     sum_roundings: NDArray | float,
     area: bool,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Array, Array]:
     """Return the errors of Σ w E[f] and `input_error`, (2, n, 20), for determinants and doubled
     areas as weights w.
 
@@ -496,7 +497,7 @@ def error_bounds(
     return rounding, inputs
 
 
-def monomial_bounds(reaches: NDArray) -> NDArray[np.float64]:
+def monomial_bounds(reaches: NDArray) -> Array:
     """Return the (k, 20) largest values of the monomials within (k, 3) reaches."""
     factors = np.ones((len(reaches), 4))
     factors[:, 1:] = reaches

@@ -15,6 +15,8 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index
+
 ROW_PADDING = (
     8  # numbers between arrays: numpy < 2 leaves its vector loop where output ends at input's start
 )
@@ -51,14 +53,14 @@ class Workspace(Generic[Block]):
             self._shape = shape
         return block
 
-    def take(self, *shape: int) -> NDArray[np.float64]:
+    def take(self, *shape: int) -> Array:
         """Return the next contiguous array of this shape."""
         start = self._position
         end = start + prod(shape)
         self._position = end + ROW_PADDING
         return self._buffer[start:end].reshape(shape)
 
-    def overlay(self, *groups: Sequence[tuple[int, ...]]) -> list[list[NDArray[np.float64]]]:
+    def overlay(self, *groups: Sequence[tuple[int, ...]]) -> list[list[Array]]:
         """Return arrays of the given shapes, by group; the groups share memory: only one is in use
         at a time.
         """
@@ -75,9 +77,9 @@ class Workspace(Generic[Block]):
 
 def gather(
     points: NDArray,
-    index: NDArray[np.intp],
+    index: Index,
     single: NDArray[np.float32],
-    corners: NDArray[np.float64],
+    corners: Array,
 ) -> None:
     """Gather coordinates into `corners`, (3, ...), float32 ones by way of `single`. index: checked;
     gets tripled.

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array
 from ..numerics.rotations import quaternion, rotation_matrix
 from .motion import continuous
 from .spin import LAST, NODES, node_weights
@@ -18,7 +19,7 @@ OFF = 0.003  # relative to the angular velocity: a larger deviation between keys
 LEAST_ANGLE = 1e-3  # rad a frame, below which the velocity is not compared
 
 
-def rotation_values(turns: NDArray, mode: str, first: NDArray) -> NDArray[np.float64]:
+def rotation_values(turns: NDArray, mode: str, first: NDArray) -> Array:
     """Return (s, k) values of rotations (s, 3, 3) without jumps, the first being the nearest to
     `first`.
 
@@ -55,7 +56,7 @@ def rotation_values(turns: NDArray, mode: str, first: NDArray) -> NDArray[np.flo
     return values
 
 
-def _axis_angles(turns: NDArray, first: NDArray) -> NDArray[np.float64]:
+def _axis_angles(turns: NDArray, first: NDArray) -> Array:
     """Return (s, 4) angles and axes of continuous quaternions; close to no turn, the axis stays."""
     values = np.empty((len(turns), 4))
     last = np.asarray(first, np.float64)
@@ -72,7 +73,7 @@ def _axis_angles(turns: NDArray, first: NDArray) -> NDArray[np.float64]:
     return values
 
 
-def rotations(values: NDArray, mode: str) -> NDArray[np.float64]:
+def rotations(values: NDArray, mode: str) -> Array:
     """Return the (s, 3, 3) rotations of values of a rotation mode."""
     if mode == "QUATERNION":
         return rotation_matrix(values)
@@ -89,9 +90,7 @@ def rotations(values: NDArray, mode: str) -> NDArray[np.float64]:
     return total
 
 
-def divide_frames(
-    quaternions: NDArray, mode: str, first: NDArray, shortest: float
-) -> NDArray[np.float64]:
+def divide_frames(quaternions: NDArray, mode: str, first: NDArray, shortest: float) -> Array:
     """Return (m + 1,) places in frames, between which cubics follow a rotation.
 
     quaternions: (LAST f + 1, 4), continuous. A piece of a frame is divided while the angular
@@ -117,7 +116,7 @@ def divide_frames(
         places = np.sort(np.append(places, (places[:-1] + lengths / 2.0)[rough]))
 
 
-def in_pieces(values: NDArray, places: NDArray) -> NDArray[np.float64]:
+def in_pieces(values: NDArray, places: NDArray) -> Array:
     """Return values (LAST f + 1, ...) at the nodes of frames at those of pieces between places."""
     times = (places[:-1, None] + np.diff(places)[:, None] * NODES[:-1]).ravel()
     frames = np.repeat(places[:-1].astype(int), LAST)
@@ -126,7 +125,7 @@ def in_pieces(values: NDArray, places: NDArray) -> NDArray[np.float64]:
     return np.concatenate([inner, values[-1:]])
 
 
-def handle_values(values: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def handle_values(values: NDArray) -> tuple[Array, Array]:
     """Return the values of the handles, a third of a frame after and before the keys, of values at
     the nodes of frames.
 

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from ..mesh.edges import find_edges, uncancelled_sides
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import sums_by_index
 from ..numerics.graph import connected_components
 from ..polyhedron.integration import polyhedron_moments
@@ -77,9 +78,7 @@ def bone_pieces(
     return pieces
 
 
-def bones_of_caps(
-    triangles: NDArray[np.integer], is_cap: NDArray[np.bool_], bone: NDArray[np.integer]
-) -> NDArray[np.intp]:
+def bones_of_caps(triangles: NDArray[np.integer], is_cap: Mask, bone: NDArray[np.integer]) -> Index:
     """Return (t,) bones of triangles: caps, which close holes, get the bones of the faces beside
     them.
     """
@@ -96,9 +95,7 @@ def bones_of_caps(
     return result
 
 
-def _apexes(
-    points: NDArray[np.float64], start: NDArray[np.intp], stop: NDArray[np.intp]
-) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+def _apexes(points: Array, start: Index, stop: Index) -> tuple[Index, Array]:
     """Return the cut that each edge belongs to, and (c, 3) the centroids of the cuts' edges."""
     if not len(start):
         return np.zeros(0, np.intp), np.zeros((0, 3))
@@ -131,14 +128,14 @@ class VertexWeights:
     def __post_init__(self) -> None:
         object.__setattr__(self, "weight", np.asarray(self.weight, np.float64))
 
-    def normalized(self) -> NDArray[np.float64]:
+    def normalized(self) -> Array:
         """Return the (w,) weights divided by their sum at each vertex, as an armature modifier
         does.
         """
         total = np.bincount(self.vertex, self.weight)[self.vertex]
         return np.divide(self.weight, total, out=np.zeros_like(self.weight), where=total > 0.0)
 
-    def unweighted(self, count: int) -> NDArray[np.intp]:
+    def unweighted(self, count: int) -> Index:
         """Return the vertices below `count` that no bone has any weight on."""
         return np.flatnonzero(np.bincount(self.vertex, self.weight, minlength=count)[:count] == 0.0)
 
@@ -149,7 +146,7 @@ def dominant_bones(
     points: NDArray[np.floating],
     weights: VertexWeights,
     bones: NDArray[np.floating],
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+) -> tuple[Index, Index]:
     """Return the (f,) bones of faces, -1 without corners, and the (k,) unweighted faces, which get
     the nearest bone.
 
@@ -183,7 +180,7 @@ def dominant_bones(
 
 def _scores(
     faces: NDArray[np.integer], corners: NDArray[np.integer], weights: VertexWeights, number: int
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
+) -> tuple[Index, Index, Array]:
     """Return (k,) faces and (k,) bones with weight on their corners, by face, then bone, and (k,)
     summed weights.
     """
@@ -205,7 +202,7 @@ def _scores(
 
 
 def _nearest(
-    face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray[np.float64]
+    face: NDArray[np.integer], bone: NDArray[np.integer], away: Array
 ) -> NDArray[np.integer]:
     """Return for each of k rows the nearest bone of its face, the first of equally near ones.
 
@@ -218,7 +215,7 @@ def _nearest(
     return np.repeat(bone[first], sizes)
 
 
-def _distances(points: NDArray[np.float64], segments: NDArray[np.float64]) -> NDArray[np.float64]:
+def _distances(points: Array, segments: Array) -> Array:
     """Return (k,) distances of (k, 3) points, each from its segment, (k, 2, 3)."""
     start = segments[:, 0]
     way = segments[:, 1] - segments[:, 0]

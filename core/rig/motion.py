@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.array_types import Array, Mask
 from ..numerics.rotations import polar_rotation, quaternion, rotation_matrix
 
 # indices of the last frame on the ground, or of frame 0, and of the next frame on the ground
@@ -47,13 +48,13 @@ class Course:
     """
 
     step: float
-    masses: NDArray[np.float64]
-    centers: NDArray[np.float64]
-    spreads: NDArray[np.float64]
-    linear: NDArray[np.float64]
+    masses: Array
+    centers: Array
+    spreads: Array
+    linear: Array
 
     @property
-    def center(self) -> NDArray[np.float64]:
+    def center(self) -> Array:
         """(f, 3) centers of mass."""
         first = self.centers[0, 0]
         return first + np.einsum("p,fpi->fi", self.masses / self.masses.sum(), self.centers - first)
@@ -69,15 +70,13 @@ def find_flights(touching: ArrayLike) -> list[Flight]:
     ]
 
 
-def _runs(true: NDArray[np.bool_]) -> list[tuple[int, int]]:
+def _runs(true: Mask) -> list[tuple[int, int]]:
     """Return starts and ends of the runs of true values."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], true, [False]]).astype(int)))
     return [(start, end) for start, end in edges.reshape(-1, 2).tolist()]
 
 
-def momenta_between(
-    course: Course, first: int, last: int
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def momenta_between(course: Course, first: int, last: int) -> tuple[Array, Array]:
     """Return the motion in the middle between neighboring frames of a section without jumps, and
     (n, 3, 3) inertia.
 
@@ -130,9 +129,7 @@ def momenta_between(
     ), rotation @ inertia @ rotation.swapaxes(-1, -2)
 
 
-def momenta(
-    course: Course, flights: Sequence[Flight]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def momenta(course: Course, flights: Sequence[Flight]) -> tuple[Array, Array]:
     """Return the (f, 7) motion at the frames and its rate; the ends of a flight have the motion of
     the flight.
     """
@@ -178,7 +175,7 @@ def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray
 
 def zero_moment_points(
     center: NDArray, height: NDArray, force: NDArray, torque: NDArray, weight: NDArray
-) -> NDArray[np.float64]:
+) -> Array:
     """Return (f, 3) ground points about which contact forces have no moment along the ground; NaN
     without such forces.
 
@@ -195,7 +192,7 @@ def zero_moment_points(
 
 def ballistic_arc(
     start: NDArray, end: NDArray, shares: NDArray, time: float, gravity: ArrayLike
-) -> NDArray[np.float64]:
+) -> Array:
     """Return (n, 3) places of a free fall between two places, at (n,) shares of its time."""
     share = shares[:, None]
     fall = np.asarray(gravity, np.float64) * (0.5 * time**2)
@@ -220,7 +217,7 @@ def continuous(quaternions: NDArray) -> NDArray:
     return np.concatenate([quaternions[:1], quaternions[1:] * np.cumprod(signs)[:, None]])
 
 
-def _axes(linear: NDArray) -> NDArray[np.float64]:
+def _axes(linear: NDArray) -> Array:
     """Return (f, 4) continuous quaternions of a part's axes."""
     polar, _ = polar_rotation(linear)
     return continuous(quaternion(polar * np.sign(np.linalg.det(polar))[:, None, None]))
@@ -255,7 +252,7 @@ class _stencils:
             )
         self.weights = basis @ fit
 
-    def __call__(self, values: NDArray) -> NDArray[np.float64]:
+    def __call__(self, values: NDArray) -> Array:
         """Return (k, ...) combinations."""
         weights = self.weights[self.kinds].reshape(len(self.starts), -1, *(1,) * (values.ndim - 1))
         return np.sum(

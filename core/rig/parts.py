@@ -10,6 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array
+
 
 @dataclass(frozen=True, eq=False)
 class Parts:
@@ -21,10 +23,10 @@ class Parts:
     """
 
     names: tuple[str, ...]
-    masses: NDArray[np.float64]
-    centers: NDArray[np.float64]
-    spreads: NDArray[np.float64]
-    matrices: NDArray[np.float64]
+    masses: Array
+    centers: Array
+    spreads: Array
+    matrices: Array
 
     @property
     def mass(self) -> float:
@@ -32,12 +34,12 @@ class Parts:
         return float(self.masses.sum())
 
     @property
-    def center(self) -> NDArray[np.float64]:
+    def center(self) -> Array:
         """(3,) center of the total."""
         return self.centers[0] + (self.masses / self.mass) @ (self.centers - self.centers[0])
 
     @property
-    def inertia(self) -> NDArray[np.float64]:
+    def inertia(self) -> Array:
         """(3, 3) inertia tensor of the total about its center, in kg and Blender's units."""
         arms = self.centers - self.center
         spread = self.spreads.sum(axis=0) + np.einsum("p,pi,pj->ij", self.masses, arms, arms)
@@ -61,7 +63,7 @@ class Parts:
         spreads = factors[:, None, None] * (linear @ self.spreads @ linear.swapaxes(1, 2))
         return Parts(self.names, factors * self.masses, centers, spreads, matrices)
 
-    def factors_to(self, total: float, shares: NDArray) -> NDArray[np.float64]:
+    def factors_to(self, total: float, shares: NDArray) -> Array:
         """Return (p,) factors of the masses to a total, 1 for a total of 0.
 
         shares: (p,) mask of the parts that share the rest of it, if the others leave any.

@@ -18,6 +18,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array
 from ..numerics.rotations import quaternion, rotation_matrix
 from .motion import Course, continuous
 
@@ -46,11 +47,11 @@ class CarriedParts:
     """
 
     step: float
-    masses: NDArray[np.float64]
-    axes: NDArray[np.float64]
-    arms: NDArray[np.float64]
-    spreads: NDArray[np.float64]
-    linear: NDArray[np.float64]
+    masses: Array
+    axes: Array
+    arms: Array
+    spreads: Array
+    linear: Array
 
     @classmethod
     def of_course(cls, course: Course, axes: NDArray) -> CarriedParts:
@@ -62,12 +63,12 @@ class CarriedParts:
         values = (axes, arms, spreads, back @ course.linear)
         return cls(course.step, course.masses, *(array[rows] for array in values))
 
-    def rates(self, values: NDArray) -> NDArray[np.float64]:
+    def rates(self, values: NDArray) -> Array:
         """Return the rates of (f, n, ...) values, by the second."""
         return np.einsum("mn,fn...->fm...", RATE, values) / self.step
 
     @cached_property
-    def own_momenta(self) -> NDArray[np.float64]:
+    def own_momenta(self) -> Array:
         """(f, n, p, 3) angular momenta of the parts' motion relative to the carrier."""
         momenta = self.masses[:, None] * np.cross(self.arms, self.rates(self.arms))
         shape = self.linear.copy()
@@ -77,13 +78,13 @@ class CarriedParts:
         return momenta + np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
 
     @cached_property
-    def inertia(self) -> NDArray[np.float64]:
+    def inertia(self) -> Array:
         """(f, n, p, 3, 3) inertia tensors of the parts about the common center."""
         second = self.spreads + np.einsum("p,fnpi,fnpj->fnpij", self.masses, self.arms, self.arms)
         return np.trace(second, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) - second
 
     @cached_property
-    def momenta(self) -> NDArray[np.float64]:
+    def momenta(self) -> Array:
         """(f, n, p, 3) angular momenta of the parts about the common center, in the world."""
         turns = continuous(quaternion(self.axes.reshape(-1, 3, 3))).reshape(*self.axes.shape[:2], 4)
         rate = self.rates(turns)
@@ -95,11 +96,11 @@ class CarriedParts:
         return np.einsum("fnij,fnpj->fnpi", self.axes, momenta)
 
     @property
-    def first_momentum(self) -> NDArray[np.float64]:
+    def first_momentum(self) -> Array:
         """(3,) mean angular momentum of the first frame."""
         return MEAN @ self.momenta[0].sum(axis=1)
 
-    def deviations(self, kept: NDArray) -> NDArray[np.float64]:
+    def deviations(self, kept: NDArray) -> Array:
         """Return (f, n) distances of the angular momentum from a constant one, relative to it.
 
         If it is below a tenth of the parts' momenta, as of a cat that turns in its fall, they are
@@ -110,7 +111,7 @@ class CarriedParts:
         scale = size if size > SPINLESS * parts else max(parts, np.finfo(float).tiny)
         return np.linalg.norm(self.momenta.sum(axis=2) - kept, axis=-1) / scale
 
-    def constant_spin(self, kept: NDArray) -> NDArray[np.float64]:
+    def constant_spin(self, kept: NDArray) -> Array:
         """Return (f, n, 3, 3) rotations of the carrier with a constant momentum, from its own on.
 
         Steps are halved until no rotation changes by more than 1e-6.
@@ -125,7 +126,7 @@ class CarriedParts:
             change = float(np.abs(turns - before).max())
         return turns
 
-    def _integrate(self, kept: NDArray, steps: int) -> NDArray[np.float64]:
+    def _integrate(self, kept: NDArray, steps: int) -> Array:
         """Return the rotations by this number of steps from node to node."""
         shares = np.arange(2 * steps + 1) / (2.0 * steps)
         places = PLACES[:-1, None] + np.diff(PLACES)[:, None] * shares
@@ -161,12 +162,12 @@ class CarriedParts:
         return turns
 
 
-def node_weights(shares: NDArray) -> NDArray[np.float64]:
+def node_weights(shares: NDArray) -> Array:
     """Return the (..., n) weights of values at the nodes that interpolate at shares of a frame."""
     return (2.0 * shares[..., None] - 1.0) ** np.arange(len(NODES)) @ _FIT
 
 
-def rotation(vector: NDArray) -> NDArray[np.float64]:
+def rotation(vector: NDArray) -> Array:
     """Return the (3, 3) rotation by a vector's length about it."""
     half = 0.5 * float(np.linalg.norm(vector))
     return rotation_matrix(np.concatenate([[np.cos(half)], 0.5 * np.sinc(half / np.pi) * vector]))

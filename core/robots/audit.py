@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ..inertia.mass_properties import combine
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
+from ..numerics.array_types import Array
 from ..solid.measure import measure_solid
 from ..verdict import internal_error
 from ..verdict.finding import Finding, MeasureError, Severity, finding
@@ -126,9 +127,9 @@ class _Piece:
     z up, if any.
     """
 
-    points: NDArray[np.float64]
+    points: Array
     moments: Moments | None
-    upright: NDArray[np.float64] | None = None
+    upright: Array | None = None
 
     def turned(self) -> _Piece:
         """Return the piece rotated so that the up axis of its mesh file becomes z."""

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.array_types import Array
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding, finding
 from .findings import (
@@ -83,9 +84,9 @@ class Reference:
     """
 
     volume: float
-    center: NDArray[np.float64]
-    inertia: NDArray[np.float64]
-    origins: tuple[NDArray[np.float64], ...] = ()
+    center: Array
+    inertia: Array
+    origins: tuple[Array, ...] = ()
 
     def compare(self, stated: StatedInertial) -> float:
         """Return the larger relative difference: of the centers, per radius of gyration, or of the
@@ -277,7 +278,7 @@ def _finding(code: str, values: dict, agree: str = "inertial and geometry") -> F
     return finding(code, **more)
 
 
-def _times(values: ArrayLike, factor: float) -> NDArray[np.float64]:
+def _times(values: ArrayLike, factor: float) -> Array:
     """Return values times a factor; divide by its inverse if that is whole, to keep the decimals of
     the file.
     """
@@ -371,7 +372,7 @@ def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
         yield AUDIT_INERTIA_ELSEWHERE, {"part": "mesh", "point": origin.tolist()}, changed
 
 
-def _square(arm: NDArray) -> NDArray[np.float64]:
+def _square(arm: NDArray) -> Array:
     return arm @ arm * np.eye(3) - np.outer(arm, arm)
 
 

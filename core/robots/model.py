@@ -21,6 +21,7 @@ from ..inertia.mass_properties import combine
 from ..inertia.plain_body import EQUAL_MOMENTS_RTOL
 from ..mesh.surface import Surface
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
+from ..numerics.array_types import Array
 
 # Known values of an axis: N·m·s/rad or N·s/m, N·m or N, N·m/rad or N/m, N·m or N, rad/s or m/s.
 VALUES = ("damping", "friction", "stiffness", "effort", "velocity")
@@ -33,19 +34,19 @@ class Pose:
     arrays, m.
     """
 
-    position: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
-    rotation: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
+    position: Array = field(default_factory=lambda: np.zeros(3))
+    rotation: Array = field(default_factory=lambda: np.eye(3))
 
     def __matmul__(self, other: Pose) -> Pose:
         """Return the pose of a frame in the outer frame, from its pose `other` in this frame."""
         return Pose(self.rotation @ other.position + self.position, self.rotation @ other.rotation)
 
-    def apply(self, points: NDArray) -> NDArray[np.float64]:
+    def apply(self, points: NDArray) -> Array:
         """Return (n, 3) points of the frame in the other one."""
         return points @ self.rotation.T + self.position
 
     @property
-    def matrix(self) -> NDArray[np.float64]:
+    def matrix(self) -> Array:
         """The (4, 4) map from the frame to the other one."""
         matrix = np.eye(4)
         matrix[:3, :3] = self.rotation
@@ -67,10 +68,10 @@ class Inertial:
     """
 
     mass: float
-    center: NDArray[np.float64]
-    inertia: NDArray[np.float64]
-    moments: NDArray[np.float64]
-    axes: NDArray[np.float64]
+    center: Array
+    inertia: Array
+    moments: Array
+    axes: Array
 
     @classmethod
     def with_agreeing_axes(
@@ -146,7 +147,7 @@ class FreeAxis:
     """
 
     kind: str
-    axis: NDArray[np.float64]
+    axis: Array
     lower: float = -inf
     upper: float = inf
     values: Mapping[str, float] = field(default_factory=dict)
@@ -205,7 +206,7 @@ class Link:
     inertial: Inertial | None = None
     pose: Pose = field(default_factory=Pose)
     shapes: tuple[Shape, ...] = ()
-    scale: NDArray[np.float64] = field(default_factory=lambda: np.ones(3))
+    scale: Array = field(default_factory=lambda: np.ones(3))
     is_fixed: bool = False
 
 

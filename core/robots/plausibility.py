@@ -26,6 +26,7 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array
 from ..numerics.quadrature import spread_directions
 from ..verdict.finding import Finding, finding
 from .findings import (
@@ -55,7 +56,7 @@ DIRECTIONS = 400
 class Hull:
     """Points (n, 3) along a link's axes, in m, with a convex hull that contains the link's mass."""
 
-    points: NDArray[np.float64]
+    points: Array
 
     @property
     def size(self) -> float:
@@ -87,7 +88,7 @@ class Hull:
             chosen, shares = _nearest_shares(shifted, [*chosen, lowest], np.append(shares, 0.0))
         return bound
 
-    def spread_limit(self, center: NDArray, directions: NDArray) -> NDArray[np.float64]:
+    def spread_limit(self, center: NDArray, directions: NDArray) -> Array:
         """Return the (k,) largest possible variances of mass with a center along (k, 3) unit
         directions, in m².
         """
@@ -149,9 +150,7 @@ def _impossible_tensor(inertia: NDArray, mass: float) -> list[Finding]:
     return [finding(INERTIAL_TRIANGLE_SLIGHTLY, excess=excess)] if excess > 1e-12 else []
 
 
-def _nearest_shares(
-    points: NDArray, chosen: list[int], shares: NDArray
-) -> tuple[list[int], NDArray[np.float64]]:
+def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tuple[list[int], Array]:
     """Drop chosen points until the foot from zero on their plane is in their hull; return their
     indices and shares.
     """

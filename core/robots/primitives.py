@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
+from ..numerics.array_types import Array
 from ..polyhedron.third_order import integrate
 from .model import Inertial, Pose, Shape
 
@@ -24,14 +25,14 @@ LEAST_SPREAD = float(np.finfo(np.float64).eps)  # Relative to the largest one.
 BISECTIONS = 200  # more than the digits of a float64 need
 
 
-def box_sides(mass: float, moments: NDArray) -> NDArray[np.float64]:
+def box_sides(mass: float, moments: NDArray) -> Array:
     """Return the (3,) sides s_i = sqrt(6 (I_j + I_k - I_i) / m) of the box of this mass and these
     principal moments.
     """
     return np.sqrt(6.0 * _spreads(moments) / mass)
 
 
-def ellipsoid_axes(mass: float, moments: NDArray) -> NDArray[np.float64]:
+def ellipsoid_axes(mass: float, moments: NDArray) -> Array:
     """Return the (3,) semi-axes a_i = sqrt(5 (I_j + I_k - I_i) / (2 m)) of the ellipsoid of these
     principal moments.
     """
@@ -88,7 +89,7 @@ def _capsule(t: float) -> tuple[float, float]:
     return pi * (t / 4.0 + 4.0 / 15.0), pi * (t**3 / 12.0 + t * t / 3.0 + t / 2.0 + 4.0 / 15.0)
 
 
-def _spreads(moments: NDArray) -> NDArray[np.float64]:
+def _spreads(moments: NDArray) -> Array:
     """Return (3,) I_j + I_k - I_i, raised to a least value that changes no moment, so that no side
     is zero.
     """

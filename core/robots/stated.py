@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding
 from .model import Inertial, Shape
@@ -45,14 +46,14 @@ class StatedInertial:
     """
 
     mass: float
-    center: NDArray[np.float64]
-    tensor: NDArray[np.float64]
-    rotation: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
+    center: Array
+    tensor: Array
+    rotation: Array = field(default_factory=lambda: np.eye(3))
     angles: Angles | None = None
     quaternion: tuple[float, ...] | None = None
 
     @property
-    def inertia(self) -> NDArray[np.float64]:
+    def inertia(self) -> Array:
         """The (3, 3) tensor along the link's axes."""
         with np.errstate(invalid="ignore", over="ignore"):  # numbers of a file, not yet audited
             return self.rotation @ self.tensor @ self.rotation.T
@@ -120,7 +121,7 @@ class StatedLink:
     span: tuple[int, int] | None = None
     moves: bool = True
     findings: tuple[Finding, ...] = ()
-    local: NDArray[np.float64] | None = None
+    local: Array | None = None
     place: Place = Place()
     inertial_place: Place = Place()
 
@@ -138,14 +139,14 @@ class Description:
     scales: Mapping[str, float] = field(default_factory=lambda: {"length": 1.0, "mass": 1.0})
 
 
-def rotation_about(axis: NDArray, angle: float) -> NDArray[np.float64]:
+def rotation_about(axis: NDArray, angle: float) -> Array:
     """Return the (3, 3) rotation about a (3,) axis of any length."""
     return rotation_matrix(
         [np.cos(angle / 2.0), *(np.sin(angle / 2.0) / np.linalg.norm(axis) * axis)]
     )
 
 
-def rotation_of_angles(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
+def rotation_of_angles(roll: float, pitch: float, yaw: float) -> Array:
     """Return the (3, 3) rotation Rz(yaw) Ry(pitch) Rx(roll), as in URDF and SDF, of angles in
     radians.
     """

@@ -21,6 +21,7 @@ from ..files.findings import (
 )
 from ..files.limits import DEFAULT_LIMITS, Limits
 from ..numerics.arguments import check_type, float_array
+from ..numerics.array_types import Array
 from ..verdict.finding import FileError, Finding, finding
 from .findings import (
     POSITIONS_COUNT,
@@ -46,9 +47,7 @@ READERS: dict[str, Callable[[Path, Limits], Scan]] = dict(
 )
 AXES = "xyz"
 CONTENTS = {"x": "positions along x", "y": "positions along y", "z": "positions along z"}
-Positions = tuple[
-    NDArray[np.float64] | None, NDArray[np.float64] | None, NDArray[np.float64] | None
-]
+Positions = tuple[Array | None, Array | None, Array | None]
 EVEN: Positions = (None, None, None)
 
 
@@ -116,7 +115,7 @@ def sample_matrix(
     spacing: Sequence[float] | None,
     origin: Sequence[float] | None,
     unit_scale: float | None,
-) -> tuple[NDArray[np.float64], tuple[Finding, ...]]:
+) -> tuple[Array, tuple[Finding, ...]]:
     """Return the matrix from sample indices of a scan to positions in meters, and findings.
 
     Parameters
@@ -170,7 +169,7 @@ def sample_matrix(
     return matrix, tuple(findings)
 
 
-def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float64]:
+def read_positions(path: str | Path, axis: str, count: int) -> Array:
     """Return the (count,) ascending positions of samples along an axis from a .npy file.
 
     Raises FileError, OSError.
@@ -204,9 +203,7 @@ def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) ->
     return x, y, z
 
 
-def place_samples(
-    matrix: NDArray, positions: Positions, unit: float
-) -> tuple[NDArray[np.float64], Positions]:
+def place_samples(matrix: NDArray, positions: Positions, unit: float) -> tuple[Array, Positions]:
     """Put samples at positions along their axes' own directions; return the new (4, 4) matrix and
     the positions.
 

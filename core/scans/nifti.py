@@ -8,11 +8,11 @@ import math
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files.damage import damaged, wrong_field
 from ..files.findings import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED
 from ..files.limits import Limits
+from ..numerics.array_types import Array
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import FileError
 from .findings import SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE, SCAN_SIZE
@@ -124,7 +124,7 @@ def _read_header(path: Path, packed: bool) -> np.void:
     return header
 
 
-def _sample_matrix(header: np.void) -> tuple[NDArray[np.float64], bool]:
+def _sample_matrix(header: np.void) -> tuple[Array, bool]:
     """Return the matrix of the samples (affine, else quaternion, else spacing), and whether the
     header states it.
     """

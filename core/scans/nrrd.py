@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files.damage import damaged
 from ..files.findings import (
@@ -24,6 +23,7 @@ from ..files.findings import (
 )
 from ..files.limits import Limits
 from ..files.number_text import parse_number, parse_whole
+from ..numerics.array_types import Array
 from ..verdict.finding import FileError
 from .findings import NRRD_DATA_FILE_OUTSIDE, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
 from .scan import Scan, map_samples, parse_samples, shape_of, space_axes, unpack_samples
@@ -272,7 +272,7 @@ def _skip_lines(path: Path, start: int, count: int, limits: Limits) -> int:
 
 def _sample_matrix(
     fields: dict[str, str], shape: tuple[int, int, int]
-) -> tuple[NDArray[np.float64], bool, float | None]:
+) -> tuple[Array, bool, float | None]:
     """Return the matrix of the sample positions, whether the header states the spacing, and the
     matrix's unit.
     """
@@ -306,7 +306,7 @@ def _sample_matrix(
     return matrix, placed, unit
 
 
-def _units(fields: dict[str, str], field: str) -> tuple[NDArray[np.float64] | None, float | None]:
+def _units(fields: dict[str, str], field: str) -> tuple[Array | None, float | None]:
     """Return the (3,) units of three axes in meters, None if one is unknown; and the one unit if
     they are equal.
     """

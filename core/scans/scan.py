@@ -26,6 +26,7 @@ from ..files.findings import (
     DAMAGE_SIZE,
 )
 from ..files.limits import Limits
+from ..numerics.array_types import Array
 from ..verdict.finding import FileError, Finding
 from .findings import SCAN_SAMPLE_TYPE, SCAN_SIZE
 
@@ -64,7 +65,7 @@ class Scan:
     """
 
     samples: NDArray
-    matrix: NDArray[np.float64]
+    matrix: Array
     unit: float | None = None
     is_placed: bool = False
     slope: float = 1.0

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from ..inertia.third_moment_frames import NOISE_LEVEL
 from ..mesh.surface import Surface
+from ..numerics.array_types import Array
 from ..numerics.vectors import cross, dot
 from .canonical_frame import EquivalentFrames, lexicographic_maximum
 
@@ -46,7 +47,7 @@ class AxialHarmonics:
     ∫ (x+iy)^m z^k for k = 0 and 1 and m from 0 to n.
     """
 
-    frame: NDArray[np.float64]
+    frame: Array
     values: NDArray[np.complex128]
 
     @property
@@ -54,7 +55,7 @@ class AxialHarmonics:
         """The largest m."""
         return self.values.shape[1] - 1
 
-    def in_frame(self, frame: NDArray[np.float64]) -> AxialHarmonics:
+    def in_frame(self, frame: Array) -> AxialHarmonics:
         """Return the harmonics in another frame with the same or the opposite axis."""
         values, base = self.values, self.frame
         if frame[:, 2] @ base[:, 2] < 0.0:  # half a turn about x
@@ -104,7 +105,7 @@ def axial_harmonics(
     return AxialHarmonics(np.asarray(frame, np.float64), sums / total)
 
 
-def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
+def _means(corners: Array, order: int) -> NDArray[np.complex128]:
     """Return the (2, order + 1, k) means of w^m and w^m z over triangles with corners (3, 3, k): x,
     y, z of each.
     """
@@ -126,7 +127,7 @@ def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
     return means
 
 
-def axis_last(alike: EquivalentFrames) -> NDArray[np.float64]:
+def axis_last(alike: EquivalentFrames) -> Array:
     """Return a (3, 3) frame with the axis of revolution as its third axis."""
     (axis,) = alike.revolution_axes
     return alike.frames[0][:, np.roll([0, 1, 2], 2 - axis)]

@@ -28,6 +28,7 @@ from ..inertia.plain_body import frame_about
 from ..inertia.third_moment_frames import NOISE_LEVEL, SecondMomentAxes
 from ..moments.exponents import monomial_index, monomials, tensor_index
 from ..moments.moments import Measure, Moments
+from ..numerics.array_types import Array
 from ..numerics.arrays import distinct_arrays
 from ..numerics.quadrature import spread_directions
 from ..verdict.finding import MeasureError
@@ -63,9 +64,9 @@ class EquivalentFrames:
     (0, 1, 2). tilt: an estimate of the angle by which noise may have turned them.
     """
 
-    frames: NDArray[np.float64]
-    values: NDArray[np.float64]
-    noise: NDArray[np.float64]
+    frames: Array
+    values: Array
+    noise: Array
     revolution_axes: tuple[int, ...]
     tilt: float
 
@@ -92,7 +93,7 @@ def canonical_frames(
     )
 
 
-def check_range(moments: Moments, size: NDArray[np.float64]) -> None:
+def check_range(moments: Moments, size: Array) -> None:
     """Raise MeasureError if the highest moments of bodies with these (n, 3) extents are no
     numbers.
     """
@@ -246,9 +247,7 @@ def _extreme_directions(
     return directions, sign, tilt
 
 
-def _maximize_on_sphere(
-    tensor: NDArray, degree: int, span: float, within: float
-) -> NDArray[np.float64]:
+def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> Array:
     """Return maxima on the sphere, some repeated, the best approached first, at most `within` below
     the largest.
 
@@ -316,7 +315,7 @@ def _normalization(
     return unit, NOISE_GROWTH[degree] * noise + error.ravel()[_tensor_positions(degree)] / unit
 
 
-def extents_of(size: NDArray) -> NDArray[np.float64]:
+def extents_of(size: NDArray) -> Array:
     """Return (..., 3) extents, infinite along an axis with hardly any, because noise is divided by
     them.
     """
@@ -335,7 +334,7 @@ def lexicographic_maximum(
     return frames[best], values[best[0]]
 
 
-def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
+def _contract(tensor: NDArray, times: int, points: NDArray) -> Array:
     """Return (n, 3, ...) contractions of a symmetric tensor with each of (n, 3) points, `times`
     times (at least 1).
     """
@@ -345,7 +344,7 @@ def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float6
     return out
 
 
-def _rotate_tensor(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
+def _rotate_tensor(tensor: NDArray, frames: NDArray) -> Array:
     """Return the (k, 3, ..., 3) entries of a symmetric tensor along the axes of k frames."""
     degree = tensor.ndim
     out = np.broadcast_to(tensor, (len(frames), *tensor.shape))

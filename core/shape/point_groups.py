@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.bvh import Bvh, sort_components
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import cross_rows, lengths
 from .symmetries import Symmetry, axis_rotation
 
@@ -59,7 +60,7 @@ class PlacedTriangles:
         self._witnesses = np.arange(0, len(self.points), 1 + len(self.points) // FIRST_SAMPLES)
 
     @cached_property
-    def _first(self) -> NDArray[np.intp]:
+    def _first(self) -> Index:
         return self._match(self.points)
 
     @cached_property
@@ -69,13 +70,13 @@ class PlacedTriangles:
         )
         return Bvh(self.points, whole, np.ones(1, bool))
 
-    def _distances(self, points: NDArray, within: float) -> NDArray[np.float64]:
+    def _distances(self, points: NDArray, within: float) -> Array:
         return self._tree.distances(
             points - self._tree.origin, np.zeros(len(points), np.intp), within
         )
 
     @cached_property
-    def _samples(self) -> NDArray[np.float64]:
+    def _samples(self) -> Array:
         n, m = len(self.points), len(self.triangles)
         farthest = np.argsort(lengths(self.points)[:, 0], kind="stable")[-SAMPLES:]
         middles = self.points[self.triangles[:: 1 + m // SAMPLES]].mean(axis=1)
@@ -88,7 +89,7 @@ class PlacedTriangles:
             np.isfinite(self._distances(part, tolerance)).all() for part in (images[::10], images)
         )
 
-    def groups(self) -> list[NDArray[np.float64]] | None:
+    def groups(self) -> list[Array] | None:
         """Return the (k, 3, 3) operations of the group, then of larger possible ones; None if there
         are too many.
 
@@ -145,7 +146,7 @@ class PlacedTriangles:
         ]
         return all(self.holds(turn, tolerance) for turn in turns)
 
-    def _candidates(self) -> NDArray[np.float64] | None:
+    def _candidates(self) -> Array | None:
         """Return (k, 3, 3) maps of corners to corners, the identity first, then by their angles;
         None if too many.
         """
@@ -199,7 +200,7 @@ class PlacedTriangles:
             left = left[~alike]
         return operations[kept]
 
-    def _distinct(self, rows: NDArray[np.intp]) -> NDArray[np.float64]:
+    def _distinct(self, rows: Index) -> Array:
         """Return the points of these rows, one for each set of coincident points."""
         return self.points[np.unique(self._first[rows])]
 
@@ -228,7 +229,7 @@ class PlacedTriangles:
         between = (BETWEEN @ images[new[:: 1 + len(new) // MAX_BETWEEN]]).reshape(-1, 3)
         return max(level, float(self._distances(between, self.far).max(initial=0.0)))
 
-    def _match(self, images: NDArray) -> NDArray[np.intp]:
+    def _match(self, images: NDArray) -> Index:
         """Return (n,) the first corner near each of (n, 3) points, -1 if there is none."""
         found = np.full(len(images), -1)
         height = images @ SKEW
@@ -247,7 +248,7 @@ class PlacedTriangles:
         return found
 
     @cached_property
-    def _creases(self) -> tuple[NDArray[np.intp], NDArray[np.int64]]:
+    def _creases(self) -> tuple[Index, NDArray[np.int64]]:
         """(k, 3) corners of triangles with a crease at the first two corners, and the creases'
         sorted codes.
         """
@@ -273,7 +274,7 @@ class PlacedTriangles:
         corners = np.stack([self.triangles[triangle, side - i] for i in range(3)], axis=1)
         return corners, np.sort(code[is_crease])
 
-    def _edge_codes(self, corners: NDArray[np.intp]) -> NDArray[np.int64]:
+    def _edge_codes(self, corners: Index) -> NDArray[np.int64]:
         """Return (k,) numbers of edges by (k, 2) numbers of corners, negative for edges with a
         corner -1.
         """
@@ -282,7 +283,7 @@ class PlacedTriangles:
         return np.where(low < 0, -1, low * len(self.points) + high)
 
 
-def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+def _frames(first: NDArray, second: NDArray) -> Array:
     """Return (k, 3, 3) rotations with `first` as column 0, and `second` in the plane of columns 0
     and 1.
     """
@@ -291,7 +292,7 @@ def _frames(first: NDArray, second: NDArray) -> NDArray[np.float64]:
     return np.stack([first, second, cross_rows(first, second)], axis=2)
 
 
-def _nearest(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
+def _nearest(products: NDArray, operations: NDArray) -> Index:
     """Return (k,) indices of the first operation that each product equals up to noise, -1 if there
     is none.
     """
@@ -305,9 +306,7 @@ def _nearest(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
     return found
 
 
-def _closed(
-    operations: NDArray, mask: NDArray[np.bool_], generators: list[int], refuted: NDArray[np.bool_]
-) -> NDArray[np.bool_] | None:
+def _closed(operations: NDArray, mask: Mask, generators: list[int], refuted: Mask) -> Mask | None:
     """Return the mask of the group of all generators, which includes the masked group; None if one
     is refuted.
 

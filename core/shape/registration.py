@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 from ..inertia.third_moment_frames import HALF_TURN_SIGNS, complete_free_axes
 from ..moments.images import invert_through_point
 from ..moments.moments import Moments
+from ..numerics.array_types import Array
 from ..numerics.arrays import distinct_arrays
 from .canonical_frame import EquivalentFrames
 from .symmetries import Symmetry
@@ -62,7 +63,7 @@ class RigidMatch:
     `is_mirror_image`: True if a reflection fits so much better that the bodies are mirror images.
     """
 
-    rotation: NDArray[np.float64]
+    rotation: Array
     max_distance: float
     mean_distance: float
     is_mirror_image: bool
@@ -77,7 +78,7 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
     """
     first = equivalent_frames(source).frames[0]
 
-    def maps(mirrored: bool) -> NDArray[np.float64]:
+    def maps(mirrored: bool) -> Array:
         frames = equivalent_frames(invert_through_point(target) if mirrored else target)
         return _candidate_rotations(first, frames) * (-1.0 if mirrored else 1.0)
 
@@ -96,7 +97,7 @@ def _best_match(maps: Callable[[bool], NDArray], residual: Residual, size: float
     return RigidMatch(rotation, largest, float(distances.mean()), mirrored)
 
 
-def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np.float64]:
+def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> Array:
     """Return the (k, 3, 3) rotations from a frame of the source to the frames of the target and
     their half turns.
     """
@@ -139,7 +140,7 @@ def match_flat(
     """
     start, end = axes
 
-    def maps(mirrored: bool) -> NDArray[np.float64]:
+    def maps(mirrored: bool) -> Array:
         turns = turns_about_normal(_best_angles(source.conj() if mirrored else source, target))
         return end @ turns @ (MIRROR if mirrored else np.eye(3)) @ start.T
 
@@ -202,7 +203,7 @@ def holds_by_moments(zernike: NDArray, order: int, tolerance: float) -> Holds:
     return holds
 
 
-def turns_about_normal(angles: NDArray) -> NDArray[np.float64]:
+def turns_about_normal(angles: NDArray) -> Array:
     """Return (k, 3, 3) rotations about the third axis."""
     turns = np.zeros((len(angles), 3, 3))
     turns[:, 0, 0] = turns[:, 1, 1] = np.cos(angles)
@@ -212,7 +213,7 @@ def turns_about_normal(angles: NDArray) -> NDArray[np.float64]:
     return turns
 
 
-def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
+def _mirrors(zernike: NDArray, points: NDArray) -> Array:
     """Return (k, 3, 3) reflections that may take a shape to itself: by moments, and by its
     outermost corners.
     """
@@ -224,7 +225,7 @@ def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
     return turns_about_normal(angles) @ MIRROR
 
 
-def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
+def _best_angles(source: NDArray, target: NDArray) -> Array:
     """Return the (k,) angles of the largest overlap of the turned source with the target, the
     largest first.
     """

@@ -38,6 +38,7 @@ from ..moments.exponents import monomial_count, monomials
 from ..moments.moments import Measure, Moments, U
 from ..moments.solid_harmonics import along_first, couple, harmonic_moments
 from ..numerics.arguments import check_type
+from ..numerics.array_types import Array, Mask
 from ..numerics.arrays import PerBody
 from ..verdict.finding import FileError
 from .findings import SIGNATURE_INCOMPLETE, SIGNATURE_UNRECOGNIZED
@@ -79,10 +80,10 @@ class Signature:
     """
 
     size: float
-    invariants: NDArray[np.float64]
-    zernike: NDArray[np.float64]
-    fourier: NDArray[np.float64]
-    chirality: NDArray[np.float64]
+    invariants: Array
+    zernike: Array
+    fourier: Array
+    chirality: Array
     error: float = 0.0
     dimension: int = 3
 
@@ -191,7 +192,7 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
     return Signature(size, *_numbers(moments.raw, moments, size, radius, zernike))
 
 
-def signatures(moments: Moments, radius: NDArray[np.float64]) -> list[Signature]:
+def signatures(moments: Moments, radius: Array) -> list[Signature]:
     """Return the signatures of a stack of shapes with balls of (n,) radii: as `signature` of each,
     to rounding.
     """
@@ -208,9 +209,7 @@ def _numbers(
     size: PerBody,
     radius: PerBody,
     zernike: Multiplets | None = None,
-) -> tuple[
-    NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], PerBody
-]:
+) -> tuple[Array, Array, Array, Array, PerBody]:
     """Return invariants, descriptors, power, chirality and error from moments (K, …), with the last
     axes of `raw`.
     """
@@ -293,15 +292,13 @@ def _relative_difference(a: NDArray, b: NDArray) -> float:
     return float(np.linalg.norm(a - b) / scale) if scale else 0.0
 
 
-def _invariants(harmonic: Multiplets) -> NDArray[np.float64]:
+def _invariants(harmonic: Multiplets) -> Array:
     scalars = [harmonic[n, 0].real[0] for n in (4, 6)]
     products = [np.add.reduce((harmonic[a].conj() * harmonic[b]).real) for a, b in _pairs()]
     return np.array(scalars + products + _couplings(harmonic, _even_triples()))
 
 
-def _couplings(
-    harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]
-) -> list[NDArray[np.float64]]:
+def _couplings(harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]) -> list[Array]:
     return [couple(*(harmonic[key] for key in triple)) for triple in triples]
 
 
@@ -377,7 +374,7 @@ def _sum(keys: tuple[Key, ...], plus: int) -> int:
 
 
 @lru_cache
-def _is_chiral() -> NDArray[np.bool_]:
+def _is_chiral() -> Mask:
     """Return the mask of couplings that have an imaginary part: all but the squares of one
     moment.
     """

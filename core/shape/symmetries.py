@@ -22,6 +22,7 @@ from ..inertia.third_moment_frames import NOISE_LEVEL
 from ..moments.images import invert_through_point
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type
+from ..numerics.array_types import Array, Mask
 from ..numerics.arrays import distinct_arrays
 from .axial_harmonics import MAX_TILT, AxialHarmonics, axis_last, turn_by_harmonics
 from .unique_frames import equivalent_frames
@@ -50,8 +51,8 @@ class Symmetry:
     `order`: the order of the moments it was found from, or of harmonics about an axis.
     """
 
-    operations: NDArray[np.float64]
-    revolution_axes: NDArray[np.float64]
+    operations: Array
+    revolution_axes: Array
     order: int
 
     @property
@@ -154,7 +155,7 @@ def symmetry(
     return Symmetry(distinct_arrays(operations, EQUAL_OPERATION_ATOL), axes, order)
 
 
-def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
+def _finite_operations(operations: NDArray, axis: NDArray) -> Array:
     """Return the finite operations of a body of revolution, for all others: the identity and
     perhaps a reflection.
     """
@@ -163,11 +164,11 @@ def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64
     return np.array([np.eye(3), np.eye(3) - 2.0 * np.outer(axis, axis)])
 
 
-def _reverses_axis(operations: NDArray, axis: NDArray) -> NDArray[np.bool_]:
+def _reverses_axis(operations: NDArray, axis: NDArray) -> Mask:
     return (operations @ axis) @ axis < 0.0
 
 
-def axis_rotation(axis: NDArray, angle: float) -> NDArray[np.float64]:
+def axis_rotation(axis: NDArray, angle: float) -> Array:
     """Return the (3, 3) rotation about an axis, by Rodrigues' formula."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

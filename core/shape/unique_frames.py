@@ -23,6 +23,7 @@ from ..inertia.principal_frames import (
 from ..inertia.third_moment_frames import NOISE_LEVEL, complete_free_axes, nearest_frames
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type
+from ..numerics.array_types import Array
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import finding
 from .canonical_frame import EquivalentFrames, canonical_frames
@@ -93,7 +94,7 @@ def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> Equivalen
     return canonical_frames(moments, fixed.spread(0), fixed.frames(0))
 
 
-def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDArray[np.float64]:
+def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> Array:
     """Return the equivalent frame nearest to the preferred axes. Both are (3, 3), with the axes as
     columns.
     """

@@ -44,6 +44,7 @@ from ..moments.solid_harmonics import (
     harmonic_moments,
     with_negative_orders,
 )
+from ..numerics.array_types import Array
 from ..numerics.quadrature import triangle_rule
 
 MAX_ORDER_BY_MOMENTS = 20  # the highest order that raw moments in float64 give
@@ -71,7 +72,7 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
     }
 
 
-def descriptor_error(raw: NDArray, order: int) -> NDArray[np.float64]:
+def descriptor_error(raw: NDArray, order: int) -> Array:
     """Estimate (…) the descriptors' error: their change if raw moments (K, …) change by a few
     roundings.
     """
@@ -84,7 +85,7 @@ def descriptor_error(raw: NDArray, order: int) -> NDArray[np.float64]:
     return np.abs(after - before).max(axis=0)
 
 
-def descriptors(moments: Multiplets) -> NDArray[np.float64]:
+def descriptors(moments: Multiplets) -> Array:
     """Return (D, …) ‖Ω_nl‖ in the order of `degrees`."""
     return np.array(
         [np.linalg.norm(multiplet, axis=0) for _, multiplet in sorted(moments.items())], np.float64
@@ -177,7 +178,7 @@ def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex1
         yield l, now
 
 
-def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
+def _jacobi(beta: float, x: NDArray) -> Iterator[Array]:
     """Yield P_k^(0, beta)(x) for k = 0, 1, and so on."""
     before, now = np.zeros_like(x), np.ones_like(x)
     for k in count(1):
@@ -195,9 +196,7 @@ def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
         )
 
 
-def radial_power(
-    moments: Multiplets, wave_numbers: NDArray
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[Array, Array]:
     """Return the (k, …) means of |F(q)|² over all directions of q, and a bound of the change by the
     missing orders.
 
@@ -228,7 +227,7 @@ def radial_power(
     return scale * power, scale * (2.0 * np.sqrt(power * tail) + tail)
 
 
-def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
+def _spherical_bessel(q: NDArray, order: int) -> Array:
     """Return (order+1, k) j_{n+1}(q)/q for n = 0..order, by Miller's recursion downward."""
     q = np.maximum(q, 1e-8)  # j_1(q)/q is 1/3 from there down
     top = order + 20 + int(2.0 * q.max())

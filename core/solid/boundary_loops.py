@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import cross_rows, lengths, segment_ranges, unique_pairs
 from ..numerics.graph import connected_components
 
@@ -36,25 +37,23 @@ def side_ends(
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
 
 
-def vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
+def vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> Index:
     """Return (k, 2) sides as pairs of vertices, the lower first."""
     return np.sort(np.stack(side_ends(triangles, sides), axis=1))
 
 
-def distinct_vertex_pairs(
-    triangles: NDArray[np.integer], sides: NDArray[np.integer]
-) -> NDArray[np.intp]:
+def distinct_vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> Index:
     """Return (k, 2) sides as pairs of vertices, the lower first, sorted, each once."""
     return unique_pairs(vertex_pairs(triangles, sides))
 
 
 def join_sides(
-    begin: NDArray[np.float64],
-    end: NDArray[np.float64],
+    begin: Array,
+    end: Array,
     start: NDArray[np.integer],
     stop: NDArray[np.integer],
     directed: bool,
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_]]:
+) -> tuple[Index, Index, Mask]:
     """Return (k,) and (k,) sides joined in pairs at equal vertices, sharpest turns first, and True
     for head to tail.
     """
@@ -143,15 +142,15 @@ class BoundaryLoops:
     the loop's area vector. `out_of_plane`: distance from its plane; infinite if it has none.
     """
 
-    of_side: NDArray[np.intp]
-    complete: NDArray[np.bool_]
-    perimeter: NDArray[np.float64]
-    centroid: NDArray[np.float64]
-    cone_area: NDArray[np.float64]
-    planar_area: NDArray[np.float64]
-    out_of_plane: NDArray[np.float64]
+    of_side: Index
+    complete: Mask
+    perimeter: Array
+    centroid: Array
+    cone_area: Array
+    planar_area: Array
+    out_of_plane: Array
 
-    def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
+    def has_area(self, tolerance: float | Array) -> Mask:
         """Return an (l,) mask of holes; loops narrower than `tolerance`, one number or (l,), are
         gaps.
         """
@@ -176,7 +175,7 @@ class OwnedLoops:
     start: NDArray[np.integer]
     stop: NDArray[np.integer]
     loops: BoundaryLoops
-    owner: NDArray[np.intp]
+    owner: Index
 
     @classmethod
     def of_sides(cls, points: NDArray, start: NDArray, stop: NDArray, owner: NDArray) -> OwnedLoops:
@@ -190,7 +189,7 @@ class OwnedLoops:
         loops = find_loops(begin, end, join_sides(begin, end, first, second, directed=True))
         return cls(points, start, stop, loops, loops.of_each(owner))
 
-    def cones(self) -> tuple[NDArray[np.floating], NDArray[np.integer], NDArray[np.intp]]:
+    def cones(self) -> tuple[NDArray[np.floating], NDArray[np.integer], Index]:
         """Return the loops' centroids, and the caps: (k, 3) triangles to them from (k,) sides."""
         loops = self.loops
         centroids = len(self.points) + np.arange(len(self.owner))
@@ -199,9 +198,7 @@ class OwnedLoops:
         kept = np.flatnonzero(has_distinct_vertices(triangles))
         return loops.centroid.astype(self.points.dtype), triangles[kept], kept
 
-    def count_caps(
-        self, tolerance: NDArray[np.float64], counted: NDArray[np.bool_]
-    ) -> NDArray[np.float64]:
+    def count_caps(self, tolerance: Array, counted: Mask) -> Array:
         """Return (o, 3) flat caps, curved caps, and their area, of owners with these tolerances
         that are `counted`.
         """
@@ -214,7 +211,7 @@ class OwnedLoops:
         return np.stack(counts, axis=1, dtype=np.float64)
 
 
-def has_distinct_vertices(triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
+def has_distinct_vertices(triangles: NDArray[np.integer]) -> Mask:
     """Return an (m,) mask of triangles with three different vertices; the others have no boundary
     and no area.
     """
@@ -222,9 +219,7 @@ def has_distinct_vertices(triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
     return (a != b) & (b != c) & (c != a)
 
 
-def find_loops(
-    begin: NDArray[np.float64], end: NDArray[np.float64], links: tuple[NDArray, NDArray, NDArray]
-) -> BoundaryLoops:
+def find_loops(begin: Array, end: Array, links: tuple[NDArray, NDArray, NDArray]) -> BoundaryLoops:
     """Group boundary sides with (r, 3) ends into loops by their `links`, from `join_sides`, and
     measure the loops.
     """

@@ -18,6 +18,7 @@ from ..mesh.planarity import Planarity, PlanarityAccumulator
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type
+from ..numerics.array_types import Index, Mask
 from ..numerics.arrays import indices_in_range
 from ..numerics.graph import connected_components, connected_neighbors
 from ..polyhedron import third_order
@@ -42,7 +43,7 @@ class CheckedSurface:
     """
 
     surface: Surface
-    vertices: NDArray[np.intp] | None
+    vertices: Index | None
     size: float
     error: float
     tolerance: float
@@ -137,7 +138,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
     return GivenIntegrals(volume, area, accumulator.planarity(), agree, proven)
 
 
-def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray[np.bool_]:
+def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | Mask:
     """Return whether numbers have one sign, to rounding. total: the sum of their sizes; signed:
     their own sum.
     """
@@ -169,7 +170,7 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
     )
 
 
-def _components_of_closed(surface: Surface) -> tuple[NDArray[np.intp], int] | None:
+def _components_of_closed(surface: Surface) -> tuple[Index, int] | None:
     """Return the component of each mesh face and their number; None if not proven closed and
     oriented.
     """

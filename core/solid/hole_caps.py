@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ..mesh.edges import Edges, consistent_orientation, find_edges, group_components
 from ..mesh.surface import normals
 from ..mesh.welding import same_vertices_groups
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import hash_uint64, sums_by_index
 from ..numerics.graph import connected_components
 from ..verdict.finding import Finding, finding
@@ -235,7 +236,7 @@ def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     )
 
 
-def _edges_along(mesh: RepairedMesh) -> NDArray[np.bool_]:
+def _edges_along(mesh: RepairedMesh) -> Mask:
     """Return an (e,) mask of the edges along gaps without area."""
     edges = mesh.state.edges
     along = np.zeros(len(edges.count), bool)
@@ -246,8 +247,8 @@ def _edges_along(mesh: RepairedMesh) -> NDArray[np.bool_]:
 def _find_folded_loops(
     mesh: RepairedMesh,
     edges: Edges,
-    signed_count: NDArray[np.float64],
-    unclosable: NDArray[np.bool_],
+    signed_count: Array,
+    unclosable: Mask,
     tolerance: float,
 ) -> FoldedLoops:
     """Find components (of `unclosable`) whose remaining loops have no area, such as outlines that
@@ -275,7 +276,7 @@ def wall_links(
     edges: Edges,
     triangles: NDArray[np.integer],
     face: NDArray[np.integer],
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+) -> tuple[Index, Index]:
     """Return (k,) and (k,) the sides that belong together at walls between bodies. face: (t,) of
     each triangle.
 
@@ -331,9 +332,7 @@ def wall_links(
     return links[:, 0], links[:, 1]
 
 
-def _layer_links(
-    edges: Edges, within: NDArray[np.intp], wall: NDArray[np.intp]
-) -> NDArray[np.intp]:
+def _layer_links(edges: Edges, within: Index, wall: Index) -> Index:
     """Return the (k, 2) sides that are joined within walls.
 
     The order of a face's copies is accidental: each copy is joined to the neighbor with which it
@@ -355,8 +354,8 @@ def _layers(
     edges: Edges,
     triangles: NDArray[np.integer],
     face: NDArray[np.integer],
-    piece: NDArray[np.intp],
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    piece: Index,
+) -> tuple[Index, Index]:
     """Return (t,) layers, 1 and 2 for triangles of walls, else 0; and (t,) numbers of the walls.
 
     Layers are faces on the same vertices, or flat pieces with the same border that are cut into

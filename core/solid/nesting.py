@@ -21,6 +21,7 @@ from ..mesh.bvh import (
     overlapping_box_pairs,
     sort_components,
 )
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import cross_rows, lengths, segment_ranges
 
 NO_PAIRS = np.empty((0, 2), np.intp)
@@ -57,13 +58,13 @@ class ComponentRelations:
     out (unit).
     """
 
-    contained_in: NDArray[np.intp]
-    intersecting: NDArray[np.intp]
+    contained_in: Index
+    intersecting: Index
     undecided_pairs: int
-    mostly_in: NDArray[np.intp] = field(default_factory=NO_PAIRS.view)
-    breakthrough: NDArray[np.float64] = field(default_factory=NO_LENGTHS.view)
+    mostly_in: Index = field(default_factory=NO_PAIRS.view)
+    breakthrough: Array = field(default_factory=NO_LENGTHS.view)
 
-    def containers(self) -> NDArray[np.intp]:
+    def containers(self) -> Index:
         """Return (2, k) inner and outer components of the pairs that are decided as if one
         contained the other.
         """
@@ -73,7 +74,7 @@ class ComponentRelations:
 def classify_pairs(
     points: NDArray[np.floating],
     components: SortedComponents,
-    candidates: NDArray[np.bool_],
+    candidates: Mask,
     tolerance: float,
 ) -> ComponentRelations:
     """Find the relations of the `candidates`, (c,), closed and not flat.
@@ -121,9 +122,7 @@ def classify_pairs(
     )
 
 
-def _breakthrough(
-    components: SortedComponents, tree: Bvh, pairs: NDArray[np.intp], tolerance: float
-) -> NDArray[np.float64]:
+def _breakthrough(components: SortedComponents, tree: Bvh, pairs: Index, tolerance: float) -> Array:
     """Return (k,) how far inner and outer component reach out of each other, at least
     `tolerance`.
     """
@@ -157,7 +156,7 @@ def _breakthrough(
 def surfaces_intersect(
     points: NDArray[np.floating],
     triangles: NDArray[np.integer],
-    component: NDArray[np.intp],
+    component: Index,
     pairs: NDArray[np.integer],
     vertex: NDArray[np.integer],
     tolerance: float,
@@ -173,7 +172,7 @@ def surfaces_intersect(
 def self_overlaps(
     points: NDArray[np.floating],
     components: SortedComponents,
-    candidates: NDArray[np.bool_],
+    candidates: Mask,
     tolerance: float,
 ) -> bool:
     """Return whether a closed candidate surrounds a point under its skin twice, though no edge need
@@ -204,8 +203,8 @@ def self_overlaps(
 
 
 def orient_nested_components(
-    components: SortedComponents, relations: ComponentRelations, candidates: NDArray[np.bool_]
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
+    components: SortedComponents, relations: ComponentRelations, candidates: Mask
+) -> tuple[Mask, Mask, Mask]:
     """Return (c,) masks of the components to turn, of outward ones in the material of others, and
     of cavities.
 
@@ -234,7 +233,7 @@ def orient_nested_components(
     return sign != given, (sign > 0.0) & (around >= 1.0), (sign < 0.0) & (around >= 1.0)
 
 
-def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
+def cavity_host(relations: ComponentRelations, cavity: Mask) -> Index:
     """Return (c,) hosts: for a cavity the innermost component around it that is not cut yet, else
     itself.
     """
@@ -253,7 +252,7 @@ def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDA
     return host
 
 
-def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[np.intp]:
+def _innermost_container(relations: ComponentRelations, number: int) -> Index:
     """Return the (number,) innermost components around the components, -1 for none."""
     inner, outer = relations.containers()
     depth = np.bincount(inner, minlength=number)
@@ -270,7 +269,7 @@ def _classify_by_samples(
     small: NDArray,
     large: NDArray,
     tolerance: float,
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+) -> tuple[Index, Index]:
     """Count, by pair, decidable points under the smaller component's skin inside and outside the
     larger one.
     """
@@ -310,7 +309,7 @@ def _interior_samples(
     k: NDArray,
     number: int | NDArray[np.integer],
     tolerance: float,
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the `k`-th of `number` points under the skin of each `component`, (n, 3) about the
     tree's origin.
     """

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..mesh.bvh import SortedComponents, sort_components
 from ..mesh.surface import Surface, triangle_areas
 from ..moments.moments import Moments, sum_moments
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import PerBody, lengths
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.health import MeshHealth
@@ -34,19 +35,19 @@ class ComponentComparison:
     `ClosedParts.host_part`. `undecided_pairs`: number of pairs that would have been too much work.
     """
 
-    flipped: NDArray[np.bool_]
-    solid: NDArray[np.bool_]
-    nested: NDArray[np.bool_]
-    cavities: NDArray[np.bool_]
-    intersecting: NDArray[np.bool_]
-    breaking: NDArray[np.bool_]
+    flipped: Mask
+    solid: Mask
+    nested: Mask
+    cavities: Mask
+    intersecting: Mask
+    breaking: Mask
     breakthrough: float
-    host: NDArray[np.intp]
+    host: Index
     undecided_pairs: int
 
     @classmethod
     def from_relations(
-        cls, components: SortedComponents, relations: ComponentRelations, solid: NDArray[np.bool_]
+        cls, components: SortedComponents, relations: ComponentRelations, solid: Mask
     ) -> ComponentComparison:
         """Decide which components to turn, from the relations between the solid ones."""
         flipped, nested, cavities = orient_nested_components(components, relations, solid)
@@ -99,7 +100,7 @@ class ClosedParts:
     number: int
     host_part: NDArray[np.integer]
 
-    def areas(self, linear: NDArray | None = None) -> NDArray[np.float64]:
+    def areas(self, linear: NDArray | None = None) -> Array:
         """Return (t,) areas of the triangles under a (3, 3) map, by default as they are."""
         points = self.points.astype(np.float64)
         if linear is not None:
@@ -124,9 +125,9 @@ class OrientedSolid:
     surface: Surface
     volume: Moments
     is_solid: bool
-    solid: NDArray[np.bool_]
-    turned: NDArray[np.bool_]
-    reversed: NDArray[np.bool_]
+    solid: Mask
+    turned: Mask
+    reversed: Mask
     comparison: ComponentComparison | None
 
     def closed_parts(self) -> ClosedParts:
@@ -230,8 +231,8 @@ def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -
 def _oriented_surface(
     surface: Surface,
     mesh: RepairedMesh,
-    flip: NDArray[np.bool_],
-    solid: NDArray[np.bool_],
+    flip: Mask,
+    solid: Mask,
     proven: bool,
 ) -> Surface:
     """Return the surface with the signed sum of the body."""
@@ -266,7 +267,7 @@ def _oriented_surface(
 def _integrate_oriented(
     given: GivenIntegrals,
     mesh: RepairedMesh,
-    flip: NDArray[np.bool_],
+    flip: Mask,
     measured: Surface,
     threads: int,
 ) -> Moments:

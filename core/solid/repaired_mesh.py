@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.edges import Edges
+from ..numerics.array_types import Array, Index, Mask
 from ..verdict.finding import Finding
 from ..verdict.health import MeshHealth
 from .boundary_loops import side_ends
@@ -42,8 +43,8 @@ class OpenParts:
     vertices along open edges, or all if no edge is known, sorted.
     """
 
-    rows: NDArray[np.intp]
-    vertices: NDArray[np.intp]
+    rows: Index
+    vertices: Index
     are_all: bool
 
 
@@ -56,12 +57,12 @@ class ZeroAreaLoops:
     `misoriented`: (l,) the two sides of each joint; True if the faces there disagree.
     """
 
-    sides: NDArray[np.intp]
-    loop: NDArray[np.intp]
+    sides: Index
+    loop: Index
     number: int
-    first: NDArray[np.intp]
-    second: NDArray[np.intp]
-    misoriented: NDArray[np.bool_]
+    first: Index
+    second: Index
+    misoriented: Mask
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,9 +73,9 @@ class FoldedLoops:
     triangles that close them.
     """
 
-    components: NDArray[np.bool_]
-    sides: NDArray[np.intp]
-    caps: NDArray[np.intp]
+    components: Mask
+    sides: Index
+    caps: Index
     number: int
 
 
@@ -89,14 +90,14 @@ class RepairState:
     components that may still be closed.
     """
 
-    given: NDArray[np.intp]
+    given: Index
     edges: Edges = UNKNOWN
     component_edges: Edges = UNKNOWN
     open_parts: OpenParts | None = None
     gaps: ZeroAreaLoops = UNKNOWN
     folded: FoldedLoops = UNKNOWN
-    one_sided: NDArray[np.bool_] = UNKNOWN
-    uncapped_sides: NDArray[np.intp] = field(default_factory=NO_INDICES.view)
+    one_sided: Mask = UNKNOWN
+    uncapped_sides: Index = field(default_factory=NO_INDICES.view)
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,17 +119,17 @@ class RepairedMesh:
     points: NDArray[np.floating]
     triangles: NDArray[np.integer]
     face: NDArray[np.integer]
-    flipped: NDArray[np.bool_]
-    component: NDArray[np.intp]
+    flipped: Mask
+    component: Index
     number: int
-    open: NDArray[np.bool_]
-    caps: NDArray[np.float64]
+    open: Mask
+    caps: Array
     report: MeshHealth
     topology_changed: bool = False
     max_displacement: float = 0.0
     left_out: NDArray[np.integer] = field(default_factory=NO_INDICES.view)
-    capped_edges: NDArray[np.intp] = field(default_factory=NO_EDGES.view)
-    capped_component: NDArray[np.intp] = field(default_factory=NO_INDICES.view)
+    capped_edges: Index = field(default_factory=NO_EDGES.view)
+    capped_component: Index = field(default_factory=NO_INDICES.view)
     findings: tuple[Finding, ...] = ()
     state: RepairState = UNKNOWN
 
@@ -177,6 +178,6 @@ class RepairedMesh:
         flipped = self.flipped[sides // 3]
         return np.where(flipped, stop, start), np.where(flipped, start, stop)
 
-    def faces_of(self, components: NDArray[np.bool_]) -> NDArray[np.integer]:
+    def faces_of(self, components: Mask) -> NDArray[np.integer]:
         """Return the mesh faces of some components, sorted."""
         return np.unique(self.face[components[self.component] & (self.face >= 0)])

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from ..mesh.scan_lines import FACES_PER_BLOCK, Crossings, LineGrids, find_crossings, line_counts
 from ..mesh.surface import HALVES, Surface, turned_quads
 from ..moments.moments import SECOND_MOMENT_INDEX
+from ..numerics.array_types import Array
 from ..numerics.arrays import sums_by_index
 from ..numerics.vectors import cross, dot
 from ..verdict.health import Intersection
@@ -97,7 +98,7 @@ def _used_points(points: NDArray[np.floating], triangles: NDArray[np.integer]) -
     return Surface(points[used], (np.cumsum(used) - 1)[triangles])
 
 
-def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
+def all_cones_agree(surface: Surface, center: Array) -> bool:
     """Return whether no two faces have opposite sides toward a point.
 
     The surface may go around it several times.
@@ -113,7 +114,7 @@ def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
     return True
 
 
-def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
+def _corner_blocks(surface: Surface) -> Iterator[list[Array]]:
     """Yield the corners of blocks of triangles, three (3, k) arrays; the first blocks of each kind
     are short.
     """
@@ -127,7 +128,7 @@ def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
                 yield [surface.points[block[:, k]].T.astype(np.float64) for k in range(3)]
 
 
-def surrounds_once(surface: Surface, point: NDArray[np.float64], size: float) -> bool:
+def surrounds_once(surface: Surface, point: Array, size: float) -> bool:
     """Return whether a closed surface goes around a point once, one way or the other."""
     found = find_crossings(surface, LineGrids.through_points(point[None], np.array([size])))
     return abs(int(found.sign[found.along > 0.0].sum())) == 1
@@ -142,15 +143,15 @@ class Excess:
     crossed lines that do not enter as often as they leave; 1 if no line is crossed.
     """
 
-    volume: NDArray[np.float64]
-    second_moment: NDArray[np.float64]
-    unsure: NDArray[np.float64]
+    volume: Array
+    second_moment: Array
+    unsure: Array
 
 
 def measure_excess(
     crossings: Crossings,
     grids: LineGrids,
-    tolerance: NDArray[np.float64],
+    tolerance: Array,
     part: NDArray[np.integer] | None = None,
 ) -> Excess:
     """Measure along lines the volume that a closed part counts more than once, or as negative."""

@@ -13,6 +13,7 @@ from ..inertia.mass_properties import are_physical
 from ..mesh.planarity import Planarity
 from ..mesh.surface import Surface, half_ulp, triangle_areas
 from ..moments.moments import Moments
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import unique_pairs
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import Finding, finding
@@ -219,9 +220,7 @@ def judge(
     )
 
 
-def _flipped_faces(
-    mesh: RepairedMesh, turned: NDArray[np.bool_]
-) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
+def _flipped_faces(mesh: RepairedMesh, turned: Mask) -> tuple[NDArray[np.integer], Index]:
     """Return the mesh faces that were turned within their components, and the components turned as
     a whole.
     """
@@ -267,7 +266,7 @@ def _health(
     )
 
 
-def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
+def _of_input(item: Finding, vertices: Index | None) -> Finding:
     """Return the finding with edges in the input's vertices, if unused vertices were left out
     before.
     """
@@ -279,7 +278,7 @@ def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
     )
 
 
-def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume: float) -> bool:
+def _is_slight(mesh: RepairedMesh, rows: Mask, size: float, volume: float) -> bool:
     """Return whether triangles are too small to matter, by their area times the body's size. rows:
     (t,).
     """
@@ -288,9 +287,7 @@ def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume:
     )
 
 
-def _inverted_finding(
-    mesh: RepairedMesh, inverted: NDArray[np.intp], size: float, volume: float
-) -> Finding:
+def _inverted_finding(mesh: RepairedMesh, inverted: Index, size: float, volume: float) -> Finding:
     which = np.zeros(mesh.number, bool)
     which[inverted] = True
     faces = NO_FACES if which.all() else mesh.faces_of(which)
@@ -300,16 +297,14 @@ def _inverted_finding(
     )
 
 
-def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[np.intp]:
+def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> Index:
     """Return the edges of the capped holes of components that have a volume."""
     mesh, vertices = oriented.mesh, checked.vertices
     edges = mesh.capped_edges[oriented.solid[mesh.capped_component]]
     return unique_pairs(edges if vertices is None else vertices[edges])
 
 
-def cap_finding(
-    edges: NDArray[np.intp], caps: NDArray[np.float64], share: float, size: float, volume: float
-) -> Finding:
+def cap_finding(edges: Index, caps: Array, share: float, size: float, volume: float) -> Finding:
     """Return a finding about capped holes. caps: (3,) flat ones, curved ones, their area; share: of
     the surface's.
     """
@@ -354,7 +349,7 @@ def _component_findings(
     return findings
 
 
-def _all_but_largest(mesh: RepairedMesh, which: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _all_but_largest(mesh: RepairedMesh, which: Mask) -> Mask:
     """Return a mask without its component of the largest area: the others contain the shared
     volume.
     """

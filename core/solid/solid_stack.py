@@ -25,6 +25,7 @@ from ..mesh.surface import Surface
 from ..mesh.surface_stack import Connections, SurfaceStack, TriangleStack
 from ..mesh.welding import may_have_neighbor
 from ..moments.moments import Moments, U, sum_moments
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import NEXT_AXIS, PREVIOUS_AXIS
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, small_moments
 from ..verdict.finding import Finding
@@ -52,15 +53,15 @@ class SolidStack:
     Intersection.
     """
 
-    is_measured: NDArray[np.bool_]
-    is_integrated: NDArray[np.bool_]
-    cones: NDArray[np.float64]
+    is_measured: Mask
+    is_integrated: Mask
+    cones: Array
     volume: Moments
     area: Moments
-    size: NDArray[np.float64]
+    size: Array
     planarity: StackPlanarity
     intersection: NDArray[np.object_]
-    component_counts: NDArray[np.intp]
+    component_counts: Index
     caps: StackCaps
 
     def given(self, i: int, surface: Surface) -> GivenIntegrals | None:
@@ -200,20 +201,20 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     )
 
 
-def _renumbered(labels: NDArray[np.intp]) -> NDArray[np.intp]:
+def _renumbered(labels: Index) -> Index:
     """Return labels from 0 on, without gaps, in the same order."""
     return np.unique(labels, return_inverse=True)[1].ravel()
 
 
 def _stand_apart(
     stack: TriangleStack,
-    part: NDArray[np.intp],
-    rows: NDArray[np.intp],
-    counts: NDArray[np.intp],
-    tolerance: NDArray[np.float64],
-    capped: NDArray[np.bool_],
-    error: NDArray[np.float64],
-) -> NDArray[np.bool_]:
+    part: Index,
+    rows: Index,
+    counts: Index,
+    tolerance: Array,
+    capped: Mask,
+    error: Array,
+) -> Mask:
     """Return a (k,) mask of the bodies `rows` whose parts face outward, surely have a volume, and
     stand apart.
     """
@@ -236,7 +237,7 @@ def _stand_apart(
     return np.bincount(body, is_bad) == 0
 
 
-def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
+def _are_stars(stack: TriangleStack, points: NDArray) -> Mask:
     """Return an (n,) mask of the bodies that are star-shaped about their (n, 3) points.
 
     All cones from the point over the faces have one sign, and their solid angles (van Oosterom and
@@ -259,7 +260,7 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
 
 
 def _search_self_intersections(
-    stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]
+    stack: TriangleStack, tolerance: NDArray, part: Index
 ) -> NDArray[np.object_]:
     """Return the (k,) `Intersection` of each body, like `find_self_intersection`. part: (t,)
     triangles' components.
@@ -284,13 +285,13 @@ class StackCaps:
     along the holes, by surface, `edge_counts` each.
     """
 
-    is_capped: NDArray[np.bool_]
+    is_capped: Mask
     triangles: TriangleStack
-    part: NDArray[np.intp]
-    cap_counts: NDArray[np.intp]
-    counts: NDArray[np.float64]
-    edges: NDArray[np.intp]
-    edge_counts: NDArray[np.intp]
+    part: Index
+    cap_counts: Index
+    counts: Array
+    edges: Index
+    edge_counts: Index
 
     def add_to(self, volume: Moments) -> Moments:
         """Return the volume moments of the surfaces with their caps, about the same points."""
@@ -319,7 +320,7 @@ class StackCaps:
             values[rows] = getattr(total, name)
         return replace(volume, **changed)
 
-    def edges_of(self, i: int) -> NDArray[np.intp]:
+    def edges_of(self, i: int) -> Index:
         """Return the (k, 2) edges along the holes of one surface."""
         start = int(self.edge_counts[:i].sum())
         return self.edges[start : start + self.edge_counts[i]]
@@ -328,8 +329,8 @@ class StackCaps:
 def cap_stack(
     stack: SurfaceStack,
     links: Connections,
-    usable: NDArray[np.bool_],
-    tolerance: NDArray[np.float64],
+    usable: Mask,
+    tolerance: Array,
 ) -> StackCaps | None:
     """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,)
     distances of touch.
@@ -372,10 +373,10 @@ def cap_stack(
 
 def _capped(
     stack: SurfaceStack,
-    part: NDArray[np.intp],
-    is_capped: NDArray[np.bool_],
-    tolerance: NDArray[np.float64],
-    side: NDArray[np.intp],
+    part: Index,
+    is_capped: Mask,
+    tolerance: Array,
+    side: Index,
     found: OwnedLoops,
 ) -> StackCaps:
     """Add the caps of loops to their surfaces. part: (t,) components of triangles; side: (r,) sides

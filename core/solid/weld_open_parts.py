@@ -19,6 +19,7 @@ from ..mesh.welding import (
     same_vertices_groups,
     vertex_tolerance,
 )
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import first_occurrence
 from ..numerics.graph import connected_components
 from ..verdict.finding import finding
@@ -105,7 +106,7 @@ def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMe
 
 
 def _find_open_parts(
-    surface: Surface, triangles: NDArray[np.intp], face: NDArray[np.intp]
+    surface: Surface, triangles: Index, face: Index
 ) -> tuple[Edges | None, OpenParts | None]:
     """Return the edges of the triangles that have three different vertices, and the parts to weld;
     each may be None.
@@ -136,8 +137,8 @@ def _find_open_parts(
 
 
 def _weld(
-    mesh: RepairedMesh, rows: NDArray[np.intp], vertices: NDArray[np.intp], same: NDArray[np.intp]
-) -> tuple[RepairedMesh, NDArray[np.intp]]:
+    mesh: RepairedMesh, rows: Index, vertices: Index, same: Index
+) -> tuple[RepairedMesh, Index]:
     """Return the mesh with vertices replaced by `vertices[same]` in `rows`, and (n,) the new vertex
     of each vertex.
     """
@@ -148,7 +149,7 @@ def _weld(
     return copy_with(mesh, triangles=triangles).with_report(welded=True), onto
 
 
-def _unique_sorted(values: NDArray[np.integer], width: int) -> NDArray[np.intp]:
+def _unique_sorted(values: NDArray[np.integer], width: int) -> Index:
     """Return the distinct values, sorted."""
     present = np.zeros(width, bool)
     present[values] = True
@@ -233,7 +234,7 @@ def without_faces(surface: Surface, faces: NDArray[np.integer]) -> Surface:
     )
 
 
-def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np.bool_]:
+def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> Mask:
     """Return an (m,) mask of triangles of faces on another face's vertices. group: from
     `same_vertices_groups`.
     """
@@ -242,9 +243,7 @@ def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDAr
     return copied[group]
 
 
-def _regions_of_one_layer(
-    edges: Edges, later: NDArray[np.bool_], copied: NDArray[np.bool_], agree: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _regions_of_one_layer(edges: Edges, later: Mask, copied: Mask, agree: Array) -> Mask:
     """Return an (m,) mask of triangles in regions to be reduced to one layer; later, copied: masks;
     agree: signs.
     """
@@ -264,7 +263,7 @@ def _regions_of_one_layer(
     return np.where(has_neighbors, votes > 0, (parallel > 0) | closed)[region]
 
 
-def _non_manifold_sides(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.intp]:
+def _non_manifold_sides(edges: Edges, face: NDArray[np.integer]) -> Index:
     """Return the sides on edges with more than two triangles, not counting both sides of a
     polygon's own diagonal.
     """

@@ -28,6 +28,7 @@ from ..mesh.edges import uncancelled_sides
 from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
 from ..numerics.arguments import check_type, float_array, index_array
+from ..numerics.array_types import Array
 from ..numerics.arrays import sums_by_index
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
@@ -53,9 +54,9 @@ class BalanceResult:
     after.
     """
 
-    points: NDArray[np.float64]
-    before: NDArray[np.float64]
-    after: NDArray[np.float64]
+    points: Array
+    before: Array
+    after: Array
 
 
 def balance(
@@ -144,7 +145,7 @@ def _newton_solve(
     step_directions: NDArray,
     movable: NDArray,
     limit: float,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+) -> tuple[Array, Array, float]:
     """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if
     reached.
     """
@@ -183,9 +184,7 @@ def _is_solvable(system: NDArray) -> bool:
     return bool(np.isfinite(strength).all() and strength[-1] > MIN_RELATIVE_EFFECT * strength[0])
 
 
-def _limited_moves(
-    step_directions: NDArray, multiplier: NDArray, limit: float
-) -> NDArray[np.float64]:
+def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) -> Array:
     """Return (k, 3) moves: (r, k, 3) step directions times the (r,) multiplier, each cut to the
     limit.
     """
@@ -198,7 +197,7 @@ def _limited_moves(
 
 def _center_jacobian(
     step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the (r, r) derivative of the center by the multiplier; moves cut to the limit can turn
     but not grow.
     """
@@ -328,7 +327,7 @@ class _Fans:
         ) < 0.0  # Faces that are not convex.
         self.fan = fan
 
-    def center_gradient(self, center: NDArray) -> NDArray[np.float64]:
+    def center_gradient(self, center: NDArray) -> Array:
         """Return (n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its
         vertices.
         """

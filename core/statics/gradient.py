@@ -31,12 +31,13 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh.surface import Surface
 from ..moments.exponents import monomial_count
 from ..numerics.arguments import check_type, float_array
+from ..numerics.array_types import Array
 from ..numerics.vectors import cross
 
 TRIANGLES_PER_BLOCK = 65536  # triangles at a time
 
 
-def volume_gradient(surface: Surface, about: ArrayLike, order: int = 1) -> NDArray[np.float64]:
+def volume_gradient(surface: Surface, about: ArrayLike, order: int = 1) -> Array:
     """Return the derivatives of the volume moments to order two at most by every vertex.
 
     Parameters
@@ -64,7 +65,7 @@ def volume_gradient(surface: Surface, about: ArrayLike, order: int = 1) -> NDArr
     return _gradient(surface, about, partial(_volume_shares, order=order), monomial_count(order))
 
 
-def area_gradient(surface: Surface, about: ArrayLike) -> NDArray[np.float64]:
+def area_gradient(surface: Surface, about: ArrayLike) -> Array:
     """Return the derivatives of the area and its first moments by every vertex.
 
     Parameters
@@ -90,9 +91,7 @@ def area_gradient(surface: Surface, about: ArrayLike) -> NDArray[np.float64]:
     return _gradient(surface, about, _area_shares, monomial_count(1))
 
 
-def _gradient(
-    surface: Surface, about: ArrayLike, shares: Callable, count: int
-) -> NDArray[np.float64]:
+def _gradient(surface: Surface, about: ArrayLike, shares: Callable, count: int) -> Array:
     check_type("surface", surface, Surface)
     about = float_array("about", about, 3)
     points = surface.points.astype(np.float64)

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.surface import Surface
+from ..numerics.array_types import Array
 from ..polyhedron.integration import polyhedron_moments
 
 DEGREE = 4  # The degree of the first moments.
@@ -32,11 +33,11 @@ class Mixes:
     `exponents`: (c, k) the powers of the mixing values that each coefficient belongs to.
     """
 
-    coefficients: NDArray[np.float64]
+    coefficients: Array
     exponents: NDArray[np.integer]
-    about: NDArray[np.float64]
+    about: Array
 
-    def at(self, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def at(self, values: ArrayLike) -> tuple[Array, Array]:
         """Return (f,) volumes and (f, 3) centers of mixes by (f, k) values; NaN for flat and
         inside-out ones.
         """
@@ -80,6 +81,6 @@ def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
     return Mixes(np.asarray(coefficients, np.float64), exponents, about)
 
 
-def _powers(values: NDArray, exponents: NDArray) -> NDArray[np.float64]:
+def _powers(values: NDArray, exponents: NDArray) -> Array:
     """Return the (f, c) products of (f, k) values to the powers (c, k)."""
     return np.prod(values[:, None, :] ** exponents, axis=2)

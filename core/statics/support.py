@@ -31,6 +31,7 @@ from ..mesh.hulls import ConvexHull, convex_polygon
 from ..mesh.point_triangle import solid_angles
 from ..mesh.surface import normals
 from ..numerics.arguments import check_filled, check_type, float_array
+from ..numerics.array_types import Array, Index, Mask
 from ..numerics.arrays import sums_by_index
 from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
@@ -57,12 +58,12 @@ class Support:
     which the body tips first or falls. `up`: unit vector against gravity.
     """
 
-    polygon: NDArray[np.float64]
-    foot: NDArray[np.float64]
+    polygon: Array
+    foot: Array
     height: float
     margin: float
-    direction: NDArray[np.float64]
-    up: NDArray[np.float64]
+    direction: Array
+    up: Array
 
     @property
     def stands(self) -> bool:
@@ -83,7 +84,7 @@ class Support:
         """True if the margin is below a tenth of the polygon's extent."""
         return self.margin < NEAR * float(np.linalg.norm(np.ptp(self.polygon, axis=0)))
 
-    def target(self, margin: float | None) -> NDArray[np.float64]:
+    def target(self, margin: float | None) -> Array:
         """Return the (3,) polygon point nearest to the foot with a margin; the middle if it is None
         or too large.
         """
@@ -93,7 +94,7 @@ class Support:
         return self.foot + axes @ (inside[0] if len(inside) else polygon_middle(corners))
 
 
-def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
+def ground_axes(down: ArrayLike) -> Array:
     """Return a (3, 3) rotation with two columns along the ground and the third up; down: direction
     of gravity.
     """
@@ -147,7 +148,7 @@ def find_contacts(
     ground: float,
     reach: float,
     may_touch: ArrayLike = True,
-) -> tuple[NDArray[np.intp], NDArray[np.float64], float]:
+) -> tuple[Index, Array, float]:
     """Return the rows of the points that touch level ground, their (k, 3) places in the world, and
     the least height.
 
@@ -190,7 +191,7 @@ def support_of_contacts(
     )
 
 
-def polygon_margin(corners: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
+def polygon_margin(corners: Array) -> tuple[float, Array]:
     """Return the distance of the origin inside a convex polygon, and the unit vector over the
     nearest edge.
 
@@ -218,7 +219,7 @@ def polygon_margin(corners: NDArray[np.float64]) -> tuple[float, NDArray[np.floa
     return 0.0, np.array([side[1], -side[0]])
 
 
-def polygon_middle(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def polygon_middle(corners: Array) -> Array:
     """Return the centroid, (2,), of the area of a convex polygon, or else of a line or point."""
     first = corners - corners[0]
     second = np.roll(corners, -1, axis=0) - corners[0]
@@ -228,7 +229,7 @@ def polygon_middle(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return corners[0] + areas @ (first + second) / (3.0 * areas.sum())
 
 
-def nearest_inside(corners: NDArray[np.float64], margin: float) -> NDArray[np.float64]:
+def nearest_inside(corners: Array, margin: float) -> Array:
     """Return the (1, 2) point nearest to the origin that is `margin` inside a convex polygon, none
     if there is none.
     """
@@ -261,13 +262,13 @@ class RestingPoses:
     the ground.
     """
 
-    normals: NDArray[np.float64]
-    shares: NDArray[np.float64]
-    margins: NDArray[np.float64]
-    heights: NDArray[np.float64]
+    normals: Array
+    shares: Array
+    margins: Array
+    heights: Array
 
     @property
-    def tipping_angles(self) -> NDArray[np.float64]:
+    def tipping_angles(self) -> Array:
         """(k,) tilts of the ground at which the body tips, in radians."""
         return np.arctan2(self.margins, self.heights)
 
@@ -336,11 +337,11 @@ def resting_poses(
 def _faces(
     points: NDArray, hull: ConvexHull, least: float
 ) -> tuple[
-    NDArray[np.intp],
-    NDArray[np.float64],
-    NDArray[np.float64],
-    NDArray[np.float64],
-    NDArray[np.intp],
+    Index,
+    Array,
+    Array,
+    Array,
+    Index,
 ]:
     """Return (m,) faces of a hull's triangles, (f, 3) unit normals, (f,) heights of the center,
     margins and neighbors.
@@ -378,7 +379,7 @@ def _faces(
 
 def _coplanar(
     points: NDArray, triangles: NDArray, neighbors: NDArray, double: NDArray, least: float
-) -> tuple[NDArray[np.intp], int]:
+) -> tuple[Index, int]:
     """Return the (m,) faces of the triangles, and the number of faces.
 
     Neighbors are in one plane if the corner of the smaller one is in the plane of the larger. A
@@ -406,7 +407,7 @@ def _coplanar(
     flat = (cosine >= 0.0) & (np.abs(np.einsum("ij,ij->i", unit[triangle], apart)) <= least)
     order = np.argsort(lengths, kind="stable")
 
-    def join_triangles(pairs: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    def join_triangles(pairs: Mask) -> tuple[Index, Mask]:
         """Return the (m,) groups of triangles joined by these pairs, and an (m,) mask of groups not
         in one plane.
         """

@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 from ..files.damage import refuse_non_finite
 from ..mesh.surface import Surface
 from ..mesh.welding import first_at_equal_position
+from ..numerics.array_types import Array, Index, Mask
 
 CORNERS_PER_BLOCK = 1 << 18
 
-Box = tuple[NDArray[np.float64], NDArray[np.float64]]
+Box = tuple[Array, Array]
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,10 +77,10 @@ class Polygons:
     """Faces that come in blocks of (n, k) corners."""
 
     def __init__(self) -> None:
-        self._blocks: list[tuple[NDArray[np.intp], NDArray[np.integer]]] = []
+        self._blocks: list[tuple[Index, NDArray[np.integer]]] = []
         self._count = 0
 
-    def add(self, corners: NDArray[np.integer], rows: NDArray[np.intp] | None = None) -> None:
+    def add(self, corners: NDArray[np.integer], rows: Index | None = None) -> None:
         """Add faces. rows: (n,) their places among all faces, by default behind the others."""
         rows = self._count + np.arange(len(corners)) if rows is None else rows
         self._blocks.append((rows, corners))
@@ -113,7 +114,7 @@ def without_repeats(
     return corners[keep], left[left > 2]
 
 
-def merge_equal(points: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
+def merge_equal(points: NDArray[np.float32]) -> tuple[NDArray[np.float32], Index]:
     """Return the different points of (n, 3), in the order of their first places, and the (n,) index
     of each point.
     """
@@ -179,7 +180,7 @@ def tessellate(points: NDArray[np.floating], polygons: NDArray[np.integer]) -> N
     return triangles
 
 
-def _flatten(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def _flatten(corners: Array) -> Array:
     """Return the (n, k, 2) corners of (n, k, 3) polygons seen against their normals, stretched by
     any factor.
     """
@@ -202,7 +203,7 @@ class _Ears:
     convex corners.
     """
 
-    def __init__(self, corners: NDArray[np.float64]) -> None:
+    def __init__(self, corners: Array) -> None:
         self._corners = corners
         self._count, self._sides = corners.shape[:2]
         self._every = np.arange(self._count)
@@ -215,7 +216,7 @@ class _Ears:
             [self._signs(self._every, self._every * 0 + corner) for corner in ring], axis=1
         )
 
-    def cut(self) -> NDArray[np.intp]:
+    def cut(self) -> Index:
         """Return the (n, k - 2, 3) corners of the triangles, from 0 to k - 1."""
         every = self._every
         before = self._before
@@ -242,9 +243,7 @@ class _Ears:
         triangles[:, -1] = np.stack([corner, after[every, corner], before[every, corner]], axis=1)
         return triangles
 
-    def _find(
-        self, start: NDArray[np.intp], is_backward: NDArray[np.bool_], left: int
-    ) -> NDArray[np.intp]:
+    def _find(self, start: Index, is_backward: Mask, left: int) -> Index:
         """Return the (n,) ears: convex corners, else straight ones, else those that are not
         concave, else any.
         """
@@ -267,7 +266,7 @@ class _Ears:
                 )
         return found
 
-    def _holds_corner(self, which: NDArray[np.intp], tip: NDArray[np.intp]) -> NDArray[np.bool_]:
+    def _holds_corner(self, which: Index, tip: Index) -> Mask:
         """Return whether another corner that is not convex lies in the triangle at a corner, or on
         its edges.
         """
@@ -283,11 +282,11 @@ class _Ears:
         )
         return np.bincount(row[is_within], minlength=len(which)) > 0
 
-    def _signs(self, which: NDArray[np.intp], corner: NDArray[np.intp]) -> NDArray[np.int8]:
+    def _signs(self, which: Index, corner: Index) -> NDArray[np.int8]:
         ends = self._before[which, corner], corner, self._after[which, corner]
         return np.sign(_area(*(self._corners[which, end] for end in ends))).astype(np.int8)
 
 
-def _area(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
+def _area(a: NDArray, b: NDArray, c: NDArray) -> Array:
     """Return twice the signed areas of (n, 2) triangles, positive if they are counter-clockwise."""
     return (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])

@@ -34,6 +34,7 @@ from ..files.text_fields import (
     shorten,
 )
 from ..mesh.surface import Surface
+from ..numerics.array_types import Index
 from ..verdict.finding import FileError
 from .file_mesh import (
     Box,
@@ -198,7 +199,7 @@ class PlyFile:
         return np.empty((self._vertices.rows, 3), np.float64 if is_exact else np.float32)
 
     def _fill_points(
-        self, points: NDArray[np.floating], rows: NDArray[np.intp], columns: list[NDArray]
+        self, points: NDArray[np.floating], rows: Index, columns: list[NDArray]
     ) -> None:
         # Such points become infinite, and are refused.
         with np.errstate(over="ignore", invalid="ignore"):
@@ -207,7 +208,7 @@ class PlyFile:
 
     def _blocks(
         self, wanted: Element | None = None
-    ) -> Iterator[tuple[Element, NDArray[np.intp], list[NDArray]]]:
+    ) -> Iterator[tuple[Element, Index, list[NDArray]]]:
         """Yield element, numbers of rows, and columns of the blocks of one element, or of all."""
         with open(self._path, "rb") as file:
             file.seek(self._header.start)
@@ -331,7 +332,9 @@ def _pattern_of(element: Element) -> bytes:
         number = SHORT if element.name == "vertex" and one.name in ("x", "y", "z") else SHORT_OR_NAN
         if one.counter:
             item = SHORT_WHOLE if _is_whole(one) else number
-            number = b"(?:%b)" % b"|".join(rb"%d(?>(?:[ \t]++%b){%d})" % (n, item, n) for n in LENGTHS)
+            number = b"(?:%b)" % b"|".join(
+                rb"%d(?>(?:[ \t]++%b){%d})" % (n, item, n) for n in LENGTHS
+            )
         fields.append(number)
     return rb"[ \t]++".join(fields)
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..files.text_fields import parse_decimals
+from ..numerics.array_types import Array, Index
 
 BYTES_PER_BLOCK = 1 << 22  # of a text a quarter
 FEW_ROWS = 64  # Rows of equal lengths: after so many, a run of them is looked for.
@@ -27,7 +28,7 @@ _DECIMAL = b"0123456789.eE+- \t\r\n\v\f"
 _NOT_A_NUMBER = re.compile(rb"(?<!\S)[+-]?(?:nan\(\w*\)|1\.#\w+)", re.IGNORECASE)
 
 # The numbers of rows, and their columns: (n,) numbers or (n, k) lists.
-Block = tuple[NDArray[np.intp], list[NDArray]]
+Block = tuple[Index, list[NDArray]]
 MAX_HEADER = 1 << 20  # bytes
 INDICES = "vertex_indices", "vertex_index"  # names of the list of vertices of a face
 END = re.compile(rb"^end_header[ \t]*\r?\n", re.MULTILINE)
@@ -98,9 +99,7 @@ class RowReader:
             self._buffer = self._buffer[end:]
             done += count
 
-    def _scan(
-        self, properties: Sequence[Property], rows: int
-    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def _scan(self, properties: Sequence[Property], rows: int) -> tuple[Index, Index]:
         """Return (n + 1,) offsets of the next rows in the buffer, and the (n, lists) lengths of
         their lists.
         """
@@ -170,9 +169,7 @@ class RowReader:
             table = np.frombuffer(parts.tobytes(), row)
             yield first + rows, [table[name] for name in _names(properties)]
 
-    def _row_type(
-        self, properties: Sequence[Property], lengths: Sequence[int] | NDArray[np.intp]
-    ) -> np.dtype:
+    def _row_type(self, properties: Sequence[Property], lengths: Sequence[int] | Index) -> np.dtype:
         fields: list[tuple] = []
         left = iter(enumerate(lengths))
         for name, one in zip(_names(properties), properties):
@@ -205,7 +202,7 @@ class RowReader:
                 return
             self._buffer = np.concatenate([self._buffer, more]) if len(self._buffer) else more
 
-    def _numbers(self) -> NDArray[np.float64]:
+    def _numbers(self) -> Array:
         """Return the next (n,) numbers of a text, n = 0 at its end. Raises RowsError."""
         while True:
             chunk = self._file.read(BYTES_PER_BLOCK // 4)

@@ -37,6 +37,7 @@ from ..files.number_text import (
     parse_whole,
 )
 from ..files.text_fields import BLOCK, MAX_FLOAT32, MAX_TEXT
+from ..numerics.array_types import Array
 from ..verdict.finding import FileError, system_reason
 from .findings import THREEMF_EXTENSION
 
@@ -72,7 +73,7 @@ class _Object:
     type: str = MODEL
     points: array = field(default_factory=lambda: array("d"))
     triangles: array = field(default_factory=lambda: array("q"))
-    components: list[tuple[str, str, NDArray[np.float64]]] = field(default_factory=list)
+    components: list[tuple[str, str, Array]] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -85,9 +86,9 @@ class Placed:
 
     name: str
     key: tuple[str, str]
-    points: NDArray[np.float64]
+    points: Array
     triangles: NDArray[np.int64]
-    matrix: NDArray[np.float64]
+    matrix: Array
     hidden: str = ""
 
 
@@ -166,7 +167,7 @@ class _Package:
         self,
         part: str,
         identifier: str,
-        matrix: NDArray[np.float64],
+        matrix: Array,
         hidden: str,
         above: tuple[tuple[str, str], ...] = (),
         name: str = "",
@@ -223,7 +224,7 @@ class _Model:
         self._part = part
         self.unit, self._tag = "millimeter", ""
         self.objects: dict[str, _Object] = {}
-        self.items: list[tuple[str, str, NDArray[np.float64], str]] = []
+        self.items: list[tuple[str, str, Array, str]] = []
         self._object = _Object("")
         self._spaces: dict[str, str] = {}
         parser = _parser()
@@ -268,7 +269,7 @@ class _Model:
                 if not self._spaces.get(prefix, prefix).endswith(_KNOWN):
                     raise FileError(THREEMF_EXTENSION, name=self._spaces.get(prefix, prefix))
 
-    def _reference(self, values: dict[str, str]) -> tuple[str, str, NDArray[np.float64]]:
+    def _reference(self, values: dict[str, str]) -> tuple[str, str, Array]:
         path = next(
             (value for name, value in values.items() if name.endswith("production/2015/06 path")),
             self._part,
@@ -279,7 +280,7 @@ class _Model:
         return path, values["objectid"], matrix
 
 
-def _transform(text: str) -> NDArray[np.float64]:
+def _transform(text: str) -> Array:
     """Return the (3, 4) matrix of a text, which lists its columns.
 
     ValueError, with the text, if it is wrong.

@@ -30,6 +30,7 @@ from ..mesh.edges import find_edges
 from ..mesh.surface import Surface
 from ..mesh.welding import first_at_equal_position
 from ..moments.moments import U
+from ..numerics.array_types import Array, Mask
 from ..solid.boundary_loops import vertex_pairs
 from ..verdict.finding import MeasureError
 from .findings import NO_FACE_AREA, WALL_INCONSISTENT_FACES, WALL_NON_MANIFOLD
@@ -64,10 +65,10 @@ class OffsetDirections:
     weights. has_normal: (m,) False if ignored.
     """
 
-    vectors: NDArray[np.float64]
-    tangential_error: NDArray[np.float64]
-    normal_error: NDArray[np.float64]
-    has_normal: NDArray[np.bool_]
+    vectors: Array
+    tangential_error: Array
+    normal_error: Array
+    has_normal: Mask
 
 
 def blocks(triangles: NDArray) -> Iterator[NDArray]:
@@ -78,7 +79,7 @@ def blocks(triangles: NDArray) -> Iterator[NDArray]:
     )
 
 
-def weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+def weld_equal(surface: Surface) -> tuple[Array, NDArray[np.integer]]:
     """Return points and triangles with one vertex for each place, and refuse edges that a wall
     cannot have.
     """
@@ -105,7 +106,7 @@ def weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.intege
 
 
 def offset_directions(
-    points: NDArray[np.float64], triangles: NDArray[np.integer], stored: float = 0.0
+    points: Array, triangles: NDArray[np.integer], stored: float = 0.0
 ) -> OffsetDirections:
     """Return the direction of every vertex of float64 points, which storing has moved by at most
     `stored`.
@@ -120,7 +121,7 @@ def offset_directions(
     normals = np.repeat(normals[solid], 3, axis=0)
     total = np.maximum(np.bincount(corner, weight, count), np.finfo(float).tiny)
 
-    def mean(values: NDArray) -> NDArray[np.float64]:
+    def mean(values: NDArray) -> Array:
         return np.bincount(corner, weight * values, count) / total
 
     middle = np.stack([mean(column) for column in normals.T], axis=1)
@@ -179,9 +180,7 @@ def offset_directions(
     )
 
 
-def _smooth_in_plane(
-    points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray
-) -> NDArray[np.float64]:
+def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> Array:
     """Return vectors made even by conjugate gradients along projections `free`, (n, 3, 3);
     boundaries stay.
     """
@@ -209,7 +208,7 @@ def _smooth_in_plane(
     stop = np.roll(triangles, -1, axis=1).ravel()
     weight = weight.ravel()
 
-    def gradient(steps: NDArray) -> NDArray[np.float64]:
+    def gradient(steps: NDArray) -> Array:
         """Return half the gradient of Σ cot |d_i - d_j|², in the free directions."""
         force = weight[:, None] * (steps[start] - steps[stop])
         total = np.stack(
@@ -244,7 +243,7 @@ def _smooth_in_plane(
     return vectors
 
 
-def _group_maximum(values: NDArray, group: NDArray, count: int) -> NDArray[np.float64]:
+def _group_maximum(values: NDArray, group: NDArray, count: int) -> Array:
     """Return the (count,) largest of the (k,) values in each group, zero for empty groups."""
     order = np.argsort(values)
     maximum = np.zeros(count)

@@ -12,12 +12,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh.edges import find_edges
 from ..mesh.surface import Surface
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arguments import check_type
+from ..numerics.array_types import Array
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.vectors import cross
 from ..polyhedron.integration import polyhedron_moments
@@ -87,7 +87,7 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
     )
 
 
-def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], order: int) -> Moments:
+def _strip_moments(corners: Array, about: Array, order: int) -> Moments:
     """Return moments of the cones from `about` over bilinear patches, (4, k, 3) relative to it, by
     an exact rule.
     """

@@ -36,6 +36,7 @@ from ..moments.moments import (
     monomials,
 )
 from ..numerics.arguments import check_type
+from ..numerics.array_types import Array
 from ..numerics.graph import connected_components
 from ..numerics.vectors import cross
 from ..solid.nesting import classify_pairs, self_overlaps, surfaces_intersect
@@ -81,16 +82,16 @@ class OffsetSolid:
     thickness asked for. degenerate_triangles: swept, but without a known normal.
     """
 
-    points: NDArray[np.float64]
-    vectors: NDArray[np.float64]
+    points: Array
+    vectors: Array
     triangles: NDArray[np.integer]
-    about: NDArray[np.float64]
-    coefficients: NDArray[np.float64]
-    rounding_error: NDArray[np.float64]
-    input_error: NDArray[np.float64]
-    swept_bound: NDArray[np.float64]
-    swept_rounding: NDArray[np.float64]
-    reach: NDArray[np.float64]
+    about: Array
+    coefficients: Array
+    rounding_error: Array
+    input_error: Array
+    swept_bound: Array
+    swept_rounding: Array
+    reach: Array
     outward: float
     inward: float
     outward_at: int
@@ -121,7 +122,7 @@ class OffsetSolid:
             raw, self.about, Measure.VOLUME, error, np.minimum(self.input_error @ both, moved)
         )
 
-    def box(self, inward: float, outward: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def box(self, inward: float, outward: float) -> tuple[Array, Array]:
         """Return the smallest and the largest coordinates of the wall, (3,) and (3,)."""
         sides = [self.points - inward * self.vectors, self.points + outward * self.vectors]
         return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
@@ -176,7 +177,7 @@ class OffsetSolid:
             self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0]
         )
 
-    def first_fold_location(self, side: str) -> NDArray[np.float64]:
+    def first_fold_location(self, side: str) -> Array:
         """Return the (3,) middle of the triangle that folds first. side: "inward", "outward" or
         "centered".
         """
@@ -339,14 +340,14 @@ class _Prisms:
         """
         return self.own_size, JACOBIAN_ROUNDINGS * U * self._sizes(), self.double
 
-    def _sizes(self) -> NDArray[np.float64]:
+    def _sizes(self) -> Array:
         """Return (3, m) bounds of the coefficients of J."""
         return (
             np.array([self.long**2, 2.0 * self.long * self.turned_length, self.turned_length**2])
             * self.far
         )
 
-    def sums(self) -> NDArray[np.float64]:
+    def sums(self) -> Array:
         """Return the (20, 6) coefficients of the moments."""
         sums = np.zeros((monomial_count(ORDER), COEFFICIENT_COUNT))
         count = self.points.shape[2]
@@ -371,9 +372,7 @@ class _Prisms:
             sums[monomial_index(*exponents), : len(values)] = values
         return sums
 
-    def bounds(
-        self, tangential_error: NDArray, normal_error: NDArray, stored: float
-    ) -> NDArray[np.float64]:
+    def bounds(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> Array:
         """Return (3, 7) coefficients in s, summed over the prisms: a row of sizes of J, and two
         rows of changes.
 
@@ -404,9 +403,7 @@ class _Prisms:
             coefficients.append(np.array(change + place))
         return np.add.reduce(np.array(coefficients), axis=2) / 2.0
 
-    def swept(
-        self, tangential_error: NDArray, normal_error: NDArray, stored: float
-    ) -> NDArray[np.float64]:
+    def swept(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> Array:
         """Return (4,) coefficients in s of the volume swept as points and directions move by their
         errors.
         """
@@ -430,7 +427,7 @@ class _Prisms:
 
 def _swept_by_strips(
     points: NDArray, vectors: NDArray, triangles: NDArray, stored: float, slide: float
-) -> NDArray[np.float64]:
+) -> Array:
     """Return (4,) coefficients in s of the volume that the strips along the boundary sweep, as
     `_Prisms.swept`.
     """
@@ -443,14 +440,14 @@ def _swept_by_strips(
 
 def _propagate_error(
     bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Array, Array]:
     """Return (20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of
     `_Prisms.bounds`.
     """
     place = reach[0] + stored
     step = reach[1]
 
-    def times(row: NDArray, exponents: list[int]) -> NDArray[np.float64]:
+    def times(row: NDArray, exponents: list[int]) -> Array:
         for axis, power in enumerate(exponents):
             for _ in range(power):
                 row = np.convolve(row, (place[axis], step[axis]))
@@ -470,7 +467,7 @@ def _propagate_error(
     return error, moved
 
 
-def first_positive_root(jacobian: NDArray, error: NDArray) -> NDArray[np.float64]:
+def first_positive_root(jacobian: NDArray, error: NDArray) -> Array:
     """Return (m,) the s up to which three quadratics, a y² + b y + c with y = 1 / s, are certainly
     positive.
 

@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from ...blender.scale import meters_per_unit
 from ...blender.session import memory
 from ...blender.settings.scene import BodyMomentsOverlaySettings
+from ...core.numerics.array_types import Array
 from . import appearance as look
 from . import discs, lines
 from .bodies import Bodies, Entry, collect
@@ -52,10 +53,10 @@ class _Drawn:
     entries: list[Entry]
     active: int
     bodies: Bodies
-    segments: NDArray[np.float64]
+    segments: Array
     lines: tuple[Batch, ...]  # faint, full
     fills: tuple[Batch, ...]
-    texts: tuple[tuple[NDArray[np.float64], str, NDArray], ...]
+    texts: tuple[tuple[Array, str, NDArray], ...]
     discs: tuple[Batch, ...] = ()  # hidden, seen
     view_key: tuple = ()  # view of these discs
 

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from bpy.types import Collection, Context, Object
-from numpy.typing import NDArray
 
 from ...blender.session.displayed import ASSEMBLY, Displayed, all_drawn, drawn_bone, total
 from ...blender.session.tracking.staleness import stale_reason
 from ...blender.settings.assembly import active_assembly, settings_of
 from ...blender.write import properties
 from ...core.inertia.plain_body import PlainBody, add_bodies
+from ...core.numerics.array_types import Array, Index, Mask
 from ...core.verdict.verdict import Verdict
 from . import appearance as look
 
@@ -35,12 +35,12 @@ class Bodies:
     `shows_axes`, `shows_drop`: (n,) masks of the bodies with these lines.
     """
 
-    centers: NDArray[np.float64]
-    axes: NDArray[np.float64]
-    gyration: NDArray[np.float64]
-    verdicts: NDArray[np.intp]
-    shows_axes: NDArray[np.bool_]
-    shows_drop: NDArray[np.bool_]
+    centers: Array
+    axes: Array
+    gyration: Array
+    verdicts: Index
+    shows_axes: Mask
+    shows_drop: Mask
 
     @classmethod
     def of(cls, entries: Sequence[Entry], unit: float) -> Bodies:

@@ -18,6 +18,7 @@ from ...blender.session import character
 from ...blender.session.character.weight import Weight
 from ...blender.session.stored import balance_groups, faults, stability
 from ...blender.write import reports
+from ...core.numerics.array_types import Array
 from ...core.rig.motion import ballistic_arc, find_flights
 from ...core.statics.support import Support
 from ..rig import standing
@@ -26,7 +27,7 @@ from .draw import shows_weight
 
 FILL = 0.25  # opacity of faces
 ARROW = 0.12  # length of the tipping arrow's head, relative to the support polygon's extent
-Colored = tuple[NDArray[np.float64], NDArray[np.float32]]
+Colored = tuple[Array, NDArray[np.float32]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +40,7 @@ class Detail:
 
     segments: Colored
     triangles: Colored
-    texts: tuple[tuple[NDArray[np.float64], str, NDArray], ...] = ()
+    texts: tuple[tuple[Array, str, NDArray], ...] = ()
 
 
 def list_details(context: Context, objects: list[Object]) -> list[Detail]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.numerics.array_types import Array
 from . import glyphs
 from .bodies import Bodies
 
@@ -22,17 +23,17 @@ class View:
     view: (4, 4) world to view. projection: (4, 4) view to clip space. size: (2,) pixels.
     """
 
-    view: NDArray[np.float64]
-    projection: NDArray[np.float64]
-    size: NDArray[np.float64]
+    view: Array
+    projection: Array
+    size: Array
 
-    def depths(self, points: NDArray) -> NDArray[np.float64]:
+    def depths(self, points: NDArray) -> Array:
         """Return (n,) distances of (n, 3) points from the eye along the view, negative behind it in
         perspective.
         """
         return -(points @ self.view[2, :3] + self.view[2, 3])
 
-    def pixels(self, points: NDArray) -> NDArray[np.float64]:
+    def pixels(self, points: NDArray) -> Array:
         """Return (n, 2) screen positions of (n, 3) points, from the lower left corner.
 
         Positions of points behind the eye are meaningless.
@@ -42,7 +43,7 @@ class View:
         scale = np.where(clip[:, 3] == 0.0, 1.0, clip[:, 3])
         return (clip[:, :2] / scale[:, None] + 1.0) / 2.0 * self.size
 
-    def pixel_sizes(self, points: NDArray) -> NDArray[np.float64]:
+    def pixel_sizes(self, points: NDArray) -> Array:
         """Return (n, 2) lengths of a pixel at (n, 3) points, along the width and the height; 0
         behind the eye.
         """
@@ -50,7 +51,7 @@ class View:
         w = seen @ self.projection[3, :3] + self.projection[3, 3]
         return np.maximum(w, 0.0)[:, None] * 2.0 / (self.size * np.diagonal(self.projection)[:2])
 
-    def place(self, anchors: NDArray, offsets: NDArray) -> NDArray[np.float64]:
+    def place(self, anchors: NDArray, offsets: NDArray) -> Array:
         """Return (n, k, 3) world points of shapes of constant screen size at (n, 3) anchors, in the
         offsets' type.
 

@@ -16,11 +16,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.numerics.array_types import Array
 from . import appearance as look
 
 SEGMENTS = 24  # segments of a circle
 DOT_SEGMENTS = 12
-Part = tuple[NDArray[np.float64], NDArray[np.int32]]  # (k, 2) corners in pixels, (l, 3) triangles
+Part = tuple[Array, NDArray[np.int32]]  # (k, 2) corners in pixels, (l, 3) triangles
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,9 +40,7 @@ class Glyphs:
 GlyphShape = tuple[NDArray, NDArray, NDArray]  # corners, (k, 2, 4) colors, triangles of one glyph
 
 
-def _arc(
-    radius: float, first: int = 0, last: int = SEGMENTS, segments: int = SEGMENTS
-) -> NDArray[np.float64]:
+def _arc(radius: float, first: int = 0, last: int = SEGMENTS, segments: int = SEGMENTS) -> Array:
     angles = 2.0 * np.pi / segments * np.arange(first, last + 1)
     return radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
@@ -96,7 +95,7 @@ def _colored(*layers: tuple[Part, NDArray, float]) -> GlyphShape:
     )
 
 
-def _frame(verdict: int) -> list[NDArray[np.float64]]:
+def _frame(verdict: int) -> list[Array]:
     """Return the polylines around the disc that show the verdict by their form."""
     # square, triangle, diamond
     polygons = {

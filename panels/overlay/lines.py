@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...blender.settings.scene import BodyMomentsOverlaySettings
+from ...core.numerics.array_types import Array, Mask
 from .bodies import Bodies
 
 CIRCLE = 2.0 * np.pi / 48.0 * np.arange(49)
@@ -17,7 +18,7 @@ EDGES = np.array([[i, i | 1 << axis] for i in range(8) for axis in range(3) if n
 CORNERS = np.array([[(i >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for i in range(8)])
 
 
-def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> NDArray[np.float64]:
+def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> Array:
     """Return the (n, k, 2, 3) segments of the enabled drawings, in the world."""
     place = bodies.centers, bodies.axes, bodies.gyration
     drawings = [np.empty((len(bodies.centers), 0, 2, 3))]
@@ -34,12 +35,12 @@ def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> NDArray[
     return np.concatenate(drawings, axis=1)
 
 
-def _each(mask: NDArray) -> NDArray[np.bool_]:
+def _each(mask: NDArray) -> Mask:
     """Return an (n,) mask for (n, k, 2, 3) segments."""
     return mask[:, None, None, None]
 
 
-def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
+def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> Array:
     """Return (n, 3, 2, 3) segments of the axes through each center, to both sides the largest
     radius of gyration.
     """
@@ -47,7 +48,7 @@ def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np
     return np.stack([centers[:, None] - arms, centers[:, None] + arms], axis=2)
 
 
-def drop_lines(centers: NDArray, gyration: NDArray) -> NDArray[np.float64]:
+def drop_lines(centers: NDArray, gyration: NDArray) -> Array:
     """Return a dashed line from each center to the floor, and a ring at its foot."""
     feet = centers.copy()
     feet[:, 2] = 0.0
@@ -61,7 +62,7 @@ def drop_lines(centers: NDArray, gyration: NDArray) -> NDArray[np.float64]:
     )
 
 
-def _spread(gyration: NDArray) -> NDArray[np.float64]:
+def _spread(gyration: NDArray) -> Array:
     """Return (n, 3) values (I_j + I_k - I_i) / m from (n, 3) radii of gyration.
 
     The values are twice the mean square distance along axis i.
@@ -70,7 +71,7 @@ def _spread(gyration: NDArray) -> NDArray[np.float64]:
     return np.maximum(squares.sum(axis=1, keepdims=True) - 2.0 * squares, 0.0)
 
 
-def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
+def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> Array:
     """Return the edges of the box with the same mass and inertia: sides s_i² = 6 (I_j + I_k - I_i)
     / m.
     """
@@ -79,7 +80,7 @@ def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.
     return corners[:, EDGES]
 
 
-def ellipsoid_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
+def ellipsoid_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> Array:
     """Return the ellipsoid with the same mass and inertia as three ellipses.
 
     Its semi-axes are a_i² = 5 (I_j + I_k - I_i) / (2 m).

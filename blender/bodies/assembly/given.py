@@ -22,6 +22,7 @@ from ....core.measurement.settings import fingerprint
 from ....core.moments.affine_maps import placed_boxes
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
+from ....core.numerics.array_types import Array
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.method import Method, Procedure
@@ -73,7 +74,7 @@ def given_moments(
     return Moments(raw, np.asarray(center, np.float64), Measure.MASS, rounding, inputs), findings
 
 
-def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
+def _second_moments(inertia: NDArray) -> Array:
     """Return the (3, 3) second moments of a body with this inertia tensor; ReadError if no body can
     have it.
     """

@@ -39,6 +39,7 @@ from ....core.measurement.settings import Settings
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import affine_matrices
 from ....core.moments.moments import Measure, Moments
+from ....core.numerics.array_types import Array
 from ....core.numerics.rotations import polar_rotation
 from ....core.polyhedron import polyhedron_moments
 from ....core.solid.measure import SolidIntegrals
@@ -75,9 +76,9 @@ class _Piece:
     """
 
     surface: Surface
-    matrices: NDArray[np.float64]
-    fields: NDArray[np.float64]
-    about: NDArray[np.float64] | None = None
+    matrices: Array
+    fields: Array
+    about: Array | None = None
 
 
 def polynomial_mass_result(
@@ -133,7 +134,7 @@ def _solid_pieces(
         yield _Piece(solid.repaired_surface, matrices, fields, solid.volume.about)
 
 
-def _to_local(matrices: NDArray) -> NDArray[np.float64]:
+def _to_local(matrices: NDArray) -> Array:
     """Return (k, 4, 4) maps from world coordinates, in meters, to coordinates along the axes of
     each place.
     """
@@ -276,7 +277,7 @@ def voxel_filled_body(
     )
 
 
-def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
+def _corners(solid: SolidIntegrals, matrix: NDArray) -> Array:
     """Return (n, 3, 3) triangles of the measured surface, in the grid's coordinates, outward."""
     surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
     return surface.points[surface.all_triangles()[0]].astype(np.float64, copy=False)
@@ -284,7 +285,7 @@ def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
 
 def _box_densities(
     reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the densities, kg/m³, of the voxels from index `low` up to, but without, `high`."""
     to_densities = density_function(options, reading.background)
     densities = np.zeros(high - low)
@@ -300,7 +301,7 @@ def _box_densities(
     return densities
 
 
-def _input_error(body: MeshBody, mass: Moments) -> NDArray[np.float64]:
+def _input_error(body: MeshBody, mass: Moments) -> Array:
     """Return the solid's input error, scaled by the ratio of largest moments or of totals,
     whichever is larger.
     """

@@ -32,6 +32,7 @@ from ....core.moments.affine_maps import similarity_groups
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.images import sum_of_images
 from ....core.moments.moments import Moments, sum_moments
+from ....core.numerics.array_types import Array
 from ....core.polyhedron import polyhedron_moments
 from ....core.solid.measure import SolidIntegrals
 from ....core.solid.orientation import ClosedParts
@@ -319,7 +320,7 @@ def _mixed_parts_notes(
     return [finding(MIXED_MATERIALS, first, slight=slight, **values)]
 
 
-def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
+def _vertex_density(reading: Reading, i: int, name: str) -> Array:
     """Return (n,) densities of a part's vertices; raise ReadError if a vertex with faces has a
     wrong value.
     """

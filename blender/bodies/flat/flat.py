@@ -16,7 +16,6 @@ from typing import ClassVar
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE
 from ....core.bodies.mesh_body import extend_input_error
@@ -31,6 +30,7 @@ from ....core.measurement.measurement import Body
 from ....core.moments.affine_maps import affine_matrices
 from ....core.moments.exponents import monomial_count, monomials
 from ....core.moments.moments import Measure, Moments
+from ....core.numerics.array_types import Array, Index
 from ....core.nurbs.curve_moments import length_moments, plane_moments
 from ....core.nurbs.flat_face import planar_region
 from ....core.nurbs.splines import Curve
@@ -81,14 +81,14 @@ class FlatRegion:
     type: str
     description: str
     plane: Plane
-    spatial: NDArray[np.float64]
-    points: NDArray[np.float64]
-    edges: NDArray[np.intp]
+    spatial: Array
+    points: Array
+    edges: Index
     stored: float
     shared: float
     drawn_area: float | None
-    rotation: NDArray[np.float64]
-    location: NDArray[np.float64]
+    rotation: Array
+    location: Array
     curves: tuple[Curve, ...]
     findings: tuple[Finding, ...]
 
@@ -98,7 +98,7 @@ class FlatRegion:
         return projection_rounding(self.plane, self.spatial, self.used)
 
     @cached_property
-    def used(self) -> NDArray[np.float64]:
+    def used(self) -> Array:
         """(k, 2) points that are ends of edges."""
         return self.points[np.unique(self.edges)]
 
@@ -271,7 +271,7 @@ class RegionReading(Reading):
     """
 
     boundary: tuple[Curve, ...] = ()
-    normal: NDArray[np.float64] = field(kw_only=True)
+    normal: Array = field(kw_only=True)
     stored: float = field(kw_only=True)
 
 
@@ -282,7 +282,7 @@ class RegionBody(Body):
     any_order: ClassVar[bool] = True
 
     boundary: tuple[Curve, ...] = ()
-    normal: NDArray[np.float64] = field(kw_only=True)
+    normal: Array = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
         """Return zero moments of the volume, and the moments of the area."""

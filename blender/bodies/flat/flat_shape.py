@@ -23,6 +23,7 @@ from ....core.measurement.settings import fingerprint
 from ....core.mesh.surface import Surface
 from ....core.moments.exponents import monomials
 from ....core.moments.moments import Moments
+from ....core.numerics.array_types import Array
 from ....core.shape.registration import (
     Residual,
     RigidMatch,
@@ -59,17 +60,17 @@ class FlatShape:
     has_surface = True
 
     @property
-    def rotation(self) -> NDArray[np.float64]:
+    def rotation(self) -> Array:
         """(3, 3) axes of the object's frame."""
         return self.region.rotation
 
     @property
-    def axes(self) -> NDArray[np.float64]:
+    def axes(self) -> Array:
         """(3, 3) axes of the plane: x, y and the normal as columns."""
         return self.region.plane.axes
 
     @property
-    def center(self) -> NDArray[np.float64]:
+    def center(self) -> Array:
         """(3,) centroid, in the world."""
         return self.region.plane.origin + self.axes @ self.moments.about
 
@@ -79,7 +80,7 @@ class FlatShape:
         return float(np.sqrt((self.moments[2, 0, 0] + self.moments[0, 2, 0]) / self.moments.total))
 
     @cached_property
-    def corners(self) -> NDArray[np.float64]:
+    def corners(self) -> Array:
         """(k, 2) ends of the edges, relative to the centroid, in the plane."""
         return self.region.used - self.moments.about[:2]
 
@@ -141,7 +142,7 @@ class FlatShape:
         near = tolerance * self.size
         skin = OutlineDistance(self)
 
-        def distance(points: NDArray) -> NDArray[np.float64]:
+        def distance(points: NDArray) -> Array:
             return skin.distance(points @ self.axes.T + self.center, within=near)
 
         outline = holds_by_outline((skin.points - self.center) @ self.axes, distance, near)

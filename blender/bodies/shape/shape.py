@@ -35,6 +35,7 @@ from ....core.mesh.surface import Surface, join_surfaces
 from ....core.mesh.surface_stack import TriangleStack
 from ....core.moments.affine_maps import are_similarities
 from ....core.moments.moments import Moments
+from ....core.numerics.array_types import Array, Index
 from ....core.numerics.arrays import segment_starts
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.any_order import extend_small_moments
@@ -92,7 +93,7 @@ class Shape:
     _known_harmonics: list[AxialHarmonics] = field(default_factory=list)
 
     @property
-    def rotation(self) -> NDArray[np.float64]:
+    def rotation(self) -> Array:
         """(3, 3) axes of the object's frame."""
         return self.measurement.rotation
 
@@ -109,7 +110,7 @@ class Shape:
         return self.measurement.method.source == Source.NURBS
 
     @property
-    def center(self) -> NDArray[np.float64]:
+    def center(self) -> Array:
         """(3,) center of the shape, which is not the center of mass if the density varies."""
         return self.moments.about
 
@@ -347,7 +348,7 @@ class Shape:
         points = (whole.points.astype(np.float64) - self.center) / self.size
         return PlacedTriangles(points, whole.all_triangles()[0], near, far)
 
-    def points_about_center(self) -> NDArray[np.float64]:
+    def points_about_center(self) -> Array:
         """Return (n, 3) corners of all faces, relative to the center."""
         return np.concatenate([piece.used_points() - self.center for piece in self.pieces()])
 
@@ -471,8 +472,8 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
 
 
 def _signatures(
-    stack: TriangleStack, rows: NDArray[np.intp], maps: NDArray, centers: NDArray, order: int
-) -> tuple[list[Signature], NDArray[np.float64]]:
+    stack: TriangleStack, rows: Index, maps: NDArray, centers: NDArray, order: int
+) -> tuple[list[Signature], Array]:
     """Return the signatures of linearly mapped surfaces, each scaled to about unit size, and the
     (k,) scales.
     """

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ....core.mesh.point_triangle import triangle_distances
 from ....core.mesh.surface import join_surfaces
+from ....core.numerics.array_types import Array
 from ....core.shape.registration import RigidMatch
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ class SurfaceDistance:
             _as_tuples(self._corners), _as_tuples(triangles), all_triangles=True
         )
 
-    def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
+    def distance(self, points: NDArray, within: float | None = None) -> Array:
         """Return (n,) distances of (n, 3) points, in single precision if clearly above or below the
         limit `within`.
         """
@@ -103,7 +104,7 @@ def register_surfaces(
     It minimizes the distances of their surfaces.
     """
 
-    def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:
+    def residual(way: NDArray, max_points: int | None) -> Array:
         source_points, target_points = (
             each_skin.points[:: max(1, len(each_skin.points) // max_points) if max_points else 1]
             for each_skin in (source_skin, target_skin)

@@ -23,6 +23,7 @@ from ....core.measurement.settings import Settings, fingerprint
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Moments, image, join_moments
+from ....core.numerics.array_types import Array, Mask
 from ....core.numerics.rotations import rotation_matrix
 from ....core.polyhedron.integration import area_of_images
 from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
@@ -121,7 +122,7 @@ class StackMember:
     shape: MeshShape
     settings: Settings
     digest: str
-    matrix: NDArray[np.float64]
+    matrix: Array
     location: tuple[float, ...]
     quaternion: tuple[float, ...]
 
@@ -137,14 +138,14 @@ class MeasuredStack:
     """
 
     members: list[StackMember]
-    from_mass: NDArray[np.bool_]
-    density: NDArray[np.float64]
+    from_mass: Mask
+    density: Array
     volume: Moments
     area: Moments
     mass_properties: MassProperties
-    stretch: NDArray[np.float64]
-    rotation: NDArray[np.float64]
-    location: NDArray[np.float64]
+    stretch: Array
+    rotation: Array
+    location: Array
     fingerprints: list[str]
     findings: list[tuple[Finding, ...]]
 
@@ -164,7 +165,7 @@ class MeasuredStack:
         )
 
     @cached_property
-    def error_bounds(self) -> NDArray[np.float64]:
+    def error_bounds(self) -> Array:
         """(n, 2, 4) bounds by rounding, then by float32 coordinates, of volume, area, center and
         inertia.
         """

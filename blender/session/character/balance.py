@@ -17,6 +17,7 @@ from bpy.types import Context, Object, PoseBone
 from mathutils import Quaternion, Vector
 from numpy.typing import NDArray
 
+from ....core.numerics.array_types import Array
 from ....core.statics.support import ground_axes
 from ....core.verdict.finding import EditRefusedError
 from ...read.tracking import tracking_paused
@@ -65,8 +66,8 @@ NO_CONTACT = (
 class _Look(NamedTuple):
     """The (3,) center, the bone's (3,) head, and the farthest move of a contact's bone."""
 
-    center: NDArray[np.float64]
-    head: NDArray[np.float64]
+    center: Array
+    head: Array
     slip: float
 
 
@@ -134,7 +135,7 @@ class _Search:
             matrices[:, :3, :3], (self.points - matrices[:, :3, 3])[:, :, None]
         )
 
-    def gap(self, center: NDArray) -> NDArray[np.float64]:
+    def gap(self, center: NDArray) -> Array:
         """Return the (2,) displacement along the ground from a center to the target."""
         return (self.target - center) @ self.axes[:, :2]
 

@@ -12,6 +12,7 @@ from bpy.types import Context, Depsgraph, Object, PoseBone
 from numpy.typing import NDArray
 
 from ....core.bodies.reading import float64_matrix
+from ....core.numerics.array_types import Array
 from ....core.numerics.rotations import polar_rotation, quaternion, rotation_matrix
 from ....core.rig.channels import divide_frames, in_pieces, rotation_values
 from ....core.rig.motion import continuous
@@ -55,7 +56,7 @@ class Carrier:
         return kinds.get(self.owner.rotation_mode, "rotation_euler")
 
     @property
-    def axes(self) -> NDArray[np.float64]:
+    def axes(self) -> Array:
         """(s, 3, 3) rotations of the carrier in the world."""
         polar, _ = polar_rotation(np.array([world for world, _, _ in self.frames]))
         return polar * np.sign(np.linalg.det(polar))[:, None, None]
@@ -135,7 +136,7 @@ class Carrier:
         off = (np.abs(after.matrices - expected)[:, :3] / units).max(axis=(1, 2))
         return before.names[int(off.argmax())] if off.max() > FOLLOWS else ""
 
-    def wanted(self, moves: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def wanted(self, moves: NDArray) -> tuple[Array, Array]:
         """Return the (s, 3) locations and (s, 4) continuous quaternions of the channels for a (4,
         4) move in the world at each time read.
         """
@@ -144,7 +145,7 @@ class Carrier:
         turns = quaternion(wanted[:, :3, :3] / self._old("scale")[:, None])
         return wanted[:, :3, 3], continuous(turns)
 
-    def values(self, turns: NDArray, old: NDArray) -> NDArray[np.float64]:
+    def values(self, turns: NDArray, old: NDArray) -> Array:
         """Return the (s, k) values of the rotation's channels for (s, 4) quaternions.
 
         old: (s, k) values, which decide on the first of several and on lengths of no effect.
@@ -156,7 +157,7 @@ class Carrier:
             values[:, part] *= np.maximum(norms, LEAST_NORM)
         return values
 
-    def _old(self, name: str) -> NDArray[np.float64]:
+    def _old(self, name: str) -> Array:
         """Return the (s, k) values of a channel at the times read."""
         return np.array([values[name] for _world, _basis, values in self.frames])
 
@@ -197,7 +198,7 @@ class Carrier:
                 fcurves.replace_section(curve, times, rows)
 
 
-def _quotients(first: NDArray, second: NDArray) -> NDArray[np.float64]:
+def _quotients(first: NDArray, second: NDArray) -> Array:
     """Return the unit quaternions (s, 4) that turn the first to the second, in their own axes."""
     w, v = first[:, :1], -first[:, 1:]
     product = np.concatenate(

@@ -16,6 +16,7 @@ from bpy.types import Context, Depsgraph, Object, Scene
 from mathutils import Quaternion
 from numpy.typing import NDArray
 
+from ....core.numerics.array_types import Array, Mask
 from ....core.numerics.rotations import quaternion, rotation_matrix
 from ....core.rig import motion, spin
 from ....core.rig.parts import Parts
@@ -118,7 +119,7 @@ class CharacterMotion(BalanceGroup):
         return motion.Course(self.step, self._parts[0].masses, centers, spreads, linear)
 
     @property
-    def touching(self) -> NDArray[np.bool_]:
+    def touching(self) -> Mask:
         """Mask (f,) of the frames in which the character touches the ground."""
         return np.array([support is not None for support in self.supports])
 
@@ -227,7 +228,7 @@ class CharacterMotion(BalanceGroup):
         assert self.carrier is not None
         return spin.CarriedParts.of_course(section, self.carrier.axes[rows])
 
-    def _moves(self, turns: bool) -> NDArray[np.float64]:
+    def _moves(self, turns: bool) -> Array:
         """Return (s, 4, 4) moves onto the arc between the ends, or turns of constant spin, blended
         around it.
         """

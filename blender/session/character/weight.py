@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ....core.bodies.reading import float64_matrix
 from ....core.inertia.plain_body import COLUMNS, ROWS, PlainBody, principal_axes, tensor_rows
+from ....core.numerics.array_types import Array, Index
 from ....core.numerics.float32 import shortest_decimal
 from ....core.rig.parts import Parts
 from ....core.statics.support import Support, find_contacts, support_of_contacts
@@ -59,8 +60,8 @@ class Contacts:
     above the ground; None without points.
     """
 
-    points: NDArray[np.float64]
-    bones: NDArray[np.intp]
+    points: Array
+    bones: Index
     names: tuple[str, ...]
     lifted: tuple[str, ...]
     height: float | None
@@ -78,7 +79,7 @@ class Weight:
     parts: Parts
     contacts: Contacts
     support: Support | None
-    foot: NDArray[np.float64]
+    foot: Array
     body: PlainBody
 
 
@@ -93,7 +94,7 @@ class Character:
     size: float
     _motion: Motion = field(default_factory=lambda: Motion(1))  # of held objects
     # by session uid of a mesh object
-    _vertex_bones: dict[int, NDArray[np.intp]] = field(default_factory=dict)
+    _vertex_bones: dict[int, Index] = field(default_factory=dict)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -221,7 +222,7 @@ class Character:
         names: Sequence[str],
         depsgraph: Depsgraph,
         rows: NDArray | None = None,
-    ) -> NDArray[np.intp]:
+    ) -> Index:
         """Return the bone of most weight for each vertex of an object, as indices; rows: vertices,
         by default all.
         """
@@ -401,7 +402,7 @@ def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object
     ]
 
 
-def bone_matrices(armature: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:
+def bone_matrices(armature: Object, depsgraph: Depsgraph) -> Array:
     """Return the (b, 4, 4) matrices of all pose bones in the world, as evaluated."""
     evaluated = armature.evaluated_get(depsgraph)
     posed = np.empty((len(evaluated.pose.bones), 4, 4), np.float32)

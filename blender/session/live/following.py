@@ -15,10 +15,8 @@ from .. import memory
 from ..tracking.stamps import Kind, Stamp
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from ....core.measurement.measurement import Measurement
+    from ....core.numerics.array_types import Array
     from ....core.nurbs.tracked_solid import TrackedSolid
     from ....core.verdict.finding import Finding
     from .measuring import MovingSurface
@@ -58,12 +56,12 @@ class Followed:
     """
 
     result: LiveResult | None = None
-    matrix: NDArray[np.float64] | None = None
+    matrix: Array | None = None
     transform: str = ""
     number: int = 0
     tracked: TrackedSolid | None = None
     surface: MovingSurface | None = None
-    first_order: tuple[float, NDArray[np.float64]] | None = None
+    first_order: tuple[float, Array] | None = None
     pass_seconds: float = 0.0
     shows_others: bool = False
     is_pending: bool = False

@@ -29,6 +29,7 @@ from ....core.bodies.mesh_body import MeshBody
 from ....core.bodies.reading import Reading, float64_matrix
 from ....core.measurement.measurement import Body, Measurement
 from ....core.mesh.surface import Surface
+from ....core.numerics.array_types import Array
 from ....core.nurbs.splines import Patch
 from ....core.nurbs.tracked_solid import TrackedSolid
 from ....core.polyhedron.integration import volume_and_center
@@ -288,7 +289,7 @@ class MovingSurface:
             return None
         return cls(surface, read.corner_vertices)
 
-    def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]] | None:
+    def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, Array] | None:
         """Return the object's current volume and (3,) center, in its own coordinates; None if it
         shows other faces.
         """

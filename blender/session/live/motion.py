@@ -20,6 +20,7 @@ from ....core.bodies.reading import float64_matrix, to_si
 from ....core.mesh.hulls import ConvexHull
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Measure, Moments
+from ....core.numerics.array_types import Array
 from ....core.statics.mixes import Mixes, fit_mixes, sample_count
 from ....core.verdict.finding import EditRefusedError
 from ....core.verdict.method import Method, Procedure
@@ -67,9 +68,7 @@ class Motion:
     # by session uid, as undo replaces objects
     _followed: dict[int, _Followed] = field(default_factory=dict)
 
-    def mass_and_center(
-        self, obj: Object, depsgraph: Depsgraph
-    ) -> tuple[float, NDArray[np.float64]]:
+    def mass_and_center(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, Array]:
         """Return an object's mass, kg, and (3,) center, Blender's units; MeasureError if there is
         no certain one.
         """
@@ -109,7 +108,7 @@ class Motion:
     def _entry(self, obj: Object) -> _Followed:
         return self._followed.setdefault(obj.session_uid, _Followed())
 
-    def hull_points(self, obj: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:
+    def hull_points(self, obj: Object, depsgraph: Depsgraph) -> Array:
         """Return the corners of an object's convex hull, (k, 3) in Blender's units and the
         world.
         """
@@ -174,7 +173,7 @@ def _mixed_keys(obj: Object) -> tuple[str, ...]:
     return tuple(block.name for block in blocks if not block.mute)
 
 
-def _coordinates(data) -> NDArray[np.float64]:
+def _coordinates(data) -> Array:
     points = np.empty(3 * len(data), np.float32)
     data.foreach_get("co", points)
     return points.reshape(-1, 3).astype(np.float64)
@@ -182,7 +181,7 @@ def _coordinates(data) -> NDArray[np.float64]:
 
 def _mixed(
     obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
-) -> tuple[float, NDArray[np.float64]] | None:
+) -> tuple[float, Array] | None:
     """Return mass and center by the mix of shape keys; None if triangles changed, or the mesh is
     flat or inside out.
     """

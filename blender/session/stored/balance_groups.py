@@ -15,6 +15,7 @@ import numpy as np
 from bpy.types import Object
 from numpy.typing import NDArray
 
+from ....core.numerics.array_types import Array, Mask
 from ....core.statics.support import Support
 from ...scene import fcurves
 from ...write.properties import BALANCE_GROUP, BALANCE_SPANS
@@ -48,11 +49,11 @@ class Path:
     whether anything touches the ground, and whether momentum changes without that; None for groups.
     """
 
-    frames: NDArray[np.float64]
-    centers: NDArray[np.float64]
-    inside: NDArray[np.bool_] | None
-    contact: NDArray[np.bool_] | None = None
-    unexplained: NDArray[np.bool_] | None = None
+    frames: Array
+    centers: Array
+    inside: Mask | None
+    contact: Mask | None = None
+    unexplained: Mask | None = None
 
 
 def groups(scene: bpy.types.Scene) -> Iterator[Object]:
@@ -142,8 +143,6 @@ def support(empty: Object, frame: int) -> Support | None:
     return (memory.supports.get(empty) or {}).get(frame)
 
 
-def _keys(
-    curves: Iterable[bpy.types.FCurve], channel: fcurves.Channel
-) -> NDArray[np.float64] | None:
+def _keys(curves: Iterable[bpy.types.FCurve], channel: fcurves.Channel) -> Array | None:
     curve = fcurves.find(curves, channel)
     return None if curve is None else fcurves.keys(curve)

@@ -8,7 +8,6 @@ import re
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.flat.polygon import plane_positions
 from ....core.flat.section import foot
@@ -19,6 +18,7 @@ from ....core.measurement.documents import table
 from ....core.measurement.plain_text import visible
 from ....core.moments.complex_form import Invariant, flusser_invariants, hu_invariants, normalize
 from ....core.moments.moments import Moments, monomials
+from ....core.numerics.array_types import Array
 from ....core.polyhedron.n_dimensions import multi_indices
 from ....core.verdict.finding import Finding, ReadError
 from ..findings import INVARIANTS_ORDER, MASS_MOMENTS_UNKNOWN, MOMENTS_OF_AREA_ONLY
@@ -47,8 +47,8 @@ class ComputedMoments:
     volume: Moments | None
     area: Moments | None
     mass: Moments | None
-    rotation: NDArray[np.float64]
-    location: NDArray[np.float64]
+    rotation: Array
+    location: Array
     flat: FlatMoments | None = None
     not_flat: Finding | None = None
 
@@ -65,7 +65,7 @@ class ComputedMoments:
         return self.flat.moments
 
     @property
-    def center(self) -> NDArray[np.float64]:
+    def center(self) -> Array:
         """The (3,) center of the volume, or of the flat shape, in the world."""
         if self.volume is not None:
             return self.volume.center

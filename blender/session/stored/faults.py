@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ....core.bodies.reading import Reading
 from ....core.mesh.surface import Surface
+from ....core.numerics.array_types import Array
 from ....core.verdict.findings import FLIPPED_FACES
 from ....core.verdict.health import DefectiveElements
 from ...bodies.measure_object import Measured
@@ -34,8 +35,8 @@ class Faults:
     duplicate and zero-area faces. change: number of the last update of the geometry.
     """
 
-    edges: NDArray[np.float64]
-    triangles: NDArray[np.float64]
+    edges: Array
+    triangles: Array
     change: int
 
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ....core.inertia.plain_body import frame_about
 from ....core.mesh.hulls import ConvexHull
+from ....core.numerics.array_types import Array
 from ....core.numerics.rotations import rotation_matrix
 from ....core.statics.findings import NO_STABLE_POSE
 from ....core.statics.support import (
@@ -166,7 +167,7 @@ def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | N
     return remembered.poses
 
 
-def frame(obj: Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def frame(obj: Object) -> tuple[Array, Array]:
     """Return location, (3,), and rotation, (3, 3), of an object: the frame of `poses`."""
     location, rotation, _scale = obj.matrix_world.decompose()
     return np.array(location, np.float64), rotation_matrix(rotation)
@@ -245,7 +246,7 @@ def _ground(context: Context, obj: Object, ground: str, center: NDArray, gravity
     return float((point - center) @ gravity)
 
 
-def _shortest_turn(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
+def _shortest_turn(start: Array, end: Array) -> Array:
     """Return the (3, 3) rotation by the smallest angle from one (3,) unit vector to another."""
     middle = start + end
     length = np.linalg.norm(middle)

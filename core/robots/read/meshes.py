@@ -28,6 +28,7 @@ from ...files.number_text import (
     parse_wholes,
 )
 from ...mesh.surface import Surface
+from ...numerics.array_types import Array
 from ...numerics.rotations import rotation_matrix
 from ...streams.stl import StlFile
 from ...verdict.finding import FileError, finding, system_reason
@@ -50,7 +51,7 @@ TURNS = {
 }
 
 
-def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
+def read_mesh(path: Path) -> tuple[Surface, Array | None]:
     """Return a file's surface in its own coordinates and unit (meters for .dae), and the rotation
     to z up.
 
@@ -68,7 +69,7 @@ def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
     raise FileError(MESH_UNREADABLE, name=path.name, cause=cause.as_record())
 
 
-def _read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
+def _read_mesh(path: Path) -> tuple[Surface, Array | None]:
     reader = READERS.get(path.suffix.lower())
     if reader is None:
         raise FileError(FILE_TYPE, suffixes=" ".join(READERS))
@@ -129,7 +130,7 @@ def read_glb(path: Path) -> Arrays:
     return gathered.arrays()
 
 
-def _node_matrix(node: dict) -> NDArray[np.float64]:
+def _node_matrix(node: dict) -> Array:
     if "matrix" in node:
         return np.array(node["matrix"], np.float64).reshape(4, 4).T
     matrix = np.eye(4)
@@ -167,7 +168,7 @@ def _accessor(document: dict, binary: bytes, index: int) -> NDArray:
     return rows.copy()
 
 
-def read_dae(path: Path) -> tuple[*Arrays, NDArray[np.float64] | None]:
+def read_dae(path: Path) -> tuple[*Arrays, Array | None]:
     """Return points (meters, the file's axes), triangles, and the rotation to z up, None if z is
     up.
     """
@@ -210,7 +211,7 @@ def _instances(root: Node, by_id: dict[str, Node]) -> Iterator[tuple[Node, NDArr
             yield by_id[instance.get("url").removeprefix("#")], matrix
 
 
-def _matrix(node: Node) -> NDArray[np.float64]:
+def _matrix(node: Node) -> Array:
     matrix = np.eye(4)
     for child in node.children:
         if child.tag not in ("matrix", "translate", "rotate", "scale"):
@@ -255,7 +256,7 @@ def _geometry(geometry: Node, by_id: dict[str, Node]) -> Iterator[Arrays]:
             yield points, fan(np.array([len(indices) // stride for indices in lists]), corners)
 
 
-def _positions(vertices: Node, by_id: dict[str, Node]) -> NDArray[np.float64]:
+def _positions(vertices: Node, by_id: dict[str, Node]) -> Array:
     source = vertices
     for element in vertices.all("input"):
         if element.get("semantic") == "POSITION":

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from ...files.number_text import parse_numbers
 from ...mesh.hulls import convex_hull
 from ...mesh.surface import Surface
+from ...numerics.array_types import Array
 from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding, MeasureError
 from ..model import Pose, Shape
@@ -114,7 +115,7 @@ class _Frame(NamedTuple):
 
     model: _Model
     pose: Pose = Pose()
-    scale: NDArray[np.float64] = np.ones(3)
+    scale: Array = np.ones(3)
     mass: float = 1.0
     defaults: str = "main"
     prefix: str = ""
@@ -189,7 +190,7 @@ class _Frame(NamedTuple):
         """Return the pose in the body of a pose in this frame."""
         return self.pose @ Pose(self.scale * position, turn)
 
-    def scale_along(self, turn: NDArray, text: str) -> NDArray[np.float64]:
+    def scale_along(self, turn: NDArray, text: str) -> Array:
         """Return the (3,) scale along turned axes. ValueError, with the text, if it would shear."""
         along = np.abs(turn.T)
         if np.ptp(self.scale) and np.abs(along * (1.0 - along)).max() > SQUARE_ATOL:
@@ -290,7 +291,7 @@ def _inertial(node: Node, frame: _Frame) -> StatedInertial:
     return StatedInertial(stated.mass * frame.mass, pose.position, inertia)
 
 
-Rotation = tuple[NDArray[np.float64], Angles | None, tuple[float, ...] | None]
+Rotation = tuple[Array, Angles | None, tuple[float, ...] | None]
 
 
 def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
@@ -331,13 +332,13 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
     return turn, None, None
 
 
-def _upright(z: NDArray) -> NDArray[np.float64]:
+def _upright(z: NDArray) -> Array:
     """Return the (3, 3) least rotation from the z axis to a unit vector."""
     half = np.array([1.0 + z[2], -z[1], z[0], 0.0])
     return rotation_matrix(half if half.any() else [0.0, 1.0, 0.0, 0.0])
 
 
-def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
+def _direction(vector: NDArray, text: str) -> Array:
     length = np.linalg.norm(vector)
     if not LEAST_LENGTH < length < inf:
         raise ValueError(text)

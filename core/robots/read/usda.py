@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ...files.number_text import parse_number
 from ...mesh.surface import Surface
+from ...numerics.array_types import Array
 from ...numerics.rotations import polar_rotation, rotation_matrix
 from ...verdict.finding import FileError, Finding, finding
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
@@ -63,7 +64,7 @@ class Prim:
     values: dict[str, str] = field(default_factory=dict)
     children: list[Prim] = field(default_factory=list)
 
-    def numbers(self, name: str) -> NDArray[np.float64] | None:
+    def numbers(self, name: str) -> Array | None:
         """Return the numbers of an attribute, None if it has no value.
 
         ValueError if a text is no number.
@@ -74,7 +75,7 @@ class Prim:
             [parse_number(word) for word in _FIELD.findall(self.values[name])], np.float64
         )
 
-    def vector(self, name: str, default: tuple[float, ...]) -> NDArray[np.float64]:
+    def vector(self, name: str, default: tuple[float, ...]) -> Array:
         """Return the numbers of an attribute, else its default. ValueError if the counts differ."""
         values = self.numbers(name)
         count = len(default)
@@ -251,7 +252,7 @@ def _visit(
         _visit(child, matrix, path + "/" + child.name, scales, links, text)
 
 
-def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
+def _placed(prim: Prim, above: NDArray) -> Array:
     """Return the (4, 4) matrix from a prim to the world, for column vectors. above: the matrix of
     its parent.
     """
@@ -321,7 +322,7 @@ def _link(
     )
 
 
-def _turn(matrix: NDArray) -> NDArray[np.float64]:
+def _turn(matrix: NDArray) -> Array:
     """Return the (3, 3) rotation of a (4, 4) matrix, without its scale and its mirroring."""
     turn = polar_rotation(matrix[None])[0][0]
     return -turn if np.linalg.det(turn) < 0.0 else turn

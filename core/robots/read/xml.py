@@ -15,10 +15,10 @@ from typing import Any, TypeVar, cast
 from xml.parsers import expat
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...files.findings import FILE_TOO_LARGE
 from ...files.number_text import parse_numbers
+from ...numerics.array_types import Array
 from ...verdict.finding import FileError, Finding, finding
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER, XML_ENTITIES
 from ..model import Shape
@@ -139,7 +139,7 @@ def parse(data: bytes, file: str = "") -> Node:
     return document.children[0]  # expat has seen that there is one
 
 
-def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.float64]:
+def numbers(text: str, count: int, default: Sequence[float] = ()) -> Array:
     """Return the (count,) numbers of a text, the default if it is empty.
 
     ValueError, with the text, if it is wrong.

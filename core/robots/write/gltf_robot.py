@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...mesh.surface import Surface
+from ...numerics.array_types import Array
 from ...numerics.rotations import along_x, quaternion
 from ...verdict.finding import Finding
 from ..model import FreeAxis, Joint, Link, Pose, Robot, Shape
@@ -234,7 +235,7 @@ def _drives(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
     return drives
 
 
-def _direction(free: FreeAxis, turn: NDArray) -> tuple[NDArray[np.float64], int]:
+def _direction(free: FreeAxis, turn: NDArray) -> tuple[Array, int]:
     """Return the direction of a free axis along the joint's node, and the index of the node's axis
     next to it.
     """
